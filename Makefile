@@ -1,0 +1,128 @@
+# Stiff normal contact in FreeFEM: set-up, runs, figures and checks. `make` lists the targets.
+
+SCENE  ?= disc-on-block
+ARGS   ?=
+TESTS  ?= tests
+PYTEST_ARGS ?=
+
+# One thread: runs are compared by CPU seconds, and the tests already use every core.
+export OPENBLAS_NUM_THREADS := 1
+
+FREEFEM := FreeFem++ -nw -v 0
+PYTHON  := .venv/bin/python
+SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
+SOURCES := $(shell find edp -name '*.idp' 2>/dev/null) $(wildcard meshes/*.geo)
+SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
+
+ifeq ($(filter $(SCENES),$(SCENE)),)
+$(error unknown scene "$(SCENE)"; the scenes are: $(SCENES))
+endif
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.SECONDEXPANSION:
+.PHONY: help setup system run figures test lint clean distclean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@echo 'Scenes: $(SCENES)'
+
+# ---------------------------------------------------------------- set-up
+
+FREEFEM_PACKAGES := freefem++ libfreefem++ libfreefem++-dev libopenblas0-pthread
+# The first Python that is new enough and can make virtual environments (Debian's needs a package for that).
+FIND_PYTHON := for python in python3 /usr/bin/python3; do \
+	  $$python -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && break; \
+	done
+
+define PIP_INSTALL
+	@echo "Installing $< into .venv"; \
+	pip='$(PYTHON) -m pip install -q --no-input --disable-pip-version-check -r $<'; \
+	$$pip || { sleep 5; $$pip; }
+	@touch $@
+endef
+
+setup: .venv/dev.stamp | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
+
+# A FreeFem++ that is not Debian's brings its own plugins: Debian's packages are not asked for beside it.
+# A failed update is no reason to stop: the lists may be good enough, and if not, the install fails.
+system:
+	@has() { dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q ' installed$$'; }; \
+	missing=; \
+	if ! command -v FreeFem++ >/dev/null; then missing=' $(FREEFEM_PACKAGES)'; \
+	elif has freefem++; then for package in $(FREEFEM_PACKAGES); do has $$package || missing="$$missing $$package"; done; fi; \
+	command -v gmsh >/dev/null || missing="$$missing gmsh"; \
+	{ $(FIND_PYTHON); } || missing="$$missing python3 python3-venv"; \
+	test -n "$$missing" || exit 0; \
+	if [ "$$(id -u)" = 0 ]; then sudo=; else sudo='sudo -n'; fi; \
+	if ! command -v apt-get >/dev/null || ! $$sudo true 2>/dev/null; then \
+	  echo "Please install:$$missing (Debian's names; there is no apt-get here, or no right to use it)"; exit 1; \
+	fi; \
+	echo "Installing:$$missing"; \
+	for try in 1 2; do \
+	  $$sudo apt-get -q update </dev/null; \
+	  $$sudo env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends \
+	    -o DPkg::Lock::Timeout=300 install $$missing </dev/null && exit 0; \
+	  sleep 5; \
+	done; \
+	echo "apt-get could not install:$$missing"; exit 1
+
+.venv/run.stamp: requirements.txt | system
+	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
+	$$python -m venv .venv
+	$(PIP_INSTALL)
+
+.venv/dev.stamp: requirements-dev.txt .venv/run.stamp | system
+	$(PIP_INSTALL)
+
+# ---------------------------------------------------------------- runs
+
+run: .venv/run.stamp | system ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"]
+	@$(FREEFEM) $(SCRIPT) $(ARGS); code=$$?; \
+	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; *) why='failed';; esac; \
+	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
+
+# ---------------------------------------------------------------- figures
+
+# case.<name>: script and flags; the run writes results/figures/<name>/, summary.json last.
+case.paper-two-bodies := edp/scenes/meshed-disc.edp -method paper -h 0.5 -states 1
+case.paper            := edp/main.edp -method paper -h 0.25 -order 2
+case.incremental      := edp/main.edp -method incremental -steps 20 -h 0.25 -order 2
+case.signorini-start  := edp/main.edp -method paper -T0 d0 -h 0.25 -order 2
+case.newton           := edp/main.edp -method newton -h 0.25 -order 2
+
+# figure.<name>: the cases that it draws.
+figure.figure1     := paper-two-bodies
+figure.figure2     := paper incremental
+figure.convergence := paper signorini-start newton
+figure.thresholds  := signorini-start
+
+CASES   := $(sort $(patsubst case.%,%,$(filter case.%,$(.VARIABLES))))
+FIGURES := $(sort $(patsubst figure.%,%,$(filter figure.%,$(.VARIABLES))))
+
+figures: $(FIGURES:%=results/figures/%.pdf) $(FIGURES:%=results/figures/%.png) ## draw every figure into results/figures/, with the runs that it needs
+
+# The Makefile is a prerequisite because it holds the flags.
+$(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(firstword $$(case.$$*)) $(SOURCES) Makefile | system
+	$(FREEFEM) $(case.$*) -out $(@D)
+
+# A pattern with two targets makes both in one go.
+results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py) | .venv/run.stamp
+	$(PYTHON) -m postprocess figure $* --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
+
+# ---------------------------------------------------------------- checks
+
+test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
+	@$(PYTHON) -m pytest -q -n 2 $(PYTEST_ARGS) $(TESTS)
+
+lint: .venv/dev.stamp ## check the style of the Python and FreeFEM sources
+	@$(PYTHON) -m ruff check postprocess tests
+	@$(PYTHON) -m ruff format --check postprocess tests
+	@$(PYTHON) tests/lint_edp.py edp
+
+clean: ## remove results and generated meshes
+	rm -rf results meshes/generated
+
+distclean: clean ## remove the virtual environment and caches as well
+	rm -rf .venv .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

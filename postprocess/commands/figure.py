@@ -1,0 +1,42 @@
+"""draw one figure from one or more run folders
+
+FILE.pdf is written, and FILE.png beside it: both, or neither.
+"""
+
+import argparse
+
+from postprocess import figures, style
+from postprocess.output import write_figure
+from postprocess.results import ResultsError, read_run
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    modules = figures.modules()
+    width = max(map(len, modules)) + 2
+    table = [f"  {name:<{width}}{module.__doc__.splitlines()[0]}" for name, module in modules.items()]
+    parser.epilog = "\n".join(["figures:", *table])
+    parser.add_argument("name", choices=list(modules), metavar="NAME", help="which figure to draw")
+    parser.add_argument("folders", nargs="+", metavar="DIR", help="a run's result folder")
+    parser.add_argument("--out", required=True, metavar="FILE.pdf", help="where to write; folders are created")
+    parser.add_argument(
+        "--units",
+        nargs=2,
+        metavar=("LENGTH", "STRESS"),
+        default=(style.Units.length, style.Units.stress),
+        help="names of the units in the axis labels, such as mm MPa",
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Reads the runs, draws the figure, writes it and prints the paths."""
+    module = figures.modules()[arguments.name]
+    least, most = module.RUNS
+    given = len(arguments.folders)
+    if given < least or (most is not None and given > most):
+        wanted = f"{least}" if least == most else f"{least} or more"
+        raise ResultsError(arguments.name, f"takes {wanted} run folder(s), {given} given")
+    runs = [read_run(folder) for folder in arguments.folders]
+    with style.look():
+        figure = module.draw(runs, style.Units(*map(style.plain, arguments.units)))
+        for path in write_figure(figure, arguments.out):
+            print(path)

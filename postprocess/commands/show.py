@@ -1,0 +1,56 @@
+"""print a run's summary as a table
+
+DIR is a run's result folder. A dash stands for a value that the run does not define.
+"""
+
+import argparse
+
+from postprocess.results import read_run
+
+GROUPS = {
+    "run": "scene method converged".split(),
+    "cost": "adaptations newton newtonPerAdaptation factorisations backsolves".split(),
+    "contact": "force pressureMax overlapMax halfWidth contactPoints wallPoints".split(),
+    "accuracy": "residual modelError energy".split(),
+    "mesh": "points ndof order h".split(),
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", metavar="DIR", help="a run's result folder")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Prints the table on stdout."""
+    print("\n".join(table(read_run(arguments.folder).summary)))
+
+
+def table(summary: dict) -> list[str]:
+    """The lines of the table: names left, values from one common column on, a blank line between groups."""
+    groups = {title: {key: summary[key] for key in keys} for title, keys in GROUPS.items()}
+    listed = {key for keys in GROUPS.values() for key in keys} | {"seconds", "parameters"}
+    groups["further"] = {key: value for key, value in summary.items() if key not in listed}
+    groups["seconds"] = summary["seconds"]
+    groups["parameters"] = summary["parameters"]
+    groups = {title: group for title, group in groups.items() if group}
+    title_width = max(map(len, groups)) + 2
+    name_width = max(len(name) for group in groups.values() for name in group) + 2
+    lines = []
+    for title, group in groups.items():
+        for row, (name, value) in enumerate(group.items()):
+            lines.append(f"{title if row == 0 else '':<{title_width}}{name:<{name_width}}{cell(value)}")
+        lines.append("")
+    return lines[:-1]
+
+
+def cell(value: object) -> str:
+    """One value as text: numbers short, lists with spaces, null as a dash."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.8g}"
+    if isinstance(value, list):
+        return " ".join(map(cell, value))
+    return str(value)

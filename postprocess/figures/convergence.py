@@ -1,0 +1,113 @@
+"""residual against Newton step, a curve for each of one or more runs, adaptations marked"""
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+
+from postprocess import style
+from postprocess.results import ResultsError, Run, is_number
+
+RUNS = (1, None)
+
+LONGER = 8  # a run this many times longer than another asks for a logarithmic axis of steps
+
+
+def draw(runs: list[Run], units: style.Units) -> Figure:
+    """One curve per run, interrupted where the next model or load step begins; the last step before is a full marker.
+
+    A residual of exactly zero has no place on a logarithmic axis: it is drawn at the lower edge, pointing down.
+    Runs of very different length share a logarithmic axis of steps.
+    """
+    for run in runs:
+        if len(run.history["newton"]) == 0:
+            raise ResultsError(run.path / "history.csv", "has no Newton steps to draw")
+    positive = np.concatenate([run.history["residual"] for run in runs])
+    positive = positive[positive > 0]
+    floor = 10 ** np.floor(np.log10(positive.min()) - 0.5) if len(positive) else 1e-16
+
+    figure = Figure(figsize=(style.COLUMN, 0.78 * style.COLUMN + 0.13 * len(runs)), layout="constrained")
+    axes = figure.subplots()
+    axes.set_yscale("log")
+    for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
+        draw_curve(axes, run, index, f"{label}: {outcome(run)}", floor)
+    draw_tolerances(axes, runs)
+    if any((run.history["residual"] == 0).any() for run in runs):
+        axes.plot([], [], "v", color=style.GREY, markersize=6, label="exactly zero")
+    if len(runs) == 1:
+        mark_adaptations(axes, runs[0])
+    axes.set_xlabel("cumulative Newton step")
+    axes.set_ylabel("relative residual")
+    lengths = [run.history["newton"][-1] for run in runs]
+    if max(lengths) > LONGER * min(lengths):
+        axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:.0f}"))
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.set_xlim(0.9, 1.15 * max(lengths))
+    else:
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.set_xlim(0, max(lengths) + 0.5)
+    figure.legend(loc="outside upper left", borderaxespad=0.2, labelspacing=0.3)
+    return figure
+
+
+def draw_curve(axes, run: Run, index: int, label: str, floor: float) -> None:
+    """The residuals of one run; hollow markers, a full one at the last step of each adaptation."""
+    history = run.history
+    look = style.curve(index)
+    newton = history["newton"]
+    residual = np.maximum(history["residual"], floor)
+    starts = np.flatnonzero(np.diff(history["adaptation"]) + np.diff(history["step"])) + 1
+    many = len(newton) > 60
+    hollow = {"markerfacecolor": "white", "markeredgewidth": 0.8, "markersize": 2.2 if many else 4}
+    for piece in np.split(np.arange(len(newton)), starts):
+        axes.plot(newton[piece], residual[piece], label=label, **look, **hollow, zorder=3)
+        axes.plot(newton[piece[-1]], residual[piece[-1]], **look, markersize=hollow["markersize"], zorder=4)
+        label = None
+    for start in starts:
+        pair = [start - 1, start]
+        axes.plot(newton[pair], residual[pair], color=look["color"], linewidth=0.6, linestyle=":", zorder=2)
+    exact = history["residual"] == 0
+    if exact.any():
+        axes.plot(newton[exact], residual[exact], "v", color=look["color"], markersize=6, zorder=5)
+
+
+def draw_tolerances(axes, runs: list[Run]) -> None:
+    """A dashed line at each tolerance that the runs were given."""
+    tolerances = {run.summary["parameters"].get("tol") for run in runs}
+    for tolerance in sorted(value for value in tolerances if is_number(value)):
+        dashes = {"color": style.GREY, "linewidth": 0.8, "linestyle": (0, (4, 2)), "zorder": 1}
+        axes.axhline(tolerance, label=f"tolerance ${style.number(tolerance)}$", **dashes)
+
+
+def mark_adaptations(axes, run: Run) -> None:
+    """A vertical line where each model begins, and the name of its threshold."""
+    history = run.history
+    numbers, first = np.unique(history["adaptation"], return_index=True)
+    if len(numbers) == 1:
+        return
+    for order, row in enumerate(first):
+        begin = history["newton"][row] - 0.5
+        if order > 0:
+            axes.axvline(begin, color=style.GREY, linewidth=0.6, linestyle=":", zorder=1)
+        if order not in style.named(len(numbers)):
+            continue
+        axes.annotate(
+            f"$T^{{{order}}}$",
+            (begin, 1),
+            xycoords=("data", "axes fraction"),
+            xytext=(2, 0),
+            textcoords="offset points",
+            va="bottom",
+            fontsize=8,
+            color=style.GREY,
+        )
+
+
+def outcome(run: Run) -> str:
+    """The price of the run in words."""
+    summary = run.summary
+    words = style.count(summary["newton"], "step")
+    if summary["adaptations"] > 1:
+        words = f"{style.count(summary['adaptations'], 'adaptation')}, {words}"
+    return words if summary["converged"] else f"{words}, not converged"

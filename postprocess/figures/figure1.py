@@ -1,0 +1,196 @@
+"""deformed bodies at successive states of one run (made with -states 1)"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
+
+from postprocess import style
+from postprocess.results import ResultsError, Run
+
+RUNS = (1, 1)
+
+BLOCK, DISC = 1, 2  # regions of the mesh
+FILL = {BLOCK: "#DCE9F3", DISC: "#E9E6E1"}
+LINE = {BLOCK: style.BLUE, DISC: "#6E675F"}
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """The boundary lines needed to see who is in whom: edges (n, 2) vertex pairs of each region."""
+
+    block: np.ndarray
+    disc: np.ndarray | None
+
+
+def draw(runs: list[Run], units: style.Units) -> Figure:
+    """A column per state: the whole bodies above, the contact zone below, all at true scale and on the same axes.
+
+    Where the bodies overlap, the overlap is filled. A rigid disc without a mesh is drawn as the half disc that it is.
+    """
+    (run,) = runs
+    chosen = choose_states(run)
+    mesh = run.mesh
+    edges = Bodies(
+        boundary(mesh.triangles[mesh.region == BLOCK]),
+        boundary(mesh.triangles[mesh.region == DISC]) if np.any(mesh.region == DISC) else None,
+    )
+    if len(edges.block) == 0:
+        raise ResultsError(run.path / "triangles.csv", "has no triangle of region 1, the block")
+    whole, close = windows(run)
+
+    figure = Figure(figsize=(style.PAGE, 0.5 * style.PAGE), layout="compressed")
+    grid = figure.subplots(2, len(chosen), sharex="row", sharey="row", squeeze=False)
+    for column, (state, words) in enumerate(chosen):
+        for axes, window, weight in zip(grid[:, column], (whole, close), (0.12, 0.3), strict=True):
+            draw_state(axes, run, edges, state, weight)
+            axes.set_xlim(window[0], window[1])
+            axes.set_ylim(window[2], window[3])
+            axes.set_aspect("equal")
+        grid[0, column].set_title(f"{style.panel(column)} {words}", loc="left", linespacing=1.0)
+        grid[0, column].add_patch(frame(close))
+        grid[1, column].set_title(separation(run, state), fontsize=8)
+        grid[1, column].set_xlabel(f"$x$ [{units.length}]")
+    for row in grid:
+        row[0].set_ylabel(f"$y$ [{units.length}]")
+        row[0].xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
+        row[0].yaxis.set_major_locator(MaxNLocator(nbins=4, integer=True))
+    figure.align_ylabels()
+    return figure
+
+
+def choose_states(run: Run) -> list[tuple[int, str]]:
+    """The states to show, each once, and what to call them: initial, first step, end of first model, converged."""
+    states = run.states
+    last = len(states.newton) - 1
+    if last == 0:
+        raise ResultsError(run.path / "states.csv", "has the initial state only")
+    later = np.flatnonzero(states.adaptation[1:] != states.adaptation[1])
+    names = {0: "initial state", 1: "first linear step"}
+    if len(later):
+        names[int(later[0])] = "first model solved"
+    names[last] = "converged" if run.summary["converged"] else "last step, not converged"
+    return [(state, f"{name}\n{position(run, state)}") for state, name in sorted(names.items())]
+
+
+def position(run: Run, state: int) -> str:
+    """Where in the scheme a state stands."""
+    states = run.states
+    if state == 0:
+        return "undeformed"
+    return f"adaptation {states.adaptation[state]}, Newton step {states.newton[state]}"
+
+
+def draw_state(axes, run: Run, edges: Bodies, state: int, weight: float) -> None:
+    """Both bodies in one state: fills, the overlap on top of them, mesh lines of the given weight [points] last."""
+    states, mesh = run.states, run.mesh
+    x, y = states.x + states.ux[state], states.y + states.uy[state]
+    outline = None
+    for region in np.unique(mesh.region):
+        triangles = mesh.triangles[mesh.region == region]
+        colour = FILL.get(int(region), FILL[BLOCK])
+        corners = np.stack([x[triangles], y[triangles]], axis=-1)
+        axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
+        lines = Triangulation(x, y, triangles).edges
+        segments = np.stack([x[lines], y[lines]], axis=-1)
+        colour = LINE.get(int(region), LINE[BLOCK])
+        axes.add_collection(LineCollection(segments, color=colour, linewidth=weight, zorder=3))
+    if edges.disc is None:
+        outline = half_disc(run, state)
+        axes.add_patch(Polygon(outline, facecolor=FILL[DISC], edgecolor=LINE[DISC], linewidth=0.6, zorder=1.5))
+    at = np.linspace(x[edges.block].min(), x[edges.block].max(), 2001)
+    surface = envelope(at, x, y, edges.block, np.fmax)
+    if outline is None:
+        obstacle = envelope(at, x, y, edges.disc, np.fmin)
+        draw_boundary(axes, x, y, edges.disc, LINE[DISC])
+    else:
+        radius = run.parameter("R")
+        with np.errstate(invalid="ignore"):
+            obstacle = outline[0, 1] - np.sqrt(radius**2 - at**2)
+    draw_boundary(axes, x, y, edges.block, LINE[BLOCK])
+    axes.fill_between(at, obstacle, surface, where=surface > obstacle, color=style.ORANGE, linewidth=0, zorder=2)
+
+
+def draw_boundary(axes, x, y, edges, colour: str) -> None:
+    """The outline of a body."""
+    segments = np.stack([x[edges], y[edges]], axis=-1)
+    axes.add_collection(LineCollection(segments, color=colour, linewidth=0.7, capstyle="round", zorder=4))
+
+
+def boundary(triangles: np.ndarray) -> np.ndarray:
+    """The edges (n, 2) that belong to one triangle only."""
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    edges, counts = np.unique(edges, axis=0, return_counts=True)
+    return edges[counts == 1]
+
+
+def envelope(at: np.ndarray, x: np.ndarray, y: np.ndarray, edges: np.ndarray, choose) -> np.ndarray:
+    """The greatest (np.fmax) or least (np.fmin) height of a boundary over each abscissa; NaN beside the body."""
+    height = np.full(len(at), np.nan)
+    for start, end in edges:
+        left, right = sorted((start, end), key=lambda vertex: x[vertex])
+        begin, stop = np.searchsorted(at, [x[left], x[right]], side="left")
+        if stop > begin:
+            share = (at[begin:stop] - x[left]) / (x[right] - x[left])
+            crossing = y[left] + share * (y[right] - y[left])
+            height[begin:stop] = choose(height[begin:stop], crossing)
+    return height
+
+
+def half_disc(run: Run, state: int) -> np.ndarray:
+    """The outline (n, 2) of the rigid half disc above the block, first point at its centre's height."""
+    radius, depth = run.parameter("R"), run.states.y.max()
+    lowest = depth + run.parameter("gap") - load_share(run, state) * run.parameter("u0")
+    angle = np.linspace(np.pi, 2 * np.pi, 361)
+    return np.column_stack([radius * np.cos(angle), lowest + radius + radius * np.sin(angle)])
+
+
+def load_share(run: Run, state: int) -> float:
+    """The part of the prescribed displacement applied in a state: 0 at the start, 1 without load steps."""
+    if state == 0:
+        return 0.0
+    history = run.history
+    step = history["step"][history["newton"] == run.states.newton[state]]
+    return float(step[0] / history["step"].max()) if len(step) else 1.0
+
+
+def separation(run: Run, state: int) -> str:
+    """The greatest overlap in a state, or the gap before any contact."""
+    if state == 0:
+        overlap = -run.parameter("gap")
+    else:
+        history = run.history
+        rows = np.flatnonzero(history["newton"] == run.states.newton[state])
+        if len(rows) == 0:
+            raise ResultsError(run.path / "states.csv", f"has a Newton step {run.states.newton[state]} of no row")
+        overlap = history["overlapMax"][rows[0]]
+    return f"greatest overlap {overlap:.3g}" if overlap >= 0 else f"gap {-overlap:.3g}"
+
+
+def windows(run: Run) -> tuple[tuple, tuple]:
+    """The axes' limits (left, right, bottom, top) for the whole bodies and for the contact zone."""
+    states = run.states
+    radius = run.parameter("R")
+    depth = states.y[run.mesh.triangles[run.mesh.region == BLOCK]].max()
+    left, right = min(states.x.min(), -radius), max(states.x.max(), radius)
+    top = max(states.y.max(), depth + run.parameter("gap") + radius)
+    margin = 0.02 * (right - left)
+    whole = (left - margin, right + margin, states.y.min() - margin, top + margin)
+
+    contact = run.contact
+    touched = np.abs(contact["x"][contact["pressure"] > 0])
+    reach = 1.35 * touched.max() if len(touched) else 0.6 * radius
+    height = 1.5 * reach
+    close = (-reach, reach, depth - 0.68 * height, depth + 0.32 * height)
+    return whole, close
+
+
+def frame(window: tuple) -> Polygon:
+    """The contact zone's place in the picture of the whole bodies."""
+    left, right, bottom, top = window
+    corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    return Polygon(corners, closed=True, fill=False, edgecolor=style.BLACK, linewidth=0.6, zorder=5)

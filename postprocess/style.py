@@ -1,0 +1,159 @@
+"""One look for all figures: fonts, colours, widths, and the words for methods, runs and units."""
+
+import contextlib
+import itertools
+from dataclasses import dataclass
+
+import matplotlib as mpl
+import matplotlib.style
+import numpy as np
+from matplotlib.ticker import NullFormatter
+
+from postprocess.results import Run, is_number
+
+COLUMN = 88 / 25.4  # inches: one column of a journal page
+PAGE = 180 / 25.4  # inches: two columns
+DPI = 300
+
+# Okabe and Ito's palette, distinct for all common kinds of colour blindness.
+BLACK, GREY = "#000000", "#7F7F7F"
+BLUE, VERMILION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
+PURPLE, SKY = "#CC79A7", "#56B4E9"
+CURVES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+RC = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.labelsize": 9,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.prop_cycle": mpl.cycler(color=CURVES),
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4,
+    "legend.frameon": False,
+    "legend.handlelength": 1.8,
+    "pdf.fonttype": 42,  # TrueType: text stays text
+    "savefig.dpi": DPI,
+}
+
+
+@dataclass(frozen=True)
+class Units:
+    """Names of the units that a run's numbers are in, for axis labels."""
+
+    length: str = "length unit"
+    stress: str = "force/area unit"
+
+
+@contextlib.contextmanager
+def look():
+    """Within this context figures are drawn and saved in the package's style, whatever the user's own settings."""
+    with matplotlib.style.context(["default", RC]):
+        yield
+
+
+def curve(index: int) -> dict:
+    """Colour and marker of the curve with this number, both different from its neighbours'."""
+    return {"color": CURVES[index % len(CURVES)], "marker": MARKERS[index % len(MARKERS)]}
+
+
+def number(value: float) -> str:
+    """A number as mathtext without its dollars: 0.25, 1000, 10^{6}, 3.2 x 10^{-9}."""
+    if value == 0 or 1e-3 <= abs(value) < 1e4:
+        return f"{value:.4g}"
+    mantissa, exponent = f"{value:.1e}".split("e")
+    mantissa = mantissa.removesuffix(".0")
+    power = f"10^{{{int(exponent)}}}"
+    return {"1": power, "-1": f"-{power}"}.get(mantissa, rf"{mantissa} \times {power}")
+
+
+def plain(text: str) -> str:
+    """Text from a file or the command line, which is not to be read as mathtext."""
+    return text.replace("$", r"\$")
+
+
+def count(amount: int, noun: str) -> str:
+    """ "1 adaptation", "3 adaptations"."""
+    return f"{amount} {noun}" if amount == 1 else f"{amount} {noun}s"
+
+
+def method(run: Run) -> str:
+    """The run's method in words, with the first threshold or the number of load steps where it has one."""
+    name = run.summary["method"]
+    parameters = run.summary["parameters"]
+    if name == "incremental":
+        steps = parameters.get("steps")
+        return f"Newton, {count(int(steps), 'load step')}" if is_number(steps) else "Newton in load steps"
+    words = {"paper": "extended Newton", "newton": "Newton", "signorini": "hard contact"}.get(name, plain(name))
+    first = first_threshold(run)
+    return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
+
+
+def first_threshold(run: Run) -> str:
+    """The first threshold T^0 as mathtext without its dollars; empty when the run has none."""
+    parameters = run.summary["parameters"]
+    start = parameters.get("T0")
+    if start is None:
+        return ""
+    if start == "d0" or start == parameters.get("d0"):
+        return "T^0 = d_0"
+    return f"T^0 = {number(start)}" if is_number(start) else ""
+
+
+def labels(runs: list[Run]) -> list[str]:
+    """A legend entry per run: its method, and of order, h, kappa, m and tol those in which the runs differ."""
+    described = {
+        "order": lambda value: f"P{int(value)}",
+        "h": lambda value: f"$h = {number(value)}$",
+        "kappa": lambda value: rf"$\kappa = {number(value)}$",
+        "m": lambda value: f"$m = {number(value)}$",
+        "tol": lambda value: f"tol $= {number(value)}$",
+    }
+    texts = [[method(run)] for run in runs]
+    for key, describe in described.items():
+        values = [run.summary.get(key, run.summary["parameters"].get(key)) for run in runs]
+        if len(set(map(str, values))) > 1:
+            for text, value in zip(texts, values, strict=True):
+                if is_number(value):
+                    text.append(describe(value))
+    joined = [", ".join(text) for text in texts]
+    return [
+        f"{text} ({plain(run.path.name)})" if joined.count(text) > 1 else text
+        for text, run in zip(joined, runs, strict=True)
+    ]
+
+
+def sequence(amount: int) -> np.ndarray:
+    """(amount, 4) colours from light to dark, equally spaced to the eye and all visible on white."""
+    return mpl.colormaps["viridis_r"](np.linspace(1.0, 0.12, max(amount, 1))[::-1])
+
+
+def named(amount: int) -> set[int]:
+    """Which curves of a sequence are named in a figure: all of a few, else the first, the last and some between."""
+    return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
+
+
+def decades(axes, values: np.ndarray, most: int = 9) -> None:
+    """A logarithmic vertical axis over whole decades around the positive values, at most so many."""
+    positive = values[values > 0]
+    top = np.floor(np.log10(positive.max()) + 0.2) + 1
+    bottom = max(np.ceil(np.log10(positive.min()) - 0.2) - 1, top - most)
+    axes.set_yscale("log")
+    axes.set_ylim(10**bottom, 10**top)
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def panel(index: int) -> str:
+    """(a), (b), (c) ..."""
+    return f"({next(itertools.islice('abcdefghijklmnopqrstuvwxyz', index, None))})"

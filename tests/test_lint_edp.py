@@ -1,0 +1,133 @@
+"""The checker for FreeFEM sources: for each rule a text that passes and one that fails."""
+
+import pytest
+from lint_edp import MAX_LINE, check, main
+
+SCRIPT = "// main.edp: the paper's test.\n"
+MODULE = "// contact/points.idp: collocation points.\n// Needs: mesh Th.\n// Gives: pointX.\n"
+
+
+def script(body):
+    return check(SCRIPT + body, is_module=False)
+
+
+@pytest.mark.parametrize("text, is_module", [(SCRIPT, False), (MODULE, True), (MODULE + "\nreal a = 1;\n", True)])
+def test_clean(text, is_module):
+    assert check(text, is_module) == []
+
+
+@pytest.mark.parametrize(
+    "body, line, message",
+    [
+        ("\treal a;\n", 2, "tab"),
+        ("real a;\n\n \n", 4, "trailing space"),
+        ("real a;\r\nreal b;\r\n", 2, "carriage return"),
+        ("real a;\nreal b;", 3, "no newline"),
+        ("//" + "x" * (MAX_LINE - 1) + "\n", 2, f"line of {MAX_LINE + 1} characters"),
+    ],
+)
+def test_layout(body, line, message):
+    ((found_line, found),) = script(body)
+    assert found_line == line
+    assert found.startswith(message)
+
+
+def test_longest_line_passes():
+    assert script("//" + "é" * (MAX_LINE - 2) + "\n") == []
+
+
+@pytest.mark.parametrize("text", ["", "\n", "real a;\n", "// a comment\n", "//main.edp: no space\n", "// main.edp:\n"])
+def test_missing_header(text):
+    assert [line for line, message in check(text, is_module=False) if "first line" in message] == [1]
+
+
+@pytest.mark.parametrize("word", ["Needs", "Gives"])
+def test_module_contract(word):
+    (finding,) = check(MODULE.replace(f"// {word}", "// Other"), is_module=True)
+    assert f"'// {word}'" in finding[1]
+    late = MODULE.replace(f"// {word}", "// Other") + f"real a;\n// {word}: too late, the header is over.\n"
+    assert check(late, is_module=True) == [finding]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "int1d(Th, 3)(v)",
+        "int2d(Th,3)(v)",
+        "int3d(Th, qforder=3, 2)(v)",
+        "int1d(Th, [1, 2])(v)",
+        "intalledges(Th, 4)(v)",
+        "on(3, u=0)",
+        "on(bottom, 3, u=0, v=0)",
+        "on( -1, u=0)",
+        "label=3",
+        "label = [3, 4]",
+        "if (Th.be(i).label == 2) n++",
+        "if (Th[k].region != 1) n++",
+    ],
+)
+def test_bare_label(body):
+    ((line, message),) = script(f"real a;\n{body};\n")
+    assert line == 3
+    assert "bare integer label" in message
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "int1d(Th, contactLine)(v)",
+        "int1d(Th, contactLine, qforder=3)(2 * v)",
+        "int2d(Th, qforder=3)(f(1, 2) * v)",
+        "int2d(Th)(3 * v)",
+        "on(bottom, u1=0, u2=-1)",
+        "function(3, 4)",
+        "label=contactLine",
+        "int bottomLabel = 3",
+        "if (Th.be(i).label == contactLine) n++",
+        "// on(3, u=0) and label=3",
+        "/* int1d(Th, 3)\n on(3, u=0) */",
+        'cout << "on(3, u=0) label=3 \\" label=3" << endl',
+    ],
+)
+def test_named_label(body):
+    assert script(f"{body};\n") == []
+
+
+def test_the_line_of_the_label_is_reported():
+    ((line, _),) = script("int1d(Th,\n    3\n)(v);\n")
+    assert line == 3
+
+
+def test_command_line(tmp_path, capsys):
+    good = tmp_path / "deep" / "good.idp"
+    good.parent.mkdir()
+    good.write_text(MODULE)
+    assert main([str(tmp_path)]) == 0
+    bad = tmp_path / "bad.edp"
+    bad.write_text(SCRIPT + "real a; \n")
+    (tmp_path / "ignored.txt").write_text("\t")
+    assert main([str(tmp_path)]) == 1
+    assert f"{bad}:2: trailing space" in capsys.readouterr().out
+    assert main([str(good)]) == 0
+
+
+def test_binary_file_is_a_finding(tmp_path, capsys):
+    (tmp_path / "x.edp").write_bytes(b"\xff\xfe\x00")
+    assert main([str(tmp_path)]) == 1
+    assert "not UTF-8" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("folder, message", [("missing", "no such"), ("empty", "no .edp or .idp")])
+def test_nothing_to_check(tmp_path, capsys, folder, message):
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(SystemExit) as stop:
+        main([str(tmp_path / folder)])
+    assert stop.value.code == 2
+    assert message in capsys.readouterr().err
+
+
+def test_help(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--help"])
+    assert stop.value.code == 0
+    assert "file:line: message" in capsys.readouterr().out
