@@ -106,6 +106,9 @@ def first_threshold(run: Run) -> str:
     start = parameters.get("T0")
     if start is None:
         return ""
+    if isinstance(start, str) and start != "d0":
+        with contextlib.suppress(ValueError):
+            start = float(start)
     if start == "d0" or start == parameters.get("d0"):
         return "T^0 = d_0"
     return f"T^0 = {number(start)}" if is_number(start) else ""

@@ -45,7 +45,7 @@ def table(summary: dict) -> list[str]:
 
 def cell(value: object) -> str:
     """One value as text: numbers short, lists with spaces, null as a dash."""
-    if value is None:
+    if value is None or value == "":
         return "-"
     if isinstance(value, bool):
         return "yes" if value else "no"
