@@ -54,9 +54,10 @@ class ResultsError(Exception):
 
 @dataclass(frozen=True)
 class States:
-    """Displacements of all vertices after every Newton step.
+    """Displacements of all vertices before the first and after every Newton step.
 
-    adaptation, newton: (S,) int, the step that led to each state; both 0 for state 0, which is undeformed.
+    adaptation, newton: (S,) int, the step that led to each state; both 0 before the first one. State 0 is undeformed;
+                        a further state with newton = 0 holds the prescribed motion alone.
     x, y:   (V,) undeformed vertex coordinates [length].
     ux, uy: (S, V) displacements [length].
     """

@@ -100,6 +100,14 @@ def method(run: Run) -> str:
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 
 
+def price(run: Run, noun: str) -> str:
+    """What the run took: adaptations, where there was more than one, and steps; and whether that was enough."""
+    words = count(run.summary["newton"], noun)
+    if run.summary["adaptations"] > 1:
+        words = f"{count(run.summary['adaptations'], 'adaptation')}, {words}"
+    return words if run.summary["converged"] else f"{words}, not converged"
+
+
 def first_threshold(run: Run) -> str:
     """The first threshold T^0 as mathtext without its dollars; empty when the run has none."""
     parameters = run.summary["parameters"]

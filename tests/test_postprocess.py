@@ -171,8 +171,9 @@ def write_states(folder, vertices, triangles, history, settlements, meshed, push
         region = np.concatenate([region, np.full(len(disc_triangles), 2)])
         points = np.concatenate([vertices, disc])
         moves = [np.append(move, np.full(len(disc), -push if state else 0.0)) for state, move in enumerate(moves)]
+        moves.insert(1, np.append(0 * vertices[:, 1], np.full(len(disc), -push)))
     write_table(folder / "triangles.csv", results.TRIANGLES, np.column_stack([triangles, region]))
-    steps = np.concatenate([[[0, 0]], history[:, [1, 3]]])
+    steps = np.concatenate([np.zeros((len(moves) - len(history), 2)), history[:, [1, 3]]])
     number = np.arange(len(points))
     blocks = [
         np.column_stack([np.tile([state, *steps[state]], (len(number), 1)), number, points, 0 * number, move])
@@ -233,8 +234,8 @@ class TestReading:
         assert len(run.adaptations) == run.summary["adaptations"] == 2
         assert run.adaptations[1]["threshold"].shape == (run.summary["points"],)
         states = run.states
-        assert states.ux.shape == states.uy.shape == (run.summary["newton"] + 1, len(states.x))
-        assert states.newton[0] == 0 and states.newton[-1] == run.summary["newton"]
+        assert states.ux.shape == states.uy.shape == (run.summary["newton"] + 2, len(states.x))
+        assert states.newton[:3].tolist() == [0, 0, 1] and states.newton[-1] == run.summary["newton"]
         assert run.mesh.triangles.max() == len(states.x) - 1 and set(run.mesh.region) == {1, 2}
         assert run.parameter("d0") == D0
 
@@ -499,12 +500,16 @@ class TestFigures:
         first, second = read_run(runs["meshed"]).summary["newtonPerAdaptation"]
         assert [each.get_title(loc="left") for each in axes[:4]] == [
             "(a) initial state\nundeformed",
-            "(b) first linear step\nadaptation 1, Newton step 1",
+            "(b) prescribed motion\nbefore Newton step 1",
             f"(c) first model solved\nadaptation 1, Newton step {first}",
             f"(d) converged\nadaptation 2, Newton step {first + second}",
         ]
         assert [each.get_title() for each in axes[4:6]] == ["gap 0.5", "greatest overlap 2"]
         assert all(each.get_aspect() == 1 for each in axes)
+
+    def test_figure1_without_a_state_of_the_motion_alone(self, runs):
+        axes = draw("figure1", runs["rigid"]).axes
+        assert axes[1].get_title(loc="left") == "(b) first linear step\nadaptation 1, Newton step 1"
 
     def test_figure1_places_the_rigid_disc(self, runs):
         run = read_run(runs["rigid"])
@@ -551,9 +556,15 @@ class TestFigures:
         texts = [text.get_text() for text in legend.get_texts()]
         few, many = (read_run(runs[name]).summary["newton"] for name in ("rigid", "incremental"))
         assert texts == [
-            f"extended Newton, $T^0 = 0$:\n2 adaptations, {few} Newton steps",
-            f"Newton, 4 load steps:\n{many} Newton steps",
+            f"extended Newton, $T^0 = 0$: 2 adaptations, {few} Newton steps",
+            f"Newton, 4 load steps: {many} Newton steps",
         ]
+
+    def test_figure2_breaks_long_legends(self, runs, broken):
+        folder = broken("incremental")
+        edit_summary(folder, h=0.25, order=2)
+        (legend,) = draw("figure2", runs["rigid"], folder).legends
+        assert legend.get_texts()[0].get_text().startswith("extended Newton, $T^0 = 0$, P1, $h = 0.5$:\n")
 
     def test_figure2_refuses_another_problem(self, runs, broken):
         folder = broken("incremental")

@@ -29,7 +29,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     axes = figure.subplots()
     axes.set_yscale("log")
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
-        draw_curve(axes, run, index, f"{label}: {outcome(run)}", floor)
+        draw_curve(axes, run, index, f"{label}: {style.price(run, 'step')}", floor)
     draw_tolerances(axes, runs)
     if any((run.history["residual"] == 0).any() for run in runs):
         axes.plot([], [], "v", color=style.GREY, markersize=6, label="exactly zero")
@@ -102,12 +102,3 @@ def mark_adaptations(axes, run: Run) -> None:
             fontsize=8,
             color=style.GREY,
         )
-
-
-def outcome(run: Run) -> str:
-    """The price of the run in words."""
-    summary = run.summary
-    words = style.count(summary["newton"], "step")
-    if summary["adaptations"] > 1:
-        words = f"{style.count(summary['adaptations'], 'adaptation')}, {words}"
-    return words if summary["converged"] else f"{words}, not converged"

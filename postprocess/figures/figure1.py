@@ -46,8 +46,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     figure = Figure(figsize=(style.PAGE, 0.5 * style.PAGE), layout="compressed")
     grid = figure.subplots(2, len(chosen), sharex="row", sharey="row", squeeze=False)
     for column, (state, words) in enumerate(chosen):
-        for axes, window, weight in zip(grid[:, column], (whole, close), (0.12, 0.3), strict=True):
-            draw_state(axes, run, edges, state, weight)
+        for axes, window in zip(grid[:, column], (whole, close), strict=True):
+            draw_state(axes, run, edges, state, line_weight(run, window, len(chosen)))
             axes.set_xlim(window[0], window[1])
             axes.set_ylim(window[2], window[3])
             axes.set_aspect("equal")
@@ -64,15 +64,19 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
 
 def choose_states(run: Run) -> list[tuple[int, str]]:
-    """The states to show, each once, and what to call them: initial, first step, end of first model, converged."""
+    """The states to show, each once, and what to call them: initial, interpenetrating, first model solved, converged.
+
+    The interpenetrating state is the prescribed motion alone where the run saved it, else the first linear step.
+    """
     states = run.states
     last = len(states.newton) - 1
-    if last == 0:
-        raise ResultsError(run.path / "states.csv", "has the initial state only")
-    later = np.flatnonzero(states.adaptation[1:] != states.adaptation[1])
-    names = {0: "initial state", 1: "first linear step"}
+    if states.newton[last] == 0:
+        raise ResultsError(run.path / "states.csv", "has no state after a Newton step")
+    names = {0: "initial state", 1: "first linear step" if states.newton[1] else "prescribed motion"}
+    first_model = np.flatnonzero(states.newton)[0]
+    later = np.flatnonzero(states.adaptation[first_model:] != states.adaptation[first_model])
     if len(later):
-        names[int(later[0])] = "first model solved"
+        names[int(first_model + later[0] - 1)] = "first model solved"
     names[last] = "converged" if run.summary["converged"] else "last step, not converged"
     return [(state, f"{name}\n{position(run, state)}") for state, name in sorted(names.items())]
 
@@ -82,7 +86,21 @@ def position(run: Run, state: int) -> str:
     states = run.states
     if state == 0:
         return "undeformed"
+    if states.newton[state] == 0:
+        return "before Newton step 1"
     return f"adaptation {states.adaptation[state]}, Newton step {states.newton[state]}"
+
+
+def line_weight(run: Run, window: tuple, columns: int) -> float:
+    """A width for mesh lines [points] at which the elements of the window can still be told from each other."""
+    states, triangles = run.states, run.mesh.triangles
+    x, y = states.x[triangles], states.y[triangles]
+    inside = (x.mean(axis=1) > window[0]) & (x.mean(axis=1) < window[1]) & (y.mean(axis=1) > window[2])
+    sizes = np.hypot(x[:, 0] - x[:, 1], y[:, 0] - y[:, 1])[inside & (y.mean(axis=1) < window[3])]
+    if len(sizes) == 0:
+        return 0.3
+    scale = 0.8 * 72 * style.PAGE / columns / (window[1] - window[0])  # points on paper per unit of length
+    return float(np.clip(0.08 * scale * np.median(sizes), 0.04, 0.3))
 
 
 def draw_state(axes, run: Run, edges: Bodies, state: int, weight: float) -> None:
@@ -151,8 +169,8 @@ def half_disc(run: Run, state: int) -> np.ndarray:
 
 def load_share(run: Run, state: int) -> float:
     """The part of the prescribed displacement applied in a state: 0 at the start, 1 without load steps."""
-    if state == 0:
-        return 0.0
+    if state == 0 or run.states.newton[state] == 0:
+        return float(state > 0)
     history = run.history
     step = history["step"][history["newton"] == run.states.newton[state]]
     return float(step[0] / history["step"].max()) if len(step) else 1.0
@@ -162,6 +180,8 @@ def separation(run: Run, state: int) -> str:
     """The greatest overlap in a state, or the gap before any contact."""
     if state == 0:
         overlap = -run.parameter("gap")
+    elif run.states.newton[state] == 0:
+        overlap = run.parameter("u0") - run.parameter("gap")
     else:
         history = run.history
         rows = np.flatnonzero(history["newton"] == run.states.newton[state])

@@ -8,6 +8,7 @@ from postprocess.results import ResultsError, Run
 
 RUNS = (2, 2)
 
+LINE = 62  # characters that fit into a line of the legend
 LEAST_POINTS = 5  # points in contact below which a comparison of profiles means nothing
 SAME_PROBLEM = "kappa m d0 E nu R gap u0 width depth".split()
 
@@ -26,12 +27,16 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     difference = np.abs(pressure - expected) / pressure_reference.max()
 
     figure = Figure(figsize=(style.COLUMN, 1.18 * style.COLUMN), layout="constrained")
+    legend = legend_entries(runs)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=[2.1, 1])
-    labels = [f"{text}:\n{price(each)}" for text, each in zip(style.labels(runs), runs, strict=True)]
-    above.plot(x_reference, pressure_reference, color=style.BLACK, linewidth=1.0, label=labels[1], zorder=2)
+    touched = (pressure > 0) | (expected > 0)
+    middle = x[touched].mean()
+    edge = 1.12 * np.abs(x[touched] - middle).max()
+    shown = np.abs(x - middle) < 0.98 * edge
+    above.plot(x_reference, pressure_reference, color=style.BLACK, linewidth=1.0, label=legend[1], zorder=2)
     above.plot(
-        x,
-        pressure,
+        x[shown],
+        pressure[shown],
         linestyle="none",
         marker="o",
         markersize=3.6,
@@ -39,22 +44,20 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         markeredgewidth=0.9,
         color=style.VERMILION,
         markevery=max(1, np.count_nonzero(pressure > 0) // 45),
-        label=labels[0],
+        label=legend[0],
         zorder=3,
     )
     above.set_ylabel(f"contact pressure $p$ [{units.stress}]")
     top = max(pressure.max(), pressure_reference.max())
     above.set_ylim(-0.03 * top, 1.05 * top)
     handles, texts = above.get_legend_handles_labels()
-    figure.legend(handles[::-1], texts[::-1], loc="outside upper center", ncols=2, borderaxespad=0.2, columnspacing=1.2)
+    figure.legend(handles[::-1], texts[::-1], loc="outside upper center", borderaxespad=0.2, alignment="left")
 
-    touched = (pressure > 0) | (expected > 0)
     draw_difference(below, x[touched], difference[touched])
     if not same_points:
         below.set_title("reference interpolated to the run's points", fontsize=8, loc="right", pad=2)
     below.set_xlabel(f"$x$ [{units.length}]")
-    edge = 1.12 * np.abs(x[touched] - x[touched].mean()).max()
-    below.set_xlim(x[touched].mean() - edge, x[touched].mean() + edge)
+    below.set_xlim(middle - edge, middle + edge)
     figure.align_ylabels()
     return figure
 
@@ -71,7 +74,7 @@ def draw_difference(axes, x: np.ndarray, difference: np.ndarray) -> None:
     greatest = difference.max()
     style.decades(axes, np.append(difference, 10 * greatest))
     axes.annotate(
-        f"greatest: ${style.number(greatest)}$",
+        f"greatest: ${style.number(float(f'{greatest:.2g}'))}$",
         (0.5, 0.97),
         xycoords="axes fraction",
         ha="center",
@@ -81,13 +84,12 @@ def draw_difference(axes, x: np.ndarray, difference: np.ndarray) -> None:
     )
 
 
-def price(run: Run) -> str:
-    """The counts that the comparison is about."""
-    summary = run.summary
-    words = style.count(summary["newton"], "Newton step")
-    if summary["adaptations"] > 1:
-        words = f"{style.count(summary['adaptations'], 'adaptation')}, {words}"
-    return words if summary["converged"] else f"{words} (not converged)"
+def legend_entries(runs: list[Run]) -> list[str]:
+    """Each run's name and price, on two lines where they do not fit into one."""
+    entries = list(zip(style.labels(runs), [style.price(run, "Newton step") for run in runs], strict=True))
+    longest = max(len(label) + len(price) for label, price in entries)
+    separator = ": " if longest < LINE else ":\n"
+    return [separator.join(entry) for entry in entries]
 
 
 def check_comparable(run: Run, reference: Run) -> None:

@@ -9,6 +9,7 @@ from postprocess.results import WALL, ResultsError, Run
 
 RUNS = (1, 1)
 
+CROWD = 40  # points beyond which their dots are drawn smaller
 FAR_WALL = 30  # walls this many times beyond the greatest penetration of the layer need a logarithmic axis
 
 
@@ -48,13 +49,14 @@ def draw_heights(axes, run: Run, heights, walls, penetration, colours, units: st
     """The threshold of each model, (adaptations, points), and the overlap reached, both measured from d0."""
     x = run.contact["x"]
     finite = np.isfinite(heights)
+    size = 4 if np.count_nonzero(walls.any(axis=0)) < CROWD else 2.5
     for number, colour in enumerate(colours):
         if not finite[number].all():
             continue
         name = f"$T^{{{number}}}$" if number in style.named(len(colours)) else None
         axes.plot(x, heights[number], color=colour, label=name, zorder=3)
         active = walls[number]
-        axes.plot(x[active], heights[number, active], ".", color=colour, markersize=4, zorder=4)
+        axes.plot(x[active], heights[number, active], ".", color=colour, markersize=size, zorder=4)
     axes.plot(x, penetration, color=style.VERMILION, linestyle=(0, (4, 1.5)), zorder=5)
     top = max(heights[finite].max(initial=0), penetration.max())
     if top <= 0:
@@ -97,7 +99,8 @@ def draw_moves(axes, x, moves, colours, units: style.Units) -> None:
     """T^{N+1} - T^N of each update, (updates, points), on a logarithmic axis, where it is positive."""
     for number, move in enumerate(moves):
         seen = np.where(move > 0, move, np.nan)
-        axes.plot(x, seen, color=colours[number + 1], marker=".", markersize=3, linewidth=0.8)
+        size = 3 if np.count_nonzero(move > 0) < CROWD else 2
+        axes.plot(x, seen, color=colours[number + 1], marker=".", markersize=size, linewidth=0.8)
     axes.set_ylabel(f"$T^{{N+1}} - T^N$ [{units.length}]")
     style.decades(axes, moves)
 
