@@ -107,7 +107,7 @@ $(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(fi
 	$(FREEFEM) $(case.$*) -out $(@D)
 
 # A pattern with two targets makes both in one go.
-results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py) | .venv/run.stamp
+results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | .venv/run.stamp
 	$(PYTHON) -m postprocess figure $* --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
 
 # ---------------------------------------------------------------- checks

@@ -1,0 +1,273 @@
+"""Running scenes and snippets, reading what they wrote, and the invariants that every converged run keeps.
+
+`run(scene, *flags)` runs a scene once per test session, whichever tests and workers ask for it, and checks it.
+`snippet(folder, text, *flags)` runs a few lines of FreeFEM that use the package's modules.
+`tree(folder)` copies the package, for tests that must not disturb this one's results and meshes.
+"""
+
+import fcntl
+import functools
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
+STORE = None  # the session's folder of runs: conftest.py
+
+OPEN, LAW, WALL = 0, 1, 2
+SUMMARY_KEYS = set(
+    "scene method converged adaptations newton newtonPerAdaptation factorisations backsolves force pressureMax overlapMax "
+    "halfWidth wallPoints contactPoints modelError residual energy ndof points order h seconds parameters".split()
+)
+SECONDS_KEYS = set("mesh assembly factorisation contact total".split())
+CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold".split())
+TIMEOUT = 280  # seconds; a run that hangs is a failure, not a hanging suite
+
+
+def script(scene):
+    """The scene's script, relative to the repository's root."""
+    return "edp/main.edp" if scene == "disc-on-block" else f"edp/scenes/{scene}.edp"
+
+
+def environment(**changes):
+    """The environment of a run: one BLAS thread, and nothing of an enclosing make."""
+    kept = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    return {**kept, "OPENBLAS_NUM_THREADS": "1", **changes}
+
+
+def table(path):
+    """A result table as a structured array, one entry a row; column names as in the file."""
+    with open(path) as file:
+        names = file.readline().strip().split(",")
+        rows = [tuple(line.strip().split(",")) for line in file]
+    return np.array([tuple(map(float, row)) for row in rows], dtype=[(name, float) for name in names])
+
+
+class Run:
+    """A finished run: exit code, output, folder, and its files read when they are asked for."""
+
+    def __init__(self, code, stdout, folder):
+        self.code, self.stdout, self.folder = code, stdout, Path(folder)
+
+    @cached_property
+    def summary(self):
+        return json.loads((self.folder / "summary.json").read_text(), parse_constant=reject_constant)
+
+    @cached_property
+    def contact(self):
+        return table(self.folder / "contact.csv")
+
+    @cached_property
+    def history(self):
+        return table(self.folder / "history.csv")
+
+    @cached_property
+    def models(self):
+        """(models, points): the fields after each model that was solved."""
+        rows = table(self.folder / "adaptations.csv")
+        return rows.reshape(-1, self.summary["points"])
+
+    @property
+    def load_step(self):
+        """(models,): the load step that each model belongs to."""
+        steps, adaptations = self.history["step"], self.history["adaptation"]
+        first = np.ones(len(steps), bool)
+        first[1:] = (np.diff(steps) != 0) | (np.diff(adaptations) != 0)
+        return steps[first]
+
+    def __getattr__(self, name):
+        """run.force is run.summary["force"]."""
+        try:
+            return self.summary[name]
+        except (KeyError, FileNotFoundError) as error:
+            raise AttributeError(name) from error
+
+
+def reject_constant(word):
+    raise ValueError(f"summary.json contains {word}")
+
+
+def flag_text(value):
+    """A flag as the command line takes it; numbers with all their digits."""
+    return value if isinstance(value, str) else repr(value)
+
+
+def execute(command, cwd=ROOT, env=None):
+    """Run a command to its end; (code, output)."""
+    done = subprocess.run(
+        list(map(str, command)),
+        cwd=cwd,
+        env=environment() if env is None else env,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL,
+        timeout=TIMEOUT,
+    )
+    return done.returncode, done.stdout.decode(errors="replace")
+
+
+def run(scene, *flags, expect=0):
+    """The run of a scene with these flags; its exit code must be `expect`. Shared by all tests; do not change its files."""
+    result = stored(scene, tuple(map(flag_text, flags)))
+    assert result.code == expect, f"exit code {result.code} of {scene} {flags}:\n{result.stdout[-2000:]}"
+    if expect == 0:
+        check_invariants(result)
+    return result
+
+
+@functools.cache
+def stored(scene, flags):
+    key = hashlib.sha256(repr((scene, flags)).encode()).hexdigest()[:16]
+    STORE.mkdir(parents=True, exist_ok=True)
+    record = STORE / f"{key}.json"
+    with open(STORE / f"{key}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not record.exists():
+            code, stdout = execute([*FREEFEM, script(scene), *flags, "-vtu", "0", "-out", STORE / key])
+            record.write_text(json.dumps([code, stdout]))
+    return Run(*json.loads(record.read_text()), STORE / key)
+
+
+def run_in(cwd, name, *flags, out=None, expect=0, env=None):
+    """One run, not shared, of a script file as a user would start it in `cwd`; `out` is its results' folder."""
+    code, stdout = execute([*FREEFEM, name, *map(flag_text, flags), *(["-out", out] if out else [])], cwd, env)
+    assert code == expect, f"exit code {code} of {name} {flags}:\n{stdout[-2000:]}"
+    return Run(code, stdout, out or cwd)
+
+
+def snippet(folder, text, *flags, expect=0):
+    """Output of a FreeFEM script that stands beside the package; `include`s are relative to edp/, as in the scenes."""
+    for name in ("edp", "meshes", "freefem++.pref"):
+        if not (folder / name).exists():
+            (folder / name).symlink_to(ROOT / name)
+    (folder / "snippet.edp").write_text(TELL + text)
+    code, stdout = execute([*FREEFEM, "snippet.edp", *map(flag_text, flags)], folder)
+    assert code == expect, f"exit code {code}:\n{stdout[-3000:]}"
+    return stdout
+
+
+# tell("name", values) prints a line that told() reads
+TELL = """cout.precision(17);
+func int tell(string name, real[int] & values)
+{
+    cout << "told " << name;
+    for (int i = 0; i < values.n; i++) cout << " " << values[i];
+    cout << endl;
+    return 0;
+}
+func int tell(string name, real value)
+{
+    real[int] one(1);
+    one = value;
+    return tell(name, one);
+}
+"""
+
+
+def told(stdout):
+    """What tell() printed: {name: values}."""
+    lines = (line.split() for line in stdout.splitlines() if line.startswith("told "))
+    return {name: np.array(values, float) for _, name, *values in lines}
+
+
+def scene_text(scene, until='include "solve/solve.idp"'):
+    """The scene's own lines: bodies, obstacle and load, up to the solution."""
+    text = (ROOT / script(scene)).read_text()
+    assert text.count(until) == 1
+    return text.split(until)[0]
+
+
+def tree(folder):
+    """A copy of the package without results, meshes and environment: what `git clone` gives."""
+    folder.mkdir(parents=True)
+    for name in ("edp", "meshes"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("generated", "*.msh"))
+    for name in ("freefem++.pref", "Makefile"):
+        shutil.copy(ROOT / name, folder)
+    return folder
+
+
+def listing(folder):
+    """Every file and folder below, to see what a run has left behind."""
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+
+
+# ---------------------------------------------------------------- invariants
+
+
+def check_invariants(run):
+    """What holds for every converged run of every scene and method."""
+    summary, contact = run.summary, run.contact
+    assert summary.keys() >= SUMMARY_KEYS
+    assert summary["seconds"].keys() >= SECONDS_KEYS
+    assert contact.dtype.names == CONTACT_COLUMNS
+    assert len(contact) == summary["points"]
+    assert summary["converged"] is True
+    assert summary["residual"] <= summary["parameters"]["tol"]
+    assert summary["modelError"] < summary["parameters"]["eps"]
+    assert len(summary["newtonPerAdaptation"]) == len(run.models)
+    assert sum(summary["newtonPerAdaptation"]) == summary["newton"] == len(run.history)
+    check_numbers(run)
+    check_fields(run)
+    check_thresholds(run)
+    check_equilibrium(run)
+
+
+def check_numbers(run):
+    """No NaN in any file; infinity is the threshold of a point without a wall, and nothing else."""
+    assert "nan" not in run.stdout.lower()
+    for rows in (run.contact, run.history, run.models):
+        for name in rows.dtype.names:
+            assert not np.isnan(rows[name]).any(), name
+            assert name == "threshold" or np.isfinite(rows[name]).all(), name
+
+
+def check_fields(run):
+    """Signs and complementarity: pressure only in contact, the wall's share only at the wall."""
+    summary, contact = run.summary, run.contact
+    status, pressure, share = contact["status"], contact["pressure"], contact["lambda"]
+    nodal = contact["weight"] * pressure
+    assert set(status) <= {OPEN, LAW, WALL}
+    assert (contact["weight"] > 0).all()
+    assert (np.diff(contact["x"]) > 0).all()
+    # a point on the law is linearised: its pressure is off the law, and so below 0 at the edge, by the residual at most
+    assert (nodal >= -summary["parameters"]["tol"] * np.linalg.norm(nodal)).all()
+    assert (pressure[status == OPEN] == 0).all()
+    assert (share >= -1e-12 * max(pressure.max(), 0)).all()
+    assert (share[status != WALL] == 0).all()
+    wall = status == WALL
+    assert (contact["overlap"][wall] == contact["threshold"][wall]).all()
+    assert summary["wallPoints"] == wall.sum()
+    assert summary["contactPoints"] == (status != OPEN).sum()
+    assert summary["force"] == np.sum(nodal) or abs(np.sum(nodal) / summary["force"] - 1) < 1e-12
+    assert summary["pressureMax"] == pressure.max()
+    assert summary["overlapMax"] == contact["overlap"].max()
+
+
+def check_thresholds(run):
+    """Proposition 4.1: from one model of a load step to the next no threshold decreases, at any point."""
+    threshold, step = run.models["threshold"], run.load_step
+    assert len(step) == len(threshold)
+    for before, after, same in zip(threshold, threshold[1:], np.diff(step) == 0, strict=False):
+        assert not same or (after >= before).all()
+    assert (threshold[-1] == run.contact["threshold"]).all()
+    assert (run.models["pressure"][-1] == run.contact["pressure"]).all()
+
+
+def check_equilibrium(run):
+    """The contact's force and moment against those of the supports of the block."""
+    summary, contact = run.summary, run.contact
+    force = summary["force"]
+    reach = np.hypot(contact["x"], contact["y"]).max()
+    assert abs(summary["reactionY"] - force) <= 1e-9 * force
+    assert abs(summary["reactionX"]) <= 1e-9 * force
+    assert abs(summary["reactionMoment"] + summary["contactMoment"]) <= 1e-9 * force * reach
+    moment = -np.sum(contact["x"] * contact["weight"] * contact["pressure"])
+    assert abs(summary["contactMoment"] - moment) <= 1e-9 * force * reach

@@ -1,0 +1,390 @@
+"""case/, bodies/, contact/ and solve/: each module by itself, against values worked out by hand."""
+
+import numpy as np
+import pytest
+from freefem import ROOT, scene_text, snippet, told
+
+E, NU = 100.0, 0.3
+LAME = E * NU / ((1 + NU) * (1 - 2 * NU))
+SHEAR = E / (2 * (1 + NU))
+CONFINED = LAME + 2 * SHEAR  # M = E (1 - nu) / ((1 + nu) (1 - 2 nu))
+
+# ---------------------------------------------------------------- case/flags.idp
+
+FLAGS = """
+include "case/flags.idp"
+real alpha = numberFlag("-alpha", 1.5, "length", "a real number", 0, 10);
+int count = countFlag("-count", 3, "a whole number", 1, 5);
+string word = wordFlag("-word", "one", "a word", "one two");
+string text = textFlag("-text", "any", "a text", "any text");
+flagsDone("What the script is for.");
+tell("alpha", alpha);
+tell("count", count);
+cout << "word " << word << endl << "text " << text << endl;
+"""
+
+
+def test_flags_have_defaults(tmp_path):
+    """A flag that is not given shall have its default."""
+    stdout = snippet(tmp_path, FLAGS)
+    values = told(stdout)
+    assert (values["alpha"], values["count"]) == (1.5, 3)
+    assert "word one\ntext any\n" in stdout
+
+
+@pytest.mark.parametrize("text", ["0.12345678901234567", "+2", "1e-300", "1E0", "9.999999999999999", ".5", "5."])
+def test_flags_keep_every_digit(tmp_path, text):
+    """A number shall be read with the precision that it is written in."""
+    assert told(snippet(tmp_path, FLAGS, "-alpha", text))["alpha"] == float(text)
+
+
+def test_flags_in_any_order(tmp_path):
+    """Flags shall be taken in any order, FreeFEM's own words among them left alone."""
+    flags = ["-text", "-1 'a' $b", "-nw", "-count", "2.0", "-v", "0", "-word", "two", "-alpha", "2"]
+    stdout = snippet(tmp_path, FLAGS, *flags)
+    values = told(stdout)
+    assert (values["alpha"], values["count"]) == (2, 2)
+    assert "word two\ntext -1 'a' $b\n" in stdout
+
+
+@pytest.mark.parametrize(
+    "flags, words",
+    [
+        (["-alpha", "0"], ["-alpha 0", "a number in (0, 10)"]),
+        (["-alpha", "10"], ["-alpha 10", "a number in (0, 10)"]),
+        (["-alpha", "abc"], ["-alpha abc", "a number in (0, 10)"]),
+        (["-alpha", "1e3x"], ["-alpha 1e3x", "a number in (0, 10)"]),
+        (["-alpha", "1,5"], ["-alpha 1,5", "a number in (0, 10)"]),
+        (["-alpha", "1.5.2"], ["-alpha 1.5.2", "a number in (0, 10)"]),
+        (["-alpha", "nan"], ["-alpha nan", "a number in (0, 10)"]),
+        (["-alpha", "inf"], ["-alpha inf", "a number in (0, 10)"]),
+        (["-alpha", "1e400"], ["-alpha 1e400", "a number in (0, 10)"]),
+        (["-alpha", "0x1"], ["-alpha 0x1", "a number in (0, 10)"]),
+        (["-alpha", "1e"], ["-alpha 1e", "a number in (0, 10)"]),
+        (["-alpha", "-"], ["-alpha -", "a number in (0, 10)"]),
+        (["-alpha", ""], ["-alpha ", "a number in (0, 10)"]),
+        (["-alpha"], ["-alpha", "a number in (0, 10)"]),
+        (["-alpha", "1", "-alpha", "1"], ["-alpha", "twice"]),
+        (["-count", "0"], ["-count 0", "a whole number from 1 to 5"]),
+        (["-count", "6"], ["-count 6", "a whole number from 1 to 5"]),
+        (["-count", "2.5"], ["-count 2.5", "a whole number from 1 to 5"]),
+        (["-count", "1e20"], ["-count 1e20", "a whole number from 1 to 5"]),
+        (["-word", "tw"], ["-word tw", "one two"]),
+        (["-word", "one two"], ["-word one two", "one two"]),
+        (["-word", ""], ["-word ", "one two"]),
+        (["-alpa", "1"], ["-alpa", "-alpha -count -word -text"]),
+        (["stray"], ["stray", "-alpha -count -word -text"]),
+        (["-text", "a", "b"], ["b", "-alpha -count -word -text"]),
+    ],
+)
+def test_flags_refused(tmp_path, flags, words):
+    """What is not allowed shall be refused in the first line, naming flag, value and what is allowed."""
+    first = snippet(tmp_path, FLAGS, *flags, expect=10).splitlines()[0]
+    for word in words:
+        assert word in first
+
+
+@pytest.mark.parametrize("help_flag", ["-help", "--help"])
+def test_help(tmp_path, help_flag):
+    """-help shall print flags, defaults, units and ranges, even beside a flag that is wrong, and run nothing."""
+    stdout = snippet(tmp_path, FLAGS, "-alpha", "abc", help_flag)
+    rows = {line.split()[0]: line for line in stdout.splitlines() if line.startswith("-")}
+    assert list(rows) == ["-alpha", "-count", "-word", "-text"]
+    for word in ("1.5", "length", "a real number", "(0, 10)"):
+        assert word in rows["-alpha"]
+    assert "What the script is for." in stdout
+    assert not told(stdout)
+
+
+# ---------------------------------------------------------------- case/output.idp
+
+OUTPUT = """
+include "case/flags.idp"
+include "case/output.idp"
+cout << "root [" << repositoryRoot << "]" << endl;
+cout << "quoted [" << quoted("it's") << "]" << endl;
+openOutput("folder of results");
+{
+    ofstream f(temporary("history.csv"));
+    f << "a,b" << endl << "1,2" << endl << LAST << endl;
+}
+publish();
+"""
+
+
+def test_output_is_published_whole(tmp_path):
+    """A file that was written to its end shall appear under its name, an earlier run's files shall be gone."""
+    folder = tmp_path / "folder of results"
+    folder.mkdir()
+    for name in ("summary.json", "contact.csv.tmp", "mine.txt"):
+        (folder / name).touch()
+    stdout = snippet(tmp_path, OUTPUT.replace("LAST", '"#end"'))
+    assert "root []" in stdout
+    assert "quoted [it'\\''s]" in stdout
+    assert sorted(path.name for path in folder.iterdir()) == ["history.csv", "mine.txt"]
+    assert (folder / "history.csv").read_text() == "a,b\n1,2\n"
+
+
+def test_output_cut_off_is_not_published(tmp_path):
+    """A file without its last line shall not be published, nor left behind, and the run shall say so."""
+    stdout = snippet(tmp_path, OUTPUT.replace("LAST", '"3,4"'), expect=30)
+    assert "could not be written whole" in stdout
+    assert list((tmp_path / "folder of results").iterdir()) == []
+
+
+# ---------------------------------------------------------------- bodies/gmsh.idp
+
+GMSH = """
+include "case/flags.idp"
+include "case/output.idp"
+include "bodies/gmsh.idp"
+"""
+
+
+def test_decimal_text(tmp_path):
+    """The numbers in a mesh's name shall be plain decimals, the same however the ratio was rounded."""
+    values = [0, 0.5, 0.0125, 1 / 3, 20, 160.000000000001, 0.9999999999999, 1.9999999999999, 0.1 + 0.2, 0.3, 1e-12]
+    code = "".join(f'cout << "[" << decimalText({value!r}) << "]" << endl;\n' for value in values)
+    printed = [line[1:-1] for line in snippet(tmp_path, GMSH + code).splitlines() if line.startswith("[")]
+    assert printed == [f"{value:.12f}" for value in values]
+
+
+MESH = """
+string[int] names = ["depth", "reach", "h", "grading"];
+real[int] values = [0.5, 0.25, 0.125, 0];
+mesh Th = gmshMesh("block", names, values, 40.);
+"""
+
+GROUPS = """
+real area = int2d(Th)(1.);
+tell("area", area);
+int contactLine = group("contact");
+int clampedLine = group("clamped");
+real contactLength = int1d(Th, contactLine)(1.);
+real contactY = int1d(Th, contactLine)(y) / contactLength;
+real clampedLength = int1d(Th, clampedLine)(1.);
+real[int] lines = [contactLength, contactY, clampedLength];
+tell("lines", lines);
+"""
+
+
+def test_mesh_has_its_named_groups(tmp_path):
+    """The mesh shall have the size asked for, and its groups shall be found by name."""
+    values = told(snippet(tmp_path, GMSH + MESH + GROUPS))
+    np.testing.assert_allclose(values["area"], 40 * 20, rtol=1e-12)
+    np.testing.assert_allclose(values["lines"], [20, 20, 40], rtol=1e-12)
+
+
+def test_unknown_group_is_refused(tmp_path):
+    """A group that the mesh does not have shall be refused by name, not become a label that marks nothing."""
+    first = snippet(tmp_path, GMSH + MESH + 'int lost = group("contac");', expect=10).splitlines()[0]
+    assert 'no physical group "contac"' in first
+
+
+# ---------------------------------------------------------------- bodies/elastic-2d.idp
+
+# the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
+BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]
+
+ENERGY = """
+func real energyOf(real[int] & v)
+{
+    real[int] product = stiffness * v;
+    return 0.5 * (v' * product);
+}
+fespace Uh(Th, ELEMENT);
+Uh [a1, a2] = [0, -0.01 * y];
+tell("pressed", energyOf(a1[]));
+Uh [b1, b2] = [0, 0.01 * x * y];
+tell("sheared", energyOf(b1[]));
+Uh [c1, c2] = [0.01 * y * (x^2 - 4), 0];
+tell("bulged", energyOf(c1[]));
+"""
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_elastic_energy(tmp_path, order):
+    """The stiffness shall give the strain energy of displacements whose energy is an integral by hand."""
+    element = "[P1, P1]" if order == 1 else "[P2, P2]"
+    values = told(
+        snippet(tmp_path, scene_text("confined-block") + ENERGY.replace("ELEMENT", element), *BLOCK, "-order", order)
+    )
+    np.testing.assert_allclose(values["pressed"], 0.5 * CONFINED * 0.01**2 * 8, rtol=1e-12)
+    if order == 2:
+        # e22 = c x, 2 e12 = c y: M c^2 int x^2 + mu c^2 int y^2
+        sheared = 0.5 * 0.01**2 * (CONFINED * 2 * (16 / 3) + SHEAR * 4 * (8 / 3))
+        np.testing.assert_allclose(values["sheared"], sheared, rtol=1e-12)
+
+
+WEIGHT = """
+macro loads(v1, v2) int2d(Th)(-3. * v2) //
+bool halfStorage"""
+
+SINKING = """
+set(stiffness, solver = "CHOLMOD");
+real[int] sunk = stiffness^-1 * bodyLoad;
+real[int] top = sunk(pointDof);
+tell("top", top);
+tell("load", bodyLoad.sum);
+"""
+
+
+def test_body_load(tmp_path):
+    """A confined column under its own weight g shall sink at its top by g L^2 / (2 M)."""
+    text = scene_text("confined-block")
+    assert text.count("bool halfStorage") == 1
+    values = told(snippet(tmp_path, text.replace("bool halfStorage", WEIGHT) + SINKING, *BLOCK, "-order", 2))
+    np.testing.assert_allclose(values["top"], -3 * 2**2 / (2 * CONFINED), rtol=1e-12)
+
+
+# ---------------------------------------------------------------- contact/slave-2d.idp
+
+POINTS = """
+tell("x", pointX);
+tell("y", pointY);
+tell("weight", weight);
+fespace Uh(Th, ELEMENT);
+Uh [a1, a2] = [100 + x, 10 * x + y];
+real[int] trace = a1[](pointDof);
+tell("trace", trace);
+"""
+
+
+@pytest.mark.parametrize(
+    "order, element, weights",
+    [
+        (1, "[P1, P1]", np.array([1, 2, 2, 2, 1]) / 2),
+        (2, "[P2, P2]", np.array([1, 4, 2, 4, 2, 4, 2, 4, 1]) / 6),
+    ],
+)
+def test_slave_points(tmp_path, order, element, weights):
+    """The points shall be the slave's nodes from left to right, weighted by the trapezoidal or Simpson's rule."""
+    values = told(
+        snippet(tmp_path, scene_text("confined-block") + POINTS.replace("ELEMENT", element), *BLOCK, "-order", order)
+    )
+    n = len(weights)
+    np.testing.assert_allclose(values["x"], np.linspace(-2, 2, n), atol=1e-14)
+    np.testing.assert_allclose(values["y"], 2, rtol=1e-14)
+    np.testing.assert_allclose(values["weight"], weights, rtol=1e-13)
+    assert abs(values["weight"].sum() - 4) < 1e-13
+    np.testing.assert_allclose(values["trace"], 10 * np.linspace(-2, 2, n) + 2, atol=1e-13)
+
+
+# ---------------------------------------------------------------- contact/master-2d.idp
+
+MASTER = """
+fespace Uh(Th, ELEMENT);
+real[int] seen(points);
+tell("x", pointX);
+for (int i = 0; i < points; i++) seen[i] = paired[i];
+tell("paired", seen);
+tell("unpaired", pointsUnpaired);
+Uh [a1, a2] = [7, 3];
+seen = overlapMap * a1[];
+tell("rigid", seen);
+Uh [b1, b2] = [x * y, 0];
+seen = overlapMap * b1[];
+tell("sideways", seen);
+Uh [c1, c2] = [0, (region == disc) * (2 - 3 * x)];
+seen = overlapMap * c1[];
+tell("linear", seen);
+Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)];
+seen = overlapMap * d1[];
+tell("quadratic", seen);
+Uh [e1, e2] = [0, (region == block) * (2 - 3 * x + 0.5 * x^2)];
+seen = overlapMap * e1[];
+tell("slave", seen);
+"""
+
+
+@pytest.mark.parametrize("order, element, h", [(1, "[P1, P1]", 1.7), (2, "[P2, P2]", 1.7), (2, "[P2, P2]", 0.5)])
+def test_master_map(tmp_path, order, element, h):
+    """The overlap shall be the slave's trace less the master's, exactly for polynomials of the elements' degree."""
+    text = scene_text("meshed-disc") + MASTER.replace("ELEMENT", element)
+    values = told(snippet(tmp_path, text, "-method", "newton", "-h", h, "-order", order))
+    x, paired = values["x"], values["paired"] == 1
+    assert values["unpaired"] == (~paired).sum()
+    assert paired.all()
+    near = dict(rtol=0, atol=1e-11)
+    np.testing.assert_allclose(values["rigid"], 0, **near)
+    np.testing.assert_allclose(values["sideways"], 0, **near)
+    np.testing.assert_allclose(values["linear"], -(2 - 3 * x), **near)
+    np.testing.assert_allclose(values["slave"], 2 - 3 * x + 0.5 * x**2, **near)
+    if order == 2:
+        np.testing.assert_allclose(values["quadratic"], -(2 - 3 * x + 0.5 * x**2), **near)
+
+
+# ---------------------------------------------------------------- solve/full-system.idp
+
+# A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
+TANGENT = """
+applyLoad(1.);
+tau = 1e300;
+lambda = 0;
+func int traceOf(real[int] & u, real[int] & trace)
+{
+    IFMACRO(deformableMaster)
+    trace = overlapMap * u;
+    ENDIFMACRO
+    IFMACRO(!deformableMaster)
+    trace = u(pointDof);
+    ENDIFMACRO
+    return 0;
+}
+func int imbalance(real[int] & u, real[int] & G)
+{
+    real[int] overlap(points), pressure(points), unused(points);
+    traceOf(u, overlap);
+    overlap += sRest;
+    lawPressure(overlap, pressure, unused);
+    pressure = pressure .* weight;
+    G = stiffness * u;
+    G -= bodyLoad;
+    IFMACRO(deformableMaster)
+    real[int] spread = overlapMap' * pressure;
+    G += spread;
+    ENDIFMACRO
+    IFMACRO(!deformableMaster)
+    G(pointDof) += pressure;
+    ENDIFMACRO
+    return 0;
+}
+real[int] uBefore(ndof), newtonStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points);
+displacement = 0;
+for (int k = 1; k <= STEPS; k++)
+{
+    uBefore = displacement;
+    traceOf(uBefore, trace);
+    s = sRest + trace;
+    lawPressure(s, p, slope);
+    for (int i = 0; i < points; i++) state[i] = slope[i] > 0 ? compliant : open;
+    solveLinearised();
+}
+newtonStep = displacement - uBefore;
+imbalance(uBefore, G0);
+real smallness = 1e-5;
+real[int] uForward = uBefore + smallness * newtonStep;
+real[int] uBackward = uBefore - smallness * newtonStep;
+imbalance(uForward, Gplus);
+imbalance(uBackward, Gminus);
+real[int] JnewtonStep = Gplus - Gminus;
+JnewtonStep /= 2 * smallness;
+real[int] tangentError = JnewtonStep + G0;
+tell("imbalance", G0.l2);
+tell("error", tangentError.l2);
+"""
+
+
+@pytest.mark.parametrize("scene", ["disc-on-block", "meshed-disc", "confined-block"])
+@pytest.mark.parametrize("order", [1, 2])
+def test_tangent(tmp_path, scene, order):
+    """The linearised system shall be the derivative of the equilibrium residual, by central differences."""
+    solver = (ROOT / "edp/solve/solve.idp").read_text()
+    assert solver.count("printHistoryHead();") == 1
+    solver = solver.split("printHistoryHead();")[0].replace("openOutput(outFolder);", "")
+    flags = ["-method", "newton", "-order", order, "-h", 1, *(["-Eratio", 50] if scene == "meshed-disc" else [])]
+    for steps in (2, 5):
+        code = scene_text(scene) + solver + TANGENT.replace("STEPS", str(steps))
+        values = told(snippet(tmp_path, code, *flags))
+        assert values["imbalance"] > 1e-3
+        assert values["error"] < 1e-7 * values["imbalance"]
