@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -23,8 +24,9 @@ STORE = None  # the session's folder of runs: conftest.py
 
 OPEN, LAW, WALL = 0, 1, 2
 SUMMARY_KEYS = set(
-    "scene method converged adaptations newton newtonPerAdaptation factorisations backsolves force pressureMax overlapMax "
-    "halfWidth wallPoints contactPoints modelError residual energy ndof points order h seconds parameters".split()
+    "scene method converged adaptations newton newtonPerAdaptation factorisations backsolves force pressureMax "
+    "overlapMax halfWidth wallPoints contactPoints modelError residual energy ndof points order h seconds "
+    "parameters".split()
 )
 SECONDS_KEYS = set("mesh assembly factorisation contact total".split())
 CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold".split())
@@ -96,7 +98,9 @@ def reject_constant(word):
 
 def flag_text(value):
     """A flag as the command line takes it; numbers with all their digits."""
-    return value if isinstance(value, str) else repr(value)
+    if isinstance(value, float):
+        return repr(float(value))
+    return str(value)
 
 
 def execute(command, cwd=ROOT, env=None):
@@ -114,7 +118,7 @@ def execute(command, cwd=ROOT, env=None):
 
 
 def run(scene, *flags, expect=0):
-    """The run of a scene with these flags; its exit code must be `expect`. Shared by all tests; do not change its files."""
+    """The run of a scene with these flags; its exit code must be `expect`. Shared: its files must not be changed."""
     result = stored(scene, tuple(map(flag_text, flags)))
     assert result.code == expect, f"exit code {result.code} of {scene} {flags}:\n{result.stdout[-2000:]}"
     if expect == 0:
@@ -255,7 +259,7 @@ def check_thresholds(run):
     """Proposition 4.1: from one model of a load step to the next no threshold decreases, at any point."""
     threshold, step = run.models["threshold"], run.load_step
     assert len(step) == len(threshold)
-    for before, after, same in zip(threshold, threshold[1:], np.diff(step) == 0, strict=False):
+    for (before, after), same in zip(pairwise(threshold), np.diff(step) == 0, strict=True):
         assert not same or (after >= before).all()
     assert (threshold[-1] == run.contact["threshold"]).all()
     assert (run.models["pressure"][-1] == run.contact["pressure"]).all()

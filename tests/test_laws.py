@@ -79,7 +79,7 @@ def test_law_is_zero_without_overlap(tmp_path):
 @pytest.mark.parametrize("kappa", [1e-2, 1e3, 1e12, 1e30])
 @pytest.mark.parametrize("m", [1.05, 3, 10, 30])
 def test_law_over_its_range(tmp_path, kappa, m):
-    """The law shall keep its relative precision for any stiffness and exponent, from the thinnest layer to a thick one."""
+    """The law shall keep its relative precision for any stiffness and exponent, however thin the layer."""
     top = (100 / kappa) ** (1 / m)  # where p = 100
     overlaps = top * np.logspace(-6, 1, 50)
     law = law_of(tmp_path, overlaps, kappa, m)

@@ -197,8 +197,6 @@ Uh [a1, a2] = [0, -0.01 * y];
 tell("pressed", energyOf(a1[]));
 Uh [b1, b2] = [0, 0.01 * x * y];
 tell("sheared", energyOf(b1[]));
-Uh [c1, c2] = [0.01 * y * (x^2 - 4), 0];
-tell("bulged", energyOf(c1[]));
 """
 
 

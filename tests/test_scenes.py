@@ -1,0 +1,248 @@
+"""What single runs shall show: the exact state, no contact, runs that do not converge, and the files' contents."""
+
+import base64
+import re
+
+import numpy as np
+import pytest
+from freefem import LAW, OPEN, ROOT, WALL, run, run_in, script
+
+DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
+SCENES = [DISC, TWO_BODIES, BLOCK]
+
+# ---------------------------------------------------------------- the confined block's exact state
+
+E, NU, WIDTH, HEIGHT, D0, U0, GAP = 100.0, 0.3, 20.0, 20.0, -0.25, 2.5, 0.5
+CONFINED = E * (1 - NU) / ((1 + NU) * (1 - 2 * NU))
+
+
+def exact_state(kappa, m):
+    """(s, p): the root of kappa s^m = M (u0 - gap - d0 - s) / L, by bisection in s = d - d0."""
+    low, high = 0.0, U0 - GAP - D0
+    for _ in range(200):
+        s = 0.5 * (low + high)
+        if kappa * s**m > CONFINED * (U0 - GAP - D0 - s) / HEIGHT:
+            high = s
+        else:
+            low = s
+    return s, CONFINED * (U0 - GAP - D0 - s) / HEIGHT
+
+
+@pytest.mark.parametrize("method", ["paper", "paper from d0", "newton", "incremental"])
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("kappa, m", [(1e3, 3), (1, 1.1), (1e3, 20), (1e6, 3.3), (1e12, 3), (1e12, 1.05)])
+def test_confined_block(method, order, kappa, m):
+    """Under a flat wall the confined block shall be in the uniform state known exactly, to 1e-10."""
+    first = ["-T0", "d0"] if "d0" in method else []
+    flags = ["-order", order, "-h", 5, "-kappa", kappa, "-m", m, "-tol", 1e-12, "-eps", 1e-12]
+    result = run(BLOCK, "-method", method.split()[0], *first, *flags)
+    s, p = exact_state(kappa, m)
+    np.testing.assert_allclose(result.contact["pressure"], p, rtol=1e-10)
+    np.testing.assert_allclose(result.contact["overlap"], s + D0, rtol=0, atol=1e-10 * abs(D0))
+    assert result.force == pytest.approx(WIDTH * p, rel=1e-10)
+    # strain energy of the uniform strain p/M, and the layer's kappa s^(m+1) / (m+1)
+    energy = 0.5 * p**2 / CONFINED * WIDTH * HEIGHT + WIDTH * p * s / (m + 1)
+    assert result.energy == pytest.approx(energy, rel=1e-10)
+    assert result.halfWidth is None  # contact up to the last point
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_confined_block_of_hard_contact(order):
+    """Hard contact shall press the confined block's top to the wall exactly."""
+    result = run(BLOCK, "-method", "signorini", "-order", order, "-h", 5)
+    np.testing.assert_allclose(result.contact["pressure"], CONFINED * (U0 - GAP - D0) / HEIGHT, rtol=1e-10)
+    assert (result.contact["status"] == WALL).all()
+
+
+def test_confined_block_of_odd_shape(tmp_path):
+    """An element size that does not divide the block shall be rounded down to one that does."""
+    result = run(BLOCK, "-method", "newton", "-width", 7, "-h", 3, "-tol", 1e-12)
+    assert len(result.contact) == 4
+    assert result.contact["weight"].sum() == pytest.approx(7, rel=1e-12)
+    np.testing.assert_allclose(result.contact["pressure"], exact_state(1e3, 3)[1], rtol=1e-10)
+
+
+# ---------------------------------------------------------------- no contact
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("method", ["paper", "newton", "incremental", "signorini"])
+@pytest.mark.parametrize("u0", [0.2, 0.25, -1])
+def test_no_contact(scene, method, u0):
+    """Short of first touch (u0 = gap + d0), or just at it, the result shall be zero force, converged, nothing open."""
+    h = 5 if scene == BLOCK else 1
+    result = run(scene, "-method", method, "-u0", u0, "-h", h, "-steps", 2)
+    assert result.force == 0
+    assert result.pressureMax == 0
+    assert result.contactPoints == result.wallPoints == 0
+    assert result.halfWidth is None
+    assert result.energy == 0
+    assert result.overlapMax == pytest.approx(u0 - GAP, rel=1e-12)
+    assert (result.contact["status"] == OPEN).all()
+    assert result.newton <= 2
+
+
+@pytest.mark.parametrize("method", ["paper", "newton", "incremental", "signorini"])
+def test_first_touch(method):
+    """Just beyond first touch there shall be contact, at the disc's lowest point only."""
+    result = run(DISC, "-method", method, "-u0", 0.2501, "-h", 1)
+    assert result.force > 0
+    assert list(result.contact["x"][result.contact["status"] != OPEN]) == pytest.approx([0], abs=1e-9)
+
+
+# ---------------------------------------------------------------- not converged
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(
+    "flags, knobs",
+    [
+        (["-method", "paper", "-T0", "d0", "-maxNewton", 2], ["-maxNewton", "-tol"]),
+        (["-method", "newton", "-maxNewton", 2], ["-maxNewton", "-tol"]),
+        (["-method", "incremental", "-maxNewton", 2], ["-maxNewton", "-tol"]),
+        (["-method", "paper", "-T0", "d0", "-kappa", 100, "-maxAdaptations", 1], ["-maxAdaptations", "-eps"]),
+    ],
+)
+def test_not_converged(scene, flags, knobs):
+    """A run that does not converge shall end with code 20, its files written, and name the flag to turn."""
+    result = run(scene, *flags, "-h", 5 if scene == BLOCK else 1, expect=20)
+    assert result.summary["converged"] is False
+    message = next(line for line in result.stdout.splitlines() if "NOT CONVERGED" in line)
+    for knob in knobs:
+        assert knob in message
+        assert knob in result.summary["message"]
+    assert len(result.contact) == result.points
+    assert len(result.history) == result.newton
+    assert len(result.models) == len(result.newtonPerAdaptation)
+    if "-maxAdaptations" in flags:
+        assert result.adaptations == 1
+        assert result.modelError >= result.parameters["eps"]
+    else:
+        assert result.history["iteration"].max() == 2
+    if "incremental" in flags:
+        assert result.history["step"].max() < 20  # it stops at the load step that fails
+
+
+# ---------------------------------------------------------------- what the files say
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_summary_names_the_run(scene):
+    """summary.json shall carry scene, method and every parameter as it was used."""
+    result = run(scene, "-method", "newton", "-h", 1.25, "-kappa", "1.2345678901234567e3", "-nu", 0.25)
+    assert (result.scene, result.method, result.order, result.h) == (scene, "newton", 1, 1.25)
+    parameters = result.parameters
+    assert parameters["kappa"] == 1234.5678901234567
+    for name, value in (("E", 100), ("nu", 0.25), ("m", 3), ("d0", -0.25), ("rho", 100), ("T0", "0"), ("u0", 2.5)):
+        assert parameters[name] == value
+    for name in "width depth gap eps tol maxNewton maxAdaptations steps order h method out".split():
+        assert name in parameters
+
+
+def test_history_counts():
+    """history.csv shall have a row for each Newton step, its counts running through adaptations and load steps."""
+    paper = run(DISC, "-method", "paper", "-h", 0.5)
+    assert list(paper.history["newton"]) == list(range(1, paper.newton + 1))
+    counts = [int((paper.history["adaptation"] == n).sum()) for n in range(1, paper.adaptations + 1)]
+    assert counts == paper.newtonPerAdaptation
+    loaded = run(DISC, "-method", "incremental", "-h", 0.5)
+    assert loaded.history["step"].max() == 20
+    assert (np.diff(loaded.history["step"]) >= 0).all()
+    assert loaded.history["residual"][-1] == loaded.residual
+    assert loaded.history["force"][-1] == pytest.approx(loaded.force, rel=1e-12)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_contact_covers_the_slave_surface(order):
+    """contact.csv shall have every point of the slave surface, symmetric about the disc's axis, x rising."""
+    contact = run(DISC, "-method", "newton", "-h", 0.5, "-order", order).contact
+    assert len(contact) == 40 * order + 1
+    np.testing.assert_allclose(contact["x"], np.linspace(-9.9, 9.9, 40 * order + 1), atol=1e-9)
+    assert (contact["y"] == 20).all()
+    assert contact["weight"].sum() == pytest.approx(2 * 9.9, rel=1e-12)
+    np.testing.assert_allclose(contact["x"], -contact["x"][::-1], atol=1e-9)
+    pressure = contact["pressure"]
+    np.testing.assert_allclose(pressure, pressure[::-1], atol=0.02 * pressure.max())  # the mesh below is not symmetric
+    inside = contact["status"] == LAW
+    law = 1e3 * (contact["overlap"][inside] + 0.25) ** 3
+    np.testing.assert_allclose(pressure[inside], law, atol=1e-5 * pressure.max())
+
+
+def test_half_width_is_where_the_overlap_changes_sign():
+    """The half-width shall be the interpolated change of sign of d - d0."""
+    result = run(DISC, "-method", "newton", "-h", 0.5)
+    x, s = result.contact["x"], result.contact["overlap"] + 0.25
+    i = np.flatnonzero(s > 0)
+    left = np.interp(0, s[i[0] - 1 : i[0] + 1], x[i[0] - 1 : i[0] + 1])
+    right = np.interp(0, s[i[-1] : i[-1] + 2][::-1], x[i[-1] : i[-1] + 2][::-1])
+    assert result.halfWidth == pytest.approx(0.5 * (right - left), rel=1e-12)
+
+
+# ---------------------------------------------------------------- ParaView and the states
+
+
+def arrays_of(path):
+    """The arrays of a .vtu file, by name; the points have none and come as ''."""
+    text = path.read_text()
+    dtypes = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1", "Int64": "<i8"}
+    arrays = {}
+    for attributes, data in re.findall(r"<DataArray ([^>]*)>\s*([^<]*?)\s*</DataArray>", text):
+        kind = dict(re.findall(r'(\w+)="([^"]*)"', attributes))
+        raw = base64.b64decode("".join(data.split()))
+        size = int.from_bytes(raw[:4], "little")
+        values = np.frombuffer(raw[4 : 4 + size], dtypes[kind["type"]])
+        components = int(kind.get("NumberOfComponents", "1"))
+        arrays[kind.get("Name", "")] = values.reshape(-1, components) if components > 1 else values
+    return arrays
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_solution_for_paraview(tmp_path, order):
+    """solution.vtu shall hold displacement and von Mises stress: of the confined block, uniform strain e = p/M."""
+    out = tmp_path / "out"
+    result = run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-order", order, "-tol", 1e-12, out=out)
+    arrays = arrays_of(out / "solution.vtu")
+    points, displacement, stress = arrays[""], arrays["displacement"], arrays["vonMises"]
+    strain = result.pressureMax / CONFINED
+    assert len(points) == 25
+    np.testing.assert_allclose(displacement[:, 1], -strain * points[:, 1], atol=1e-6)
+    np.testing.assert_allclose(displacement[:, [0, 2]], 0, atol=1e-6)
+    np.testing.assert_allclose(stress, E / (1 + NU) * strain, rtol=1e-6)
+
+
+def test_solution_of_both_bodies(tmp_path):
+    """In solution.vtu the disc shall have moved down by u0 where it is pushed, the block not at all where clamped."""
+    out = tmp_path / "out"
+    run_in(ROOT, script(TWO_BODIES), "-method", "newton", "-h", 2, out=out)
+    arrays = arrays_of(out / "solution.vtu")
+    y, rise = arrays[""][:, 1], arrays["displacement"][:, 1]
+    np.testing.assert_allclose(rise[y == y.max()], -2.5, rtol=1e-6)
+    np.testing.assert_allclose(rise[y == 0], 0, atol=1e-12)
+    assert y.max() == pytest.approx(30.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
+def test_states(scene):
+    """-states 1 shall keep the mesh and a displacement for each Newton step, the rest state first."""
+    result = run(scene, "-method", "paper", "-h", 2, "-states", 1)
+    rows = {
+        name: np.loadtxt(result.folder / name, delimiter=",", skiprows=1) for name in ("states.csv", "triangles.csv")
+    }
+    triangles = rows["triangles.csv"].astype(int)
+    states = rows["states.csv"].reshape(-1, triangles[:, :3].max() + 1, 8)
+    assert set(triangles[:, 3]) == ({1} if scene == DISC else {1, 2})
+    assert (states[:, :, 3] == np.arange(states.shape[1])).all()
+    assert (states[0, :, 6:] == 0).all()
+    assert list(states[-result.newton :, 0, 2]) == list(range(1, result.newton + 1))
+    assert list(states[-result.newton :, 0, 1]) == list(result.history["adaptation"])
+    x, y, rise = states[-1, :, 4], states[-1, :, 5], states[-1, :, 7]
+    clamped = y == 0
+    assert (states[:, clamped, 6:] == 0).all()
+    if scene == TWO_BODIES:
+        np.testing.assert_allclose(rise[y == y.max()], -2.5, rtol=1e-9)
+    else:
+        # overlap = -gap + u0 - (R - sqrt(R^2 - x^2)) + u_y at the contact's points
+        top = np.abs(y - 20) < 1e-9
+        along = np.interp(result.contact["x"], np.sort(x[top]), rise[top][np.argsort(x[top])])
+        bottom = 10 - np.sqrt(100 - result.contact["x"] ** 2)
+        np.testing.assert_allclose(result.contact["overlap"], U0 - GAP - bottom + along, atol=1e-6)
