@@ -82,6 +82,14 @@ def test_no_contact(scene, method, u0):
     assert result.newton <= 2
 
 
+@pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
+def test_gap_is_that_of_the_true_circle(scene):
+    """The overlap without load shall be that of the circle, not of the facets of a mesh."""
+    contact = run(scene, "-method", "newton", "-u0", 0.2, "-h", 1).contact
+    circle = 0.2 - GAP - (10 - np.sqrt(100 - contact["x"] ** 2))
+    np.testing.assert_allclose(contact["overlap"], circle, rtol=0, atol=1e-12)
+
+
 @pytest.mark.parametrize("method", ["paper", "newton", "incremental", "signorini"])
 def test_first_touch(method):
     """Just beyond first touch there shall be contact, at the disc's lowest point only."""
@@ -176,6 +184,49 @@ def test_half_width_is_where_the_overlap_changes_sign():
     left = np.interp(0, s[i[0] - 1 : i[0] + 1], x[i[0] - 1 : i[0] + 1])
     right = np.interp(0, s[i[-1] : i[-1] + 2][::-1], x[i[-1] : i[-1] + 2][::-1])
     assert result.halfWidth == pytest.approx(0.5 * (right - left), rel=1e-12)
+
+
+def test_no_half_width_of_contact_up_to_the_edge():
+    """Contact up to the last point shall have no half-width."""
+    result = run(DISC, "-method", "newton", "-R", 1000, "-h", 1)
+    assert result.contactPoints == result.points
+    assert result.halfWidth is None
+
+
+EXTREMES = [
+    ["-nu", 0.499],
+    ["-nu", -0.9],
+    ["-nu", 0],
+    ["-E", 1e-6],
+    ["-E", 1e9],
+    ["-gap", -1, "-u0", 0],
+    ["-gap", 3, "-u0", 5],
+    ["-width", 12],
+    ["-depth", 2],
+    ["-R", 0.6],
+    ["-R", 300],
+    ["-m", 1.05],
+    ["-m", 30],
+    ["-kappa", 1e-3],
+    ["-kappa", 1e15],
+    ["-kappa", 1e30, "-m", 30],
+    ["-d0", -1e-6],
+    ["-d0", -2],
+]
+
+
+@pytest.mark.parametrize("flags", EXTREMES, ids=lambda flags: " ".join(map(str, flags)))
+@pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
+def test_extremes(scene, flags):
+    """Runs far from the paper's case shall converge, keep every invariant and agree between the methods."""
+    if scene == TWO_BODIES and flags[:2] == ["-gap", -1]:
+        flags = ["-gap", 1e-6]  # meshed bodies do not overlap at rest
+    newton = run(scene, "-method", "newton", "-h", 0.6, *flags)
+    assert newton.force > 0
+    assert newton.contactPoints >= 1
+    for threshold in ("0", "d0"):
+        paper = run(scene, "-method", "paper", "-T0", threshold, "-h", 0.6, *flags)
+        assert paper.force == pytest.approx(newton.force, rel=1e-4)
 
 
 # ---------------------------------------------------------------- ParaView and the states

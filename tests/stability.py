@@ -1,0 +1,430 @@
+"""Counts and failures over laws, stiffness, meshes, loads and thresholds: `make stability`, results/stability/.
+
+`stability.csv` has a row per run, `checks.csv` a row per comparison of a converged xnewton run with something that does
+not depend on it: plain Newton on the full law, the exact state of the confined block, the limits of a rigid layer and of
+a linear one, a twin in other units. `--quick` runs the subset that is part of the tests (`quick.csv`). Interrupted and
+started again, it goes on where it was.
+"""
+
+import argparse
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import campaign
+import numpy as np
+from campaign import case, markdown, select, value
+
+FOLDER = campaign.ROOT / "results" / "stability"
+COLUMNS = ("stepsPerModel",)
+
+KAPPAS = (1e-2, 1.0, 1e3, 1e6, 1e9, 1e12, 1e30)
+EXPONENTS = (1.05, 2, 3, 3.3, 10, 20, 30)
+POWER = [{"law": "power", "kappa": kappa, "m": m} for kappa in KAPPAS for m in EXPONENTS]
+OTHER = [
+    {"law": "exponential", "p0": 0.02, "beta": 60},
+    {"law": "exponential", "p0": 0.02, "beta": 500},
+    {"law": "barrier", "p0": 1},
+    {"law": "barrier", "p0": 1e-4},
+]
+LAWS = POWER + OTHER
+TABLE = {"law": "table", "table": "table.csv"}
+SAMPLE = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1e3, 1e12) for m in (1.05, 3, 20)] + OTHER
+STIFF = [{"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3), (1e30, 30))]
+
+TOL = 1e-8
+GAP, D0, U0, SIZE = 0.5, -0.25, 2.5, 40.0  # the paper's test
+COARSE = [{"h": 0.5, "order": 1}, {"h": 0.5, "order": 2}, {"h": 0.1, "order": 1}, {"h": 0.1, "order": 2}]
+FINE = [{"h": h, "order": order, "grading": 80} for h in (0.05, 0.025) for order in (1, 2)]
+SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 0.8}  # a guess of one xnewton run
+LOADS = {
+    "overlap 1e-12 of the size": GAP + D0 + 1e-12 * SIZE,
+    "overlap 1e-6 of the size": GAP + D0 + 1e-6 * SIZE,
+    "a tenth": 0.1 * U0 + 0.9 * (GAP + D0),
+    "half": 0.5 * U0,
+    "twice": 2 * U0,
+}
+STARTS = {"0": {"T0": "0"}, "d0": {"T0": "d0"}}
+
+# a steel bearing in SI units, and the same numbers with lengths in units of 5 mm, pressures in units of E
+STEEL = {"E": 2.1e11, "nu": 0.3, "R": 5e-3, "width": 2e-2, "depth": 1e-2, "gap": 1e-6, "d0": -1e-6, "u0": 4e-6}
+STEEL_SCENE = {"grading": 400}
+STEEL_KAPPA = [(20.0, 2.0), (1e3, 3.0), (1e9, 3.0)]  # kappa scaled: p/E = kappa' ((d - d0)/(1 micrometre))^m * 1e-6
+
+
+def weight(h: float = 0.25, order: int = 1, **_) -> float:
+    return SECONDS.get((h, order), {1: 1.0, 2: 2.5}[order])
+
+
+def cases() -> list[campaign.Case]:
+    """The whole map."""
+    found = []
+
+    def add(name, *parts, factor=1.0, **flags):
+        merged = {"tol": TOL}
+        for part in parts:
+            merged |= part
+        merged |= flags
+        found.append(case(name, weight=factor * weight(**merged), **{"method": "xnewton", **merged}))
+
+    # the grid: every law, stiffness and mesh; then other first thresholds, no start
+    for law in LAWS:
+        for mesh in COARSE + FINE:
+            add("grid", law, mesh, T0="auto")
+            add("no start", law, mesh, T0="auto", start="none", factor=1.3)
+        for mesh in COARSE:
+            for start in STARTS.values():
+                add("threshold", law, mesh, start)
+    # the same laws by the other methods, on one mesh; plain Newton on all the coarse ones, to compare with
+    for law in LAWS:
+        for mesh in COARSE:
+            add("rival", law, mesh, method="newton", factor=10)
+        mesh = {"h": 0.1, "order": 1}
+        add("rival", law, mesh, method="linesearch", factor=10)
+        add("rival", law, mesh, method="paper", T0="0", factor=10)
+        add("rival", law, mesh, method="paper", T0="d0", factor=10)
+        add("rival", law, mesh, method="incremental", steps=5, factor=25)
+        if (campaign.ROOT / campaign.script_of("disc-on-block", "ipopt")).exists():
+            add("rival", law, {"h": 0.5, "order": 1}, method="ipopt", factor=10)
+    # loads
+    for load, u0 in LOADS.items():
+        for law in SAMPLE:
+            for mesh in COARSE:
+                add("load", law, mesh, u0=u0)
+            for method in ("newton", "paper"):
+                add("load", law, {"h": 0.5, "order": 1}, u0=u0, method=method, factor=10)
+    # other scenes
+    for law in [*SAMPLE, TABLE]:
+        for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block"):
+            for mesh in ({"h": 0.5, "order": 1}, {"h": 0.25, "order": 2}, {"h": 0.1, "order": 1}):
+                add("scene", law, mesh, scene=scene)
+    for order in (1, 2):
+        add("scene", TABLE, h=0.1, order=order)
+        add("scene", TABLE, h=0.1, order=order, method="newton")
+    # against the exact state
+    for law in POWER:
+        add("exact", law, scene="confined-block", h=1.0, order=1)
+    # a rigid layer and a linear one
+    for m in (2, 3, 10):
+        for kappa in (1e6, 1e9, 1e12, 1e15, 1e18, 1e24, 1e30):
+            add("rigid layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2)
+    add("rigid layer", h=0.25, order=2, method="signorini")
+    add("rigid layer", h=0.25, order=2, law="signorini")
+    for m in (1.1, 1.01, 1.001, 1.0001, 1.00001):
+        for kappa in (1.0, 1e3):
+            add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2)
+            add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2, method="newton")
+    found += extreme()
+    found += steel()
+    return found
+
+
+def extreme() -> list[campaign.Case]:
+    """Named extreme cases, each with several laws."""
+    found = []
+
+    def add(name, scene="disc-on-block", laws=STIFF, **flags):
+        for law in laws:
+            merged = {"method": "xnewton", "tol": TOL, **law, **flags}
+            found.append(case(name, scene=scene, weight=weight(**merged), **merged))
+
+    add("nu 0.4999", nu=0.4999, h=0.1, order=2)
+    add("nu 0.4999", nu=0.4999, h=0.5, order=2)
+    for stiffness in (1e-6, 1e-3, 1.0, 1e4, 1e8, 1e12):
+        add("E", E=stiffness, h=0.25, order=2)
+    for d0 in (-1e-12, -1e-6, -1e-3, -1.0, -5.0):
+        add("d0", laws=STIFF + OTHER, d0=d0, h=0.25, order=2)
+    for aspect in (10, 100):
+        for order in (1, 2):
+            add("aspect", aspect=aspect, h=1.0, order=order)
+    for offset in (5, 15, 19, -20):
+        for order in (1, 2):
+            add("offset", offset=offset, h=0.25, order=order)
+    add("20 contacts", scene="wavy", laws=STIFF + OTHER, h=0.1, order=2)
+    add("20 contacts", scene="wavy", laws=STIFF + OTHER, h=0.1, order=1)
+    add("20 contacts", scene="wavy", laws=STIFF, h=0.1, order=2, u0=0.6)
+    for h in (0.25, 0.05):
+        add("flat punch", scene="flat-punch", laws=STIFF + OTHER, h=h, order=2)
+    for order in (1, 2):
+        add("u0 three times", laws=STIFF + OTHER, u0=3 * U0, h=0.1, order=order)
+    add("stiff disc", scene="meshed-disc", Eratio=1e6, h=0.25, order=2)
+    add("equal bodies", scene="meshed-disc", Eratio=1, h=0.25, order=2)
+    return found
+
+
+def steel() -> list[campaign.Case]:
+    """The bearing in SI units and its twin without units: lengths over R, pressures over E."""
+    found = []
+    radius, modulus = STEEL["R"], STEEL["E"]
+    for kappa, m in STEEL_KAPPA:
+        rigidity = kappa * modulus * 1e-6 / 1e-6**m
+        for h in (4e-3, 1e-3):
+            common = {"method": "xnewton", "tol": TOL, "law": "power", "m": m, "order": 2, **STEEL_SCENE}
+            lengths = {name: STEEL[name] for name in ("R", "width", "depth", "gap", "d0", "u0")} | {"h": h * radius}
+            found.append(case("steel SI", **common, **lengths, nu=0.3, E=modulus, kappa=rigidity))
+            scaled = {name: length / radius for name, length in lengths.items()}
+            found.append(case("steel twin", **common, **scaled, nu=0.3, E=1.0, kappa=rigidity * radius**m / modulus))
+    return found
+
+
+def quick() -> list[campaign.Case]:
+    """About 60 runs that touch every part of the map; half a minute on two cores."""
+    found = []
+
+    def add(name, *parts, scene="disc-on-block", **flags):
+        merged = {"method": "xnewton", "tol": TOL}
+        for part in parts:
+            merged |= part
+        merged |= flags
+        found.append(case(name, scene=scene, weight=weight(**merged), **merged))
+
+    corners = [
+        {"law": "power", "kappa": kappa, "m": m}
+        for kappa, m in ((1e-2, 1.05), (1e-2, 30), (1.0, 3), (1e3, 3), (1e6, 3.3), (1e9, 10), (1e12, 20), (1e30, 1.05))
+    ]
+    for law in [*corners, {"law": "power", "kappa": 1e30, "m": 30}, *OTHER]:
+        for mesh in ({"h": 0.5, "order": 1}, {"h": 0.5, "order": 2}, {"h": 0.1, "order": 1}):
+            add("grid", law, mesh, T0="auto")
+    for law in STIFF[1:4]:
+        add("grid", law, h=0.1, order=2, T0="auto")
+    for u0 in (LOADS["overlap 1e-12 of the size"], LOADS["overlap 1e-6 of the size"], LOADS["twice"]):
+        for law in (STIFF[0], STIFF[3]):
+            add("load", law, u0=u0, h=0.25, order=1)
+    add("nu 0.4999", STIFF[2], nu=0.4999, h=0.5, order=2)
+    for stiffness in (1e-6, 1e12):
+        add("E", STIFF[2], E=stiffness, h=0.5, order=2)
+    for d0 in (-1e-12, -5.0):
+        add("d0", STIFF[2], d0=d0, h=0.5, order=2)
+    add("aspect", STIFF[2], aspect=100, h=1.0, order=1)
+    add("offset", STIFF[2], offset=15, h=0.5, order=1)
+    for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block"):
+        add("scene", STIFF[2], scene=scene, h=0.25, order=1)
+    return found
+
+
+def measure(*_):
+    """Column stepsPerModel: the linearisations of each model, the first one first."""
+    return lambda item, summary, folder: {"stepsPerModel": " ".join(map(str, summary["newtonPerAdaptation"]))}
+
+
+def law_table() -> str:
+    """A measured law: 40 pairs of the power law kappa = 1e3, m = 3, up to an overlap of 1."""
+    overlaps = np.linspace(D0, 1.0, 40)
+    return "overlap,pressure\n" + "".join(f"{d:.12g},{1e3 * (d - D0) ** 3:.12g}\n" for d in overlaps)
+
+
+# ---------------------------------------------------------------- checks
+
+PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
+
+
+def checks(rows: list[dict[str, str]]) -> list[dict]:
+    """Comparisons of xnewton's answers with independent ones."""
+    good = [row for row in rows if row["status"] == "converged"]
+    return [
+        *against_newton(good),
+        *against_exact_state(good),
+        *rigid_layer(good),
+        *linear_layer(good),
+        *twins(good),
+    ]
+
+
+def check(what: str, row: dict, found: float, expected: float, tolerance: float, error: float | None = None) -> dict:
+    """One comparison; the error is relative unless given."""
+    if error is None:
+        error = abs(found - expected) / abs(expected) if expected else abs(found)
+    return {
+        "check": what,
+        "name": row["name"],
+        "flags": row["flags"],
+        "found": found,
+        "expected": expected,
+        "error": error,
+        "tolerance": tolerance,
+        "passed": bool(error <= tolerance),
+    }
+
+
+def against_newton(rows: list[dict]) -> list[dict]:
+    """Force and greatest pressure of plain Newton on the same problem; the energy never above any other method's.
+
+    Both stop at a residual of 1e-8; a soft body under a steep law turns that into at most 1e-6 of the force.
+    """
+    groups = defaultdict(list)
+    for row in rows:
+        if row["law"] != "table":
+            groups[tuple(row[name] for name in PROBLEM)].append(row)
+    found = []
+    for group in groups.values():
+        others = [row for row in group if row["method"] in ("newton", "linesearch", "incremental")]
+        for row in select(group, method="xnewton"):
+            for other in select(others, method="newton")[:1]:
+                found.append(check("force, newton", row, value(row, "force"), value(other, "force"), 1e-6))
+                found.append(check("pressure, newton", row, value(row, "pressureMax"), value(other, "pressureMax"), 1e-5))
+            if others:
+                lowest = min(value(other, "energy") for other in others)
+                above = (value(row, "energy") - lowest) / max(abs(lowest), 1e-300)
+                found.append(check("energy", row, value(row, "energy"), lowest, 1e-12, max(above, 0.0)))
+    return found
+
+
+def against_exact_state(rows: list[dict]) -> list[dict]:
+    """The confined block: one scalar equation for the uniform pressure."""
+    found = []
+    for row in select(rows, name="exact"):
+        young, nu, kappa, m, d0, gap, u0 = (value(row, name) for name in "E nu kappa m d0 gap u0".split())
+        modulus = young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+        push = u0 - gap - d0
+        low, high = -700.0, np.log(modulus * push / 20.0)  # of log p: p = M (push - s)/depth, s = (p/kappa)^(1/m)
+        for _ in range(200):
+            middle = 0.5 * (low + high)
+            s = np.exp((middle - np.log(kappa)) / m)
+            low, high = (middle, high) if modulus * (push - s) / 20.0 > np.exp(middle) else (low, middle)
+        found.append(check("exact state", row, value(row, "pressureMax"), float(np.exp(low)), 1e-7))
+    return found
+
+
+def rigid_layer(rows: list[dict]) -> list[dict]:
+    """kappa to infinity: the force tends to Signorini's with kappa^(-1/m); the observed rate."""
+    mine = select(rows, name="rigid layer")
+    limits = [row for row in mine if row["method"] == "signorini"]
+    if not limits:
+        return []
+    limit = value(limits[0], "force")
+    found = []
+    for other in select(mine, law="signorini", method="xnewton"):
+        found.append(check("hard contact", other, value(other, "force"), limit, 1e-7))
+    for m in (2, 3, 10):
+        line = sorted(select(mine, method="xnewton", law="power", m=m), key=lambda row: value(row, "kappa"))
+        away = [(value(row, "kappa"), limit - value(row, "force"), row) for row in line]
+        away = [entry for entry in away if entry[1] > 1e-6 * limit]  # above the accuracy of the runs
+        for (k1, d1, _), (k2, d2, row) in zip(away, away[1:], strict=False):
+            rate = np.log(d2 / d1) / np.log(k2 / k1)
+            close = d1 < 0.05 * limit  # the rate is that of the end
+            found.append(check(f"rate to hard contact, m = {m}", row, rate, -1 / m, 0.05 if close else 0.5))
+    return found
+
+
+def linear_layer(rows: list[dict]) -> list[dict]:
+    """m to 1: forces of m = 1 + e differ from the limit in proportion to e, the limit being plain Newton's at e = 1e-5."""
+    mine = select(rows, name="linear layer")
+    found = []
+    for kappa in (1.0, 1e3):
+        ends = select(mine, method="newton", kappa=kappa, m=1.00001)
+        line = sorted(select(mine, method="xnewton", kappa=kappa), key=lambda row: value(row, "m"))
+        if not ends:
+            continue
+        limit = value(ends[0], "force")
+        away = [(value(row, "m") - 1, abs(value(row, "force") - limit), row) for row in line if value(row, "m") > 1.00005]
+        for (e1, d1, _), (e2, d2, row) in zip(away, away[1:], strict=False):
+            rate = np.log((d2 + 1e-300) / (d1 + 1e-300)) / np.log(e2 / e1)
+            found.append(check("rate to a linear layer", row, rate, 1.0, 0.15))
+    return found
+
+
+def twins(rows: list[dict]) -> list[dict]:
+    """The bearing in SI units and its twin: the same counts, forces scaled."""
+    mine, theirs = select(rows, name="steel SI"), select(rows, name="steel twin")
+    found = []
+    for row in mine:
+        twin = [
+            other
+            for other in theirs
+            if abs(value(row, "h") / STEEL["R"] - value(other, "h")) < 1e-9
+            and value(row, "m") == value(other, "m")
+            and abs(value(row, "kappa") * STEEL["R"] ** value(row, "m") / STEEL["E"] / value(other, "kappa") - 1) < 1e-6
+        ]
+        if not twin:
+            continue
+        counts = "newton kernelNewton backsolves adaptations".split()
+        differing = sum(row[name] != twin[0][name] for name in counts)
+        found.append(check("twin, counts", row, differing, 0, 0))
+        scale = STEEL["E"] * STEEL["R"]
+        found.append(check("twin, force", row, value(row, "force") / scale, value(twin[0], "force"), 1e-9))
+    return found
+
+
+# ---------------------------------------------------------------- what came out
+
+
+def worst(rows: list[dict], name: str) -> str:
+    """The greatest count among the rows, or a dash."""
+    values = [value(row, name) for row in rows if row["status"] == "converged"]
+    return f"{max(values):.0f}" if values else "-"
+
+
+def report(rows: list[dict], verified: list[dict]) -> str:
+    """Worst counts by part of the map and by method, failures and failed checks."""
+    parts = []
+    counts = "newton kernelNewton backsolves adaptations".split()
+    header = ["part", "runs", "failed", "linearisations", "on the kernel model", "back-substitutions", "adaptations"]
+    lines = []
+    named = defaultdict(list)
+    for row in rows:
+        label = row["name"]
+        if label in ("grid", "no start"):
+            label += f", P{row['order']}, h = {row['h']}"
+        elif label == "threshold":
+            label += f" {row['T0'] if row['T0'] == 'd0' else '0'}"
+        elif label == "rival":
+            start = f", T0 = {row['T0']}" if row["method"] == "paper" else ""
+            label = f"{row['method']}{start}, P{row['order']}, h = {row['h']}"
+        if row["name"] != "rival" and row["method"] != "xnewton":
+            label += f" ({row['method']})"
+        named[label].append(row)
+    for label, group in sorted(named.items()):
+        failed = sum(row["status"] != "converged" for row in group)
+        lines.append([label, len(group), failed, *(worst(group, name) for name in counts)])
+    parts.append(markdown(header, lines))
+    failures = [row for row in rows if row["method"] == "xnewton" and row["status"] != "converged"]
+    parts.append(f"{len(rows)} runs; failures of xnewton: {len(failures)}")
+    parts += [f"  {row['status']}: {row['script']} {row['flags']}: {row['message']}" for row in failures]
+    bad = [entry for entry in verified if not entry["passed"]]
+    kinds = sorted({entry["check"] for entry in verified})
+    parts.append(f"{len(verified)} checks of xnewton's answers, {len(bad)} not passed")
+    table = []
+    for kind in kinds:
+        group = [entry for entry in verified if entry["check"] == kind]
+        table.append([kind, len(group), sum(not entry["passed"] for entry in group), f"{max(e['error'] for e in group):.1e}"])
+    parts.append(markdown(["check", "comparisons", "not passed", "greatest error"], table))
+    parts += [f"  {e['check']}: {e['found']!r}, expected {e['expected']!r}: {e['flags']}" for e in bad[:40]]
+    return "\n".join(parts)
+
+
+def write_checks(path: Path, entries: list[dict]) -> None:
+    temporary = path.with_name(f".{path.name}.part")
+    lines = [campaign.csv_line(entries[0])] + [campaign.csv_line(entry.values()) for entry in entries] if entries else []
+    temporary.write_text("".join(lines), encoding="utf-8")
+    temporary.replace(path)
+
+
+def run(path: Path, chosen: list[campaign.Case], jobs: int, root: Path = campaign.ROOT) -> list[dict[str, str]]:
+    """The rows of these cases, run where they are not there yet."""
+    files = {"table.csv": law_table()}
+    return campaign.run(chosen, path, jobs=jobs, columns=COLUMNS, measure=measure, root=root, files=files)
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="the subset that is part of the tests")
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time (default 2: they are counted, not timed)")
+    parser.add_argument("--out", type=Path, default=FOLDER, help="folder of the CSV files")
+    parser.add_argument("--root", type=Path, default=campaign.ROOT, help="the package whose scenes are run")
+    arguments = parser.parse_args(argv)
+    name, chosen = ("quick", quick()) if arguments.quick else ("stability", cases())
+    try:
+        rows = run(arguments.out / f"{name}.csv", chosen, arguments.jobs, arguments.root)
+    except KeyboardInterrupt:
+        print("\ninterrupted; started again, it goes on from here", file=sys.stderr)
+        return 130
+    verified = checks(rows)
+    if not arguments.quick:
+        write_checks(arguments.out / "checks.csv", verified)
+    print(report(rows, verified))
+    failed = any(row["method"] == "xnewton" and row["status"] != "converged" for row in rows)
+    return 1 if failed or not all(entry["passed"] for entry in verified) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,203 @@
+"""How runs are started and what they leave: folders, progress lines, help, meshes, interrupted runs, a full disk."""
+
+import os
+import re
+import resource
+import signal
+import subprocess
+
+import pytest
+from freefem import FREEFEM, ROOT, environment, listing, run_in, script, tree
+
+DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
+SCENES = [DISC, TWO_BODIES, BLOCK]
+FLAGS = (
+    "-E -nu -width -depth -u0 -gap -kappa -m -d0 -rho -h -order -T0 -eps -tol -maxNewton -maxAdaptations -steps".split()
+)
+FLAGS += ["-method", "-out"]
+RESULTS = ["adaptations.csv", "contact.csv", "history.csv", "solution.vtu", "summary.json"]
+BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment
+
+# ---------------------------------------------------------------- starting
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """A fresh clone, in a folder whose name has a blank."""
+    return tree(tmp_path_factory.mktemp("interface") / "a package")
+
+
+@pytest.mark.parametrize(
+    "folder, name, scene",
+    [
+        (".", "edp/main.edp", DISC),
+        ("edp", "main.edp", DISC),
+        (".", "edp/scenes/meshed-disc.edp", TWO_BODIES),
+        ("edp", "scenes/meshed-disc.edp", TWO_BODIES),
+        ("edp/scenes", "meshed-disc.edp", TWO_BODIES),
+        (".", "edp/scenes/confined-block.edp", BLOCK),
+        ("edp/scenes", "confined-block.edp", BLOCK),
+    ],
+)
+@pytest.mark.parametrize("method", ["paper", "newton"])
+def test_started_from_either_folder(package, folder, name, scene, method):
+    """Runs shall start without any environment, from the root and from edp/, their results in the root's results/."""
+    before = set(listing(package))
+    run_in(package / folder, name, "-method", method, "-h", 2, env=BARE)
+    out = package / "results" / scene / method
+    assert sorted(path.name for path in out.iterdir()) == RESULTS
+    new = {path for path in set(listing(package)) - before if not path.startswith(("results", "meshes/generated"))}
+    assert not new
+
+
+def test_started_with_a_whole_path(package, tmp_path):
+    """-out shall be taken relative to the folder that the run is started in, blanks allowed."""
+    run_in(
+        package / "edp", package / "edp/main.edp", "-method", "newton", "-h", 2, "-out", "../my results/a b", env=BARE
+    )
+    assert sorted(path.name for path in (package / "my results" / "a b").iterdir()) == RESULTS
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_help_names_every_flag(package, scene, tmp_path):
+    """-help shall print the table of flags with defaults and ranges, and neither run nor write."""
+    before = listing(package)
+    stdout = run_in(package, script(scene), "-help", "-h", "2").stdout
+    rows = {line.split()[0]: line for line in stdout.splitlines() if line.startswith("-")}
+    wanted = [*FLAGS, *([] if scene == BLOCK else ["-R"]), *(["-Eratio"] if scene == TWO_BODIES else [])]
+    for flag in wanted:
+        assert flag in rows
+        assert re.search(r"\(.+\)$", rows[flag]), flag
+    for flag, default in (("-kappa", "1000"), ("-m", "3"), ("-d0", "-0.25"), ("-eps", "0.0001"), ("-tol", "1e-06")):
+        assert rows[flag].split()[1] == default
+    assert listing(package) == before
+
+
+# ---------------------------------------------------------------- progress
+
+
+def is_progress(line):
+    """A line of a Newton step: step, adaptation, count, residual, five numbers more, back-substitutions."""
+    words = line.split()
+    return len(words) == 10 and all(re.fullmatch(r"[-+.\de]+", word) for word in words)
+
+
+def test_progress_appears_as_it_happens(tmp_path):
+    """The line of a Newton step shall come through a pipe when the step is done, not when a buffer is full.
+
+    The run is stopped there: what it leaves must not look like results.
+    """
+    out = tmp_path / "out"
+    flags = ["-method", "incremental", "-steps", "100000", "-h", "0.1", "-order", "2", "-out", str(out)]
+    command = [*FREEFEM, script(DISC), *flags]
+    process = subprocess.Popen(command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    try:
+        text = b""
+        while not any(map(is_progress, text.decode().split("\n")[:-1])):
+            some = os.read(process.stdout.fileno(), 65536)
+            assert some, text.decode()
+            text += some
+        assert process.poll() is None
+        # a buffer of 4096 bytes would hold some forty of them
+        assert sum(map(is_progress, text.decode().split("\n")[:-1])) < 10
+    finally:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+    assert out.is_dir()
+    assert not [path for path in out.iterdir() if not path.name.endswith(".tmp")]
+
+
+def test_output_has_its_parts(tmp_path):
+    """A run shall print its parameters once, the table of Newton steps in aligned columns, and a closing summary."""
+    result = run_in(ROOT, script(DISC), "-method", "paper", "-h", 1, out=tmp_path / "out")
+    lines = result.stdout.splitlines()
+    for flag in FLAGS:
+        assert sum(line.split()[:1] == [flag] for line in lines) == 1
+    progress = [line for line in lines if is_progress(line)]
+    assert len(progress) == result.newton
+    assert len({len(line) for line in progress}) == 1
+    head = lines[lines.index(progress[0]) - 1]
+    assert len(head) == len(progress[0])
+    for word in ("adapt", "newton", "residual", "contact", "changes", "wall", "overlap", "force", "backsolves"):
+        assert word in head
+    closing = "\n".join(lines[lines.index(progress[-1]) + 1 :])
+    assert "converged" in closing
+    assert f"{result.force:.6g}" in closing
+    assert str(tmp_path / "out") in closing
+
+
+# ---------------------------------------------------------------- meshes
+
+
+def test_mesh_is_made_once(package):
+    """A mesh shall be kept under a name with its parameters, taken again, and made anew when a .geo is newer."""
+    generated = package / "meshes" / "generated"
+    flags = ["-method", "newton", "-h", 2.5, "-R", 12, "-vtu", 0]
+    before = set(listing(package))
+    run_in(package, script(DISC), *flags)
+    (name,) = [path for path in set(listing(package)) - before if path.endswith(".msh")]
+    assert "h0.0625" in name
+    assert "reach0.297" in name  # 0.99 R / width
+    mesh = package / name
+    assert not [path for path in generated.iterdir() if path.suffix != ".msh"]
+
+    text, stamp = mesh.read_text(), mesh.stat().st_mtime_ns
+    run_in(package / "edp", "main.edp", *flags)
+    assert mesh.stat().st_mtime_ns == stamp
+
+    hour = 3600 * 10**9
+    os.utime(mesh, ns=(stamp - 1000 * hour, stamp - 1000 * hour))
+    run_in(package, script(DISC), *flags)
+    assert mesh.stat().st_mtime_ns > stamp - hour
+    assert mesh.read_text() == text
+
+
+def test_same_shape_same_mesh(package):
+    """The same shape in other units shall take the same mesh."""
+    flags = ["-method", "newton", "-vtu", 0]
+    run_in(package, script(DISC), *flags, "-h", 2)
+    before = listing(package)
+    metres = ["-width", 0.04, "-depth", 0.02, "-R", 0.01, "-gap", 0.0005, "-u0", 0.0025, "-d0", -0.00025, "-h", 0.002]
+    run_in(package, script(DISC), *flags, *metres)
+    assert listing(package) == before
+
+
+# ---------------------------------------------------------------- whole or not at all
+
+
+def test_second_run_replaces_the_first(tmp_path):
+    """A run into the folder of another shall leave its own files only."""
+    out = tmp_path / "out"
+    run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-states", 1, out=out)
+    assert sorted(path.name for path in out.iterdir()) == sorted([*RESULTS, "states.csv", "triangles.csv"])
+    (out / "mine.txt").touch()
+    run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-vtu", 0, out=out)
+    assert sorted(path.name for path in out.iterdir()) == sorted(["mine.txt", *RESULTS[:3], "summary.json"])
+
+
+@pytest.mark.parametrize("limit", [0, 700, 5000, 20000])
+def test_disk_full(tmp_path, limit):
+    """When files cannot be written to their end, the run shall fail, say so, and keep none of them.
+
+    The limit on a file's size stands for a full disk: writing beyond it fails.
+    """
+
+    def no_room():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    out = tmp_path / "out"
+    done = subprocess.run(
+        [*FREEFEM, script(BLOCK), "-method", "newton", "-h", "1", "-out", str(out)],
+        cwd=ROOT,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        preexec_fn=no_room,
+        timeout=100,
+    )
+    assert done.returncode not in (0, 10, 20), done.stdout
+    assert "could not be written whole" in done.stdout
+    assert list(out.iterdir()) == []

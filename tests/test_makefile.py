@@ -1,0 +1,84 @@
+"""The Makefile as a user meets it. Nothing is installed here: set-up counts as done (-o)."""
+
+import shutil
+
+import pytest
+from freefem import ROOT, execute, tree
+
+DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]
+
+
+def make(folder, *words):
+    return execute(["make", *DONE, *words], cwd=folder)
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    return tree(tmp_path_factory.mktemp("make") / "package")
+
+
+def test_make_alone_lists_the_targets():
+    """`make` without a target shall list the targets and the scenes, and make nothing."""
+    code, stdout = make(ROOT)
+    assert code == 0
+    for target in ("run", "figures", "test", "lint", "clean"):
+        assert f"make {target} " in stdout
+    for scene in ("disc-on-block", "meshed-disc", "confined-block"):
+        assert scene in stdout
+
+
+def test_make_run(package, tmp_path):
+    """`make run` shall run the scene with the flags that it is given."""
+    code, stdout = make(package, "run", "SCENE=confined-block", f"ARGS=-method newton -h 5 -out {tmp_path / 'out'}")
+    assert code == 0, stdout
+    assert (tmp_path / "out" / "summary.json").exists()
+
+
+@pytest.mark.parametrize(
+    "flags, why", [("-kappa 0", "refused input"), ("-method newton -h 5 -maxNewton 1", "not converged")]
+)
+def test_make_run_fails(package, flags, why):
+    """`make run` shall fail with the run, and say why in words."""
+    code, stdout = make(package, "run", "SCENE=confined-block", f"ARGS={flags}")
+    assert code != 0
+    assert why in stdout
+
+
+def test_unknown_scene(package):
+    """An unknown scene shall be refused in one line that names those there are."""
+    code, stdout = make(package, "run", "SCENE=disk-on-block")
+    assert code != 0
+    (line,) = stdout.splitlines()
+    for word in ("disk-on-block", "disc-on-block", "meshed-disc", "confined-block"):
+        assert word in line
+
+
+def test_results_are_targets(package):
+    """A result shall be made once, again when a source is newer, and not at all while it is current."""
+    target = "results/figures/paper/summary.json"
+    code, stdout = make(package, target)
+    assert code == 0, stdout
+    made = (package / target).stat().st_mtime_ns
+    make(package, target)
+    assert (package / target).stat().st_mtime_ns == made
+    (package / "edp" / "laws" / "power.idp").touch()
+    make(package, target)
+    assert (package / target).stat().st_mtime_ns > made
+
+
+def test_clean(package):
+    """`make clean` shall remove results and generated meshes, nothing else."""
+    for name in ("results/x/y.csv", "meshes/generated/z.msh", "edp/mine.edp"):
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).touch()
+    code, _ = make(package, "clean")
+    assert code == 0
+    assert not (package / "results").exists()
+    assert not (package / "meshes" / "generated").exists()
+    assert (package / "meshes" / "block.geo").exists()
+    assert (package / "edp" / "mine.edp").exists()
+
+
+def test_make_is_there():
+    """The tests themselves need make."""
+    assert shutil.which("make")
