@@ -18,7 +18,7 @@ Point(4) = {-half, depth, 0};
 Line(1) = {1, 2};
 Line(2) = {2, 3};
 Line(6) = {4, 1};
-sides[] = {2, 6};
+sides[] = {2};
 top[] = {};
 from = 3;
 to = 4;
@@ -48,6 +48,7 @@ Transfinite Curve {4} = 2 * Ceil((b - a) / (2 * h) - 1e-9) + 1;
 Physical Curve("clamped", 1) = {1};
 Physical Curve("contact", 2) = {4};
 Physical Curve("free", 3) = {sides[]};
+Physical Curve("left", 6) = {6};
 Physical Surface("block", 1) = {1};
 
 middle = 0.5 * (a + b);

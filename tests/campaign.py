@@ -1,12 +1,12 @@
 """Campaigns: many runs of the scenes, a CSV row for each; interrupted and started again, they go on where they were.
 
 A campaign is a list of `Case`s, each a scene's script with its flags. `run(cases, path)` executes those that `path` has
-no row of yet; what makes a row current are the case's name, script and flags and the sources themselves, comments aside.
-The sources are copied first, so that a file edited meanwhile does not mix two versions. Runs that do not converge, crash
-or take too long are rows too: the column `status` says so.
+no row of yet. What makes a row current are the case's name, script and flags and the sources, comments aside. The
+sources are copied first, so that a file edited meanwhile does not mix two versions. Runs that do not converge, crash or
+take too long are rows too: the column `status` says so.
 
-Seconds: `cpu`, `seconds_*` are process CPU seconds, told by the run itself; `wall` is that of the whole process, start to
-end, and `memory` its greatest resident set in MB, both measured from outside. One BLAS thread. A case with several
+Seconds: `cpu`, `seconds_*` are process CPU seconds, told by the run itself; `wall` is that of the whole process, start
+to end, and `memory` its greatest resident set in MB, both measured from outside. One BLAS thread. A case with several
 repeats gives the median of each of these and of `costRatio`; everything else is that of the first repeat.
 """
 
@@ -36,7 +36,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 FREEFEM = ("FreeFem++", "-nw", "-v", "0")
 THREADS = 1  # of BLAS, in every run
-REPEATS_END = 60.0  # wall seconds of a case after which it is not repeated once more
+REPEATS_END = 20.0  # wall seconds of a case after which it is not repeated once more
 STATUS = {0: "converged", 20: "not converged", 10: "refused"}  # by exit code; every other one is a crash
 
 # Columns of every campaign: what was asked for, how it ended, what it cost and what it gave.
@@ -86,6 +86,11 @@ def script_of(scene: str, method: str | None = None) -> str:
     if method == "ipopt":
         return f"edp/scenes/{scene}-ipopt.edp"
     return "edp/main.edp" if scene == "disc-on-block" else f"edp/scenes/{scene}.edp"
+
+
+def has_ipopt(root: Path = ROOT) -> bool:
+    """Whether this version of the package has the method ipopt."""
+    return (root / script_of("disc-on-block", "ipopt")).exists()
 
 
 def flag_text(value: object) -> str:
