@@ -21,7 +21,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures test lint clean distclean
+.PHONY: help setup system run figures bench stability test lint clean distclean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -109,6 +109,26 @@ $(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(fi
 # A pattern with two targets makes both in one go.
 results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | .venv/run.stamp
 	$(PYTHON) -m postprocess figure $* --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
+
+# ---------------------------------------------------------------- campaigns
+
+# Many runs, a row each; interrupted and started again, they go on where they were.
+CAMPAIGN_FIGURES = $(basename $(notdir $(wildcard postprocess/figures/$@_*.py)))
+
+define DRAW_CAMPAIGN
+for figure in $(CAMPAIGN_FIGURES); do \
+	  $(PYTHON) -m postprocess figure $$figure --out results/$@/$$figure.pdf results/$@ || exit 1; \
+	done
+endef
+
+bench: .venv/run.stamp | system ## error against run time, cost growth, ingredients, timed one run at a time, into results/bench/
+	@$(PYTHON) tests/bench.py
+	@$(DRAW_CAMPAIGN)
+
+# Code 1: a run failed or a check did not pass; the figures show it.
+stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
+	@$(PYTHON) tests/stability.py; code=$$?; \
+	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
 
 # ---------------------------------------------------------------- checks
 

@@ -10,6 +10,7 @@ it was. A part can be run alone: `python tests/bench.py growth`.
 """
 
 import argparse
+import dataclasses
 import functools
 import sys
 import tempfile
@@ -377,6 +378,7 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)} (default: all)")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1: they are timed)")
+    parser.add_argument("--repeats", type=int, default=REPEATS, help=f"of a timed run at most (default {REPEATS})")
     parser.add_argument("--out", type=Path, default=FOLDER, help="folder of the CSV files")
     parser.add_argument("--root", type=Path, default=campaign.ROOT, help="the package whose scenes are run")
     arguments = parser.parse_args(argv)
@@ -386,10 +388,10 @@ def main(argv: list[str] | None = None) -> int:
     for name in arguments.parts or PARTS:
         cases, columns, measure, report = PARTS[name]
         path = arguments.out / f"{name}.csv"
+        chosen = cases(arguments.root)
+        chosen = [dataclasses.replace(item, repeats=min(item.repeats, arguments.repeats)) for item in chosen]
         try:
-            rows = campaign.run(
-                cases(arguments.root), path, arguments.jobs, columns, measure, arguments.root, title=name
-            )
+            rows = campaign.run(chosen, path, arguments.jobs, columns, measure, arguments.root, title=name)
         except KeyboardInterrupt:
             print("\ninterrupted; started again, it goes on from here", file=sys.stderr)
             return 130

@@ -103,6 +103,11 @@ def flag_text(value):
     return str(value)
 
 
+def named(value):
+    """A parametrised test's name: its flags as they are typed."""
+    return " ".join(map(flag_text, value)) if isinstance(value, list) else None
+
+
 def execute(command, cwd=ROOT, env=None):
     """Run a command to its end; (code, output)."""
     done = subprocess.run(

@@ -138,7 +138,8 @@ def test_mesh_is_made_once(package):
     run_in(package, script(DISC), *flags)
     (name,) = [path for path in set(listing(package)) - before if path.endswith(".msh")]
     assert "h0.0625" in name
-    assert "reach0.297" in name  # 0.99 R / width
+    assert "left0.203" in name  # 0.5 - 0.99 R / width
+    assert "right0.797" in name
     mesh = package / name
     assert not [path for path in generated.iterdir() if path.suffix != ".msh"]
 

@@ -10,12 +10,10 @@ getcontext().prec = 40
 
 PRELUDE = """
 string scene = "unit";
-string methods = "newton paper signorini";
 include "case/flags.idp"
 include "case/output.idp"
 include "case/options.idp"
 flagsDone("unit");
-include "laws/laws.idp"
 int rows;
 ifstream in("rows.txt");
 in >> rows;

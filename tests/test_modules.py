@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, scene_text, snippet, told
+from freefem import ROOT, named, scene_text, snippet, told
 
 E, NU = 100.0, 0.3
 LAME = E * NU / ((1 + NU) * (1 - 2 * NU))
@@ -76,6 +76,7 @@ def test_flags_in_any_order(tmp_path):
         (["stray"], ["stray", "-alpha -count -word -text"]),
         (["-text", "a", "b"], ["b", "-alpha -count -word -text"]),
     ],
+    ids=named,
 )
 def test_flags_refused(tmp_path, flags, words):
     """What is not allowed shall be refused in the first line, naming flag, value and what is allowed."""
@@ -150,8 +151,8 @@ def test_decimal_text(tmp_path):
 
 
 MESH = """
-string[int] names = ["depth", "reach", "h", "grading"];
-real[int] values = [0.5, 0.25, 0.125, 0];
+string[int] names = ["depth", "left", "right", "h", "grading"];
+real[int] values = [0.5, 0.25, 0.75, 0.125, 0];
 mesh Th = gmshMesh("block", names, values, 40.);
 """
 
@@ -216,7 +217,7 @@ def test_elastic_energy(tmp_path, order):
 
 WEIGHT = """
 macro loads(v1, v2) int2d(Th)(-3. * v2) //
-bool halfStorage"""
+"""
 
 SINKING = """
 set(stiffness, solver = "CHOLMOD");
@@ -229,9 +230,10 @@ tell("load", bodyLoad.sum);
 
 def test_body_load(tmp_path):
     """A confined column under its own weight g shall sink at its top by g L^2 / (2 M)."""
+    discretise = 'include "bodies/discretise-2d.idp"'
     text = scene_text("confined-block")
-    assert text.count("bool halfStorage") == 1
-    values = told(snippet(tmp_path, text.replace("bool halfStorage", WEIGHT) + SINKING, *BLOCK, "-order", 2))
+    assert text.count(discretise) == 1
+    values = told(snippet(tmp_path, text.replace(discretise, WEIGHT + discretise) + SINKING, *BLOCK, "-order", 2))
     np.testing.assert_allclose(values["top"], -3 * 2**2 / (2 * CONFINED), rtol=1e-12)
 
 

@@ -464,7 +464,8 @@ def draw(name, *folders):
 
 class TestFigures:
     def test_every_figure_is_tested(self):
-        assert set(figures.modules()) == set(FIGURES)
+        of_runs = {name for name, module in figures.modules().items() if not hasattr(module, "READ")}
+        assert of_runs == set(FIGURES)  # those of campaigns: test_campaign.py
 
     @pytest.mark.parametrize(("name", "names"), [(name, names) for name in FIGURES for names in FIGURES[name]])
     def test_written_as_pdf_and_png(self, runs, tmp_path, capsys, name, names):

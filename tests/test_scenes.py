@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import LAW, OPEN, ROOT, WALL, run, run_in, script
+from freefem import LAW, OPEN, ROOT, WALL, named, run, run_in, script
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 SCENES = [DISC, TWO_BODIES, BLOCK]
@@ -110,6 +110,7 @@ def test_first_touch(method):
         (["-method", "incremental", "-maxNewton", 2], ["-maxNewton", "-tol"]),
         (["-method", "paper", "-T0", "d0", "-kappa", 100, "-maxAdaptations", 1], ["-maxAdaptations", "-eps"]),
     ],
+    ids=named,
 )
 def test_not_converged(scene, flags, knobs):
     """A run that does not converge shall end with code 20, its files written, and name the flag to turn."""
@@ -215,7 +216,7 @@ EXTREMES = [
 ]
 
 
-@pytest.mark.parametrize("flags", EXTREMES, ids=lambda flags: " ".join(map(str, flags)))
+@pytest.mark.parametrize("flags", EXTREMES, ids=named)
 @pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
 def test_extremes(scene, flags):
     """Runs far from the paper's case shall converge, keep every invariant and agree between the methods."""

@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     table = [f"  {name:<{width}}{module.__doc__.splitlines()[0]}" for name, module in modules.items()]
     parser.epilog = "\n".join(["figures:", *table])
     parser.add_argument("name", choices=list(modules), metavar="NAME", help="which figure to draw")
-    parser.add_argument("folders", nargs="+", metavar="DIR", help="a run's result folder")
+    parser.add_argument("folders", nargs="+", metavar="DIR", help="a run's or a campaign's result folder")
     parser.add_argument("--out", required=True, metavar="FILE.pdf", help="where to write; folders are created")
     parser.add_argument(
         "--units",
@@ -35,7 +35,8 @@ def run(arguments: argparse.Namespace) -> None:
     if given < least or (most is not None and given > most):
         wanted = f"{least}" if least == most else f"{least} or more"
         raise ResultsError(arguments.name, f"takes {wanted} run folder(s), {given} given")
-    runs = [read_run(folder) for folder in arguments.folders]
+    read = getattr(module, "READ", read_run)
+    runs = [read(folder) for folder in arguments.folders]
     with style.look():
         figure = module.draw(runs, style.Units(*map(style.plain, arguments.units)))
         for path in write_figure(figure, arguments.out):

@@ -2,7 +2,8 @@
 
 A module is named like its figure, the first line of its docstring is the help text, `RUNS = (least, most)` is the
 number of run folders it takes (most is None where any number will do), and `draw(runs, units)` returns a matplotlib
-`Figure`. It raises `ResultsError` when a run does not hold what the figure shows.
+`Figure`. It raises `ResultsError` when a run does not hold what the figure shows. A figure of something other than runs
+names what reads a folder: `READ = read_campaign`.
 """
 
 import importlib

@@ -1,0 +1,67 @@
+"""what each ingredient of the method saves: linearisations and back-substitutions, scene by scene (results/bench)"""
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from postprocess import style
+from postprocess.campaign import LAWS, Campaign, good, heat_map, law, number, read_campaign
+
+RUNS = (1, 1)
+READ = read_campaign
+
+FLAGS = {
+    "start": "start {}",
+    "preconditioner": "preconditioner {}",
+    "inner": "inner {}",
+    "threshold": "threshold {}",
+    "T0": "T0 {}",
+}
+MEASURES = {"newton": "linearisations", "backsolves": "back-substitutions"}
+
+
+def draw(runs: list[Campaign], units: style.Units) -> Figure:
+    """A row per exchange of ingredients, a column per scene and law; hatched where the run failed."""
+    rows = runs[0].rows("ingredients", "flags scene status law kappa m p0 beta newton backsolves")
+    variants = list(dict.fromkeys(map(variant, rows)))
+    columns = list(dict.fromkeys((row["scene"], words(row)) for row in rows))
+    figure = Figure(figsize=(style.PAGE, 0.92 * style.PAGE), layout="constrained")
+    panels = figure.subplots(len(MEASURES), 1, sharex=True)
+    for axes, (measure, title) in zip(panels, MEASURES.items(), strict=True):
+        counts = np.full((len(variants), len(columns)), np.nan)
+        failed = np.zeros(counts.shape, bool)
+        for row in rows:
+            at = variants.index(variant(row)), columns.index((row["scene"], words(row)))
+            counts[at] = number(row, measure)
+            failed[at] |= not good(row)
+        most = max(np.nanmax(counts), 10)
+        heat_map(axes, counts, failed, (mpl.colormaps["viridis_r"], LogNorm(1, most)), size=6.5)
+        axes.set_yticks(range(len(variants)), variants, fontsize=7)
+        axes.invert_yaxis()
+        axes.set_title(f"{title} (hatched: failed)", loc="left")
+        for place in range(1, len(columns)):
+            if columns[place][0] != columns[place - 1][0]:
+                axes.axvline(place - 0.5, color=style.BLACK, linewidth=0.8)
+    panels[-1].set_xticks(range(len(columns)), [text for _, text in columns], rotation=90, fontsize=7)
+    for scene in dict.fromkeys(scene for scene, _ in columns):
+        places = [place for place, column in enumerate(columns) if column[0] == scene]
+        panels[0].text(
+            np.mean(places), 1.1, scene, transform=panels[0].get_xaxis_transform(), ha="center", fontsize=7.5
+        )
+    panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=20)
+    return figure
+
+
+def variant(row: dict) -> str:
+    """The ingredients that the run's flags exchange."""
+    texts = row["flags"].split()
+    flags = dict(zip(texts[::2], texts[1::2], strict=True))
+    found = [form.format(flags[f"-{name}"]) for name, form in FLAGS.items() if f"-{name}" in flags]
+    return ",\n".join([", ".join(found[:3]), *([", ".join(found[3:])] if found[3:] else [])]) if found else "default"
+
+
+def words(row: dict) -> str:
+    if row["law"] != "power":
+        return LAWS.get(law(row), law(row)).replace("\n", " ")
+    return rf"${style.number(number(row, 'kappa'))}$, ${style.number(number(row, 'm'))}$"

@@ -1,0 +1,82 @@
+"""linearisations of every method over stiffness and exponent, failures hatched (results/stability)"""
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from postprocess import style
+from postprocess.campaign import (
+    LAWS,
+    METHODS,
+    NAMES,
+    Campaign,
+    exponent_ticks,
+    good,
+    heat_map,
+    law,
+    method,
+    number,
+    read_campaign,
+    select,
+)
+
+RUNS = (1, 1)
+READ = read_campaign
+
+MESH = {"h": 0.1, "order": 1}
+
+
+def draw(runs: list[Campaign], units: style.Units) -> Figure:
+    """A panel per method, all on one mesh: rows kappa, columns m; below each, the other laws."""
+    columns = "name status method T0 law kappa m p0 beta h order newton"
+    rows = select(runs[0].rows("stability", columns), **MESH)
+    rows = [*select(rows, name="grid"), *select(rows, name="rival")]
+    present = [name for name in METHODS if any(method(row) == name for row in rows)]
+    groups = {NAMES[name]: [row for row in rows if method(row) == name] for name in present}
+    return panels(groups, "newton", f"Newton steps, P{MESH['order']}, $h = {MESH['h']}$, residual $10^{{-8}}$")
+
+
+def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float | None = None) -> Figure:
+    """Heat maps of the greatest count among the rows that share kappa and m, or a law: a panel for each group."""
+    every = [row for rows in groups.values() for row in rows]
+    power = select(every, law="power")
+    kappas = sorted({number(row, "kappa") for row in power})
+    exponents = sorted({number(row, "m") for row in power})
+    others = [name for name in LAWS if any(row["law"] != "power" and law(row) == name for row in every)]
+    counted = [number(row, measure) for row in every if good(row)]
+    scale = LogNorm(1, most or max([10, *counted]))
+    wide = 4 if len(groups) > 4 else 2
+    high = -(-len(groups) // wide)
+    figure = Figure(
+        figsize=(style.PAGE, style.PAGE * (0.06 + high * (0.34 if wide == 4 else 0.36))), layout="constrained"
+    )
+    figure.suptitle(f"{title} (hatched: failed)", fontsize=9, x=0.01, ha="left")
+    outer = figure.add_gridspec(high, wide)
+    for place, (name, rows) in enumerate(groups.items()):
+        inner = outer[divmod(place, wide)].subgridspec(2, 1, height_ratios=[len(kappas), 1.0], hspace=0.02)
+        above, below = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
+        cells = [[select(rows, law="power", kappa=kappa, m=m) for m in exponents] for kappa in kappas]
+        heat_map(above, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
+        above.set_title(name, loc="left")
+        above.set_yticks(range(len(kappas)), exponent_ticks(kappas))
+        above.set_xticks(range(len(exponents)), [f"{m:g}" for m in exponents])
+        above.set_ylabel(r"$\kappa$", rotation=0)
+        above.set_xlabel("$m$", labelpad=0)
+        if not others:
+            below.set_axis_off()
+            continue
+        cells = [[[row for row in rows if row["law"] != "power" and law(row) == other] for other in others]]
+        heat_map(below, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
+        below.set_yticks([])
+        below.set_xticks(range(len(others)), [LAWS[other] for other in others], fontsize=7)
+    return figure
+
+
+def greatest(cells: list[list[list[dict]]], measure: str) -> tuple[np.ndarray, np.ndarray]:
+    """Per cell the greatest count of its rows, NaN without any, and whether one of them failed."""
+    counts = [
+        [max((number(row, measure) for row in cell if good(row)), default=np.nan) for cell in line] for line in cells
+    ]
+    failed = [[any(not good(row) for row in cell) for cell in line] for line in cells]
+    return np.array(counts), np.array(failed)

@@ -1,0 +1,258 @@
+"""The runner of the campaigns on a stand-in for FreeFEM, and the quick stability campaign on the real one."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import bench
+import campaign
+import numpy as np
+import pytest
+import stability
+from campaign import Case, case, read_rows, value
+
+# Writes a summary as a run does; -code N ends with it, -sleep S takes that long first, -count FILE adds a line to it.
+STAND_IN = """
+import json, os, sys, time
+flags = dict(zip(sys.argv[2::2], sys.argv[3::2]))
+if "-count" in flags:
+    with open(flags["-count"], "a") as file:
+        file.write(sys.argv[1] + chr(10))
+print("first line")
+time.sleep(float(flags.get("-sleep", 0)))
+code = int(flags.get("-code", 0))
+if code in (0, 20):
+    seconds = dict(mesh=0, assembly=1, factorisation=1, contact=2, total=4)
+    summary = dict(scene="stand-in", converged=code == 0, message="why, in words", newton=3, adaptations=1)
+    summary |= dict(costRatio=2.0, seconds=seconds, force=1.5, ndof=10, parameters=dict(kappa=1000, m=3, threads=7))
+    with open(flags["-out"] + "/summary.json", "w") as file:
+        json.dump(summary, file)
+if code < 0:
+    os.kill(os.getpid(), -code)
+sys.exit(code)
+"""
+
+
+@pytest.fixture
+def runner(tmp_path):
+    """runner(cases, **options) runs a campaign of the stand-in into campaign.csv of the test's folder."""
+    root = tmp_path / "package"
+    (root / "edp").mkdir(parents=True)
+    (root / "edp" / "main.edp").write_text("// a scene\nreal a = 1; // a comment\n")
+    stand_in = tmp_path / "stand_in.py"
+    stand_in.write_text(STAND_IN)
+
+    def go(cases, **options):
+        command = [sys.executable, str(stand_in)]
+        return campaign.run(cases, tmp_path / "campaign.csv", root=root, freefem=command, **options)
+
+    go.path, go.count, go.root = tmp_path / "campaign.csv", tmp_path / "count", root
+    go.case = lambda *flags, **options: Case("part", "edp/main.edp", ("-count", str(go.count), *flags), **options)
+    go.runs = lambda: len(go.count.read_text().splitlines()) if go.count.exists() else 0
+    return go
+
+
+def test_a_row_per_run(runner):
+    """Each run shall be a row with its flags, how it ended, what the run tells and what was measured from outside."""
+    rows = runner([runner.case("-kappa", "1000"), runner.case("-kappa", "2", "-code", "20")])
+    assert [row["status"] for row in rows] == ["converged", "not converged"]
+    assert [row["message"] for row in rows] == ["", "why, in words"]
+    assert rows[0]["kappa"] == "1000" and rows[0]["newton"] == "3" and rows[0]["scene"] == "stand-in"
+    assert value(rows[0], "cpu") == 4 and 0 < value(rows[0], "wall") < 20 and 1 < value(rows[0], "memory") < 1000
+    assert rows[0]["threads"] == "1" and int(rows[0]["cores"]) >= 1 and rows[0]["machine"] and rows[0]["freefem"]
+    assert np.isnan(value(rows[0], "backsolves"))
+
+
+@pytest.mark.parametrize(
+    "flags, timeout, status",
+    [
+        (["-code", "10"], 60, "refused"),
+        (["-code", "8"], 60, "crash 8"),
+        (["-code", "-11"], 60, "crash -11"),
+        (["-sleep", "60"], 0.5, "timeout"),
+    ],
+)
+def test_failures_stay_as_rows(runner, flags, timeout, status):
+    """A run that is refused, crashes or takes too long shall be a row that says so, and the campaign shall go on."""
+    begin = time.monotonic()
+    rows = runner([runner.case(*flags, timeout=timeout), runner.case("-after", "1")])
+    assert [row["status"] for row in rows] == [status, "converged"]
+    assert time.monotonic() - begin < 30
+    if status.startswith(("refused", "crash")):
+        assert "first line" in rows[0]["message"] or rows[0]["message"] == ""
+
+
+def test_repeats_give_medians(runner):
+    """A timed case shall be run as often as asked; a failed one once."""
+    rows = runner([runner.case("-a", "1", repeats=5)])
+    assert rows[0]["repeats"] == "5" and runner.runs() == 5
+    rows = runner([runner.case("-code", "20", repeats=5)])
+    assert rows[0]["repeats"] == "1" and runner.runs() == 6
+
+
+def test_started_again_it_runs_what_is_missing(runner):
+    """Rows that are there shall not be run again; a comment changes no result, another source does."""
+    first, second = runner.case("-a", "1"), runner.case("-a", "2")
+    runner([first])
+    assert runner.runs() == 1
+    assert len(runner([first, second])) == 2 and runner.runs() == 2
+    (runner.root / "edp" / "main.edp").write_text("// the same scene\n\nreal a  = 1;\n")
+    runner([first, second])
+    assert runner.runs() == 2
+    (runner.root / "edp" / "main.edp").write_text("real a = 2;\n")
+    assert len(runner([first, second])) == 2 and runner.runs() == 4
+
+
+@pytest.mark.parametrize("cut", [1, 30, 200])
+def test_a_row_that_was_cut_off_is_run_again(runner, cut):
+    """A line that was being written when the machine stopped shall be dropped, and its case run again."""
+    cases = [runner.case("-a", str(number)) for number in range(3)]
+    runner(cases)
+    whole = runner.path.read_bytes()
+    runner.path.write_bytes(whole[:-cut])
+    assert len(read_rows(runner.path)) == 2
+    assert len(runner(cases)) == 3 and runner.runs() == 4
+    with runner.path.open() as file:
+        assert {len(line) for line in csv.reader(file)} == {len(campaign.COLUMNS)}
+
+
+def test_a_case_given_twice_is_one_row(runner):
+    """The same part, script and flags shall be run once."""
+    assert len(runner([runner.case("-a", "1")] * 2)) == 1 and runner.runs() == 1
+
+
+def test_several_at_a_time(runner):
+    """With several jobs runs shall overlap in time, and the rows come in the order of the list."""
+    begin = time.monotonic()
+    rows = runner([runner.case("-sleep", "1", "-kappa", str(number)) for number in range(4)], jobs=4)
+    assert time.monotonic() - begin < 3.5
+    assert [row["flags"].split()[-1] for row in rows] == ["0", "1", "2", "3"]
+
+
+def test_further_columns(runner):
+    """A campaign shall be able to measure a run's files; a column that was not announced is an error."""
+
+    def measure(sources, processes):
+        assert (sources / "edp" / "main.edp").exists() and (sources / "extra.csv").read_text() == "x"
+        return lambda item, summary, folder: {"twice": 2 * summary["force"]}
+
+    rows = runner([runner.case("-a", "1")], columns=["twice"], measure=measure, files={"extra.csv": "x"})
+    assert rows[0]["twice"] == "3.0"
+    with pytest.raises(ValueError, match="no column for twice"):
+        runner([runner.case("-a", "2")], measure=measure, files={"extra.csv": "x"})
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_interrupted_it_leaves_a_valid_table(runner, tmp_path, how):
+    """Interrupted, a campaign shall end its runs, keep the rows that it has, and leave none half written."""
+    script = f"""
+import sys
+sys.path.insert(0, {str(campaign.ROOT / "tests")!r})
+import campaign
+from pathlib import Path
+cases = [campaign.Case("part", "edp/main.edp", ("-sleep", seconds, "-count", {str(runner.count)!r}))
+         for seconds in ("0", "50")]
+try:
+    campaign.run(cases, Path({str(runner.path)!r}), root=Path({str(runner.root)!r}),
+                 freefem=[sys.executable, {str(tmp_path / "stand_in.py")!r}])
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+    process = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.DEVNULL, start_new_session=True)
+    deadline = time.monotonic() + 30
+    while runner.runs() < 2 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.kill(process.pid, how)
+    assert process.wait(timeout=20) == 130
+    assert [row["flags"].split()[1] for row in read_rows(runner.path)] == ["0"]
+    assert not list(tmp_path.glob(".campaign*"))
+
+
+def test_the_time_left(capsys):
+    """Progress shall tell runs done, all runs, the time left and the failures."""
+    progress = campaign.Progress("title", total=4.0, count=2, stream=sys.stderr)
+    progress.step(1.0, good=False)
+    progress.begin -= 10
+    line = progress.line(progress.begin + 10)
+    assert "1/2" in line and "0:30 left" in line and "1 not converged" in line and line.count("#") == 7
+    assert campaign.clock(3661) == "1:01:01"
+
+
+def test_cases_are_flags_of_the_scenes():
+    """A case shall name the scene's script and give numbers exactly."""
+    item = case("part", scene="wavy", kappa=1e30, u0=stability.LOADS["overlap 1e-12 of the size"], h=0.1, T0="d0")
+    assert item.script == "edp/scenes/wavy.edp"
+    assert item.parameters == {"kappa": "1e+30", "u0": repr(0.25 + 4e-11), "h": "0.1", "T0": "d0"}
+    assert case("part", method="ipopt").script == "edp/scenes/disc-on-block-ipopt.edp"
+
+
+def test_the_campaigns_are_large_enough():
+    """The stability map shall have at least 600 runs, each once; every part of the benchmark shall have some."""
+    cases = stability.cases()
+    assert len(cases) >= 600 and len({item.key for item in cases}) >= 0.99 * len(cases)
+    assert {item.parameters["method"] for item in cases} >= {"xnewton", "paper", "newton", "linesearch", "incremental"}
+    for parts, *_ in bench.PARTS.values():
+        assert len(parts(campaign.ROOT)) > 50
+
+
+def test_errors_of_the_benchmark():
+    """The interpolation of the reference shall be exact for a cubic, and the fitted exponent for a power."""
+    x = np.linspace(-1, 1, 9)
+    at = np.linspace(-1, 1, 50)
+    assert bench.cubic(x, x**3 - x, at) == pytest.approx(at**3 - at, abs=1e-14)
+    sizes = np.array([1e4, 1e5, 1e6])
+    assert bench.exponent(sizes, 3e-5 * sizes**1.2) == pytest.approx(1.2)
+
+
+def test_markdown():
+    """A table shall have a header, a rule and a line a row."""
+    assert campaign.markdown(["a", "b"], [[1, 2]]) == "| a | b |\n| --- | --- |\n| 1 | 2 |"
+
+
+# ---------------------------------------------------------------- the real runs
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    return stability.run(tmp_path_factory.mktemp("stability") / "quick.csv", stability.quick(), jobs=2)
+
+
+def test_the_quick_campaign_has_no_failure(quick):
+    """The default method shall solve every case of the quick stability campaign."""
+    assert 55 <= len(quick) <= 70
+    assert [(row["flags"], row["status"], row["message"]) for row in quick if row["status"] != "converged"] == []
+    assert all(value(row, "residual") <= 1e-8 for row in quick)
+
+
+def test_the_quick_campaign_keeps_the_counts(quick):
+    """On the paper's geometry it shall take at most 4 linearisations, 20 back-substitutions and 2 adaptations."""
+    grid = campaign.select(quick, name="grid")
+    assert len(grid) >= 40
+    for name, most in (("newton", 4), ("backsolves", 20), ("adaptations", 2), ("factorisations", 1)):
+        assert [row["flags"] for row in grid if value(row, name) > most] == [], name
+    for row in quick:
+        assert value(row, "newton") <= 10 and value(row, "adaptations") <= 2, row["flags"]
+
+
+def test_summary_of_the_quick_campaign(quick):
+    """The report shall name each part and count the failures."""
+    text = stability.report(quick, [])
+    assert "failures of xnewton: 0" in text and "| load |" in text
+
+
+def test_checks_find_a_wrong_answer():
+    """A force that differs from plain Newton's shall not pass."""
+    names = [*campaign.COLUMNS, *stability.COLUMNS]
+    row = dict.fromkeys(names, "") | {"law": "power", "name": "grid", "status": "converged", "method": "xnewton"}
+    row |= {"force": "1.0", "pressureMax": "1.0", "energy": "1.0"}
+    newton = row | {"method": "newton", "name": "rival"}
+    assert all(entry["passed"] for entry in stability.checks([row, newton]))
+    failed = [entry["check"] for entry in stability.checks([row | {"force": "1.00001", "energy": "1.1"}, newton])]
+    assert len(failed) == 3
+    wrong = stability.checks([row | {"force": "1.00001", "energy": "1.1"}, newton])
+    assert [entry["passed"] for entry in wrong] == [False, True, False]
+    assert json.dumps(wrong)

@@ -1,0 +1,329 @@
+"""README.md and edp/README.md against the package: flags, files, commands, examples, counts, the paper in the code."""
+
+import functools
+import json
+import re
+import shlex
+
+import pytest
+from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script, tree
+from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
+
+README = (ROOT / "README.md").read_text()
+THEORY = (ROOT / "edp" / "README.md").read_text()
+DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]  # set-up counts as done
+# what stands for a table's values in the commands
+VALUES = {"H": 2, "T0": 0, "TOL": 1e-6, "ORDER": 1, "METHOD": "paper", "KAPPA": 1e6, "M": 2, "RATIO": 1e3}
+LAW = "linear"  # the law that the README adds
+
+
+def section(text, title):
+    """The text below a heading, down to the next one of the same or a higher level."""
+    (level, start), *_ = [(len(m[1]), m.end()) for m in re.finditer(rf"^(#+) {re.escape(title)}$", text, re.M)]
+    end = re.search(rf"^#{{1,{level}}} ", text[start:], re.M)
+    return text[start:][: end.start() if end else None]
+
+
+def rows(text):
+    """The rows of the tables in the text as lists of cells, without heads and rules."""
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    return [row for row, after in zip(cells, [*cells[1:], []], strict=True) if not (is_rule(row) or is_rule(after))]
+
+
+def is_rule(row):
+    return bool(row) and all(re.fullmatch(r":?-+:?", cell) for cell in row)
+
+
+def quoted(text):
+    """What stands in backticks, fenced blocks left out."""
+    return re.findall(r"`([^`\n]+)`", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S))
+
+
+def fences(text, kind):
+    """The fenced blocks of a kind."""
+    return re.findall(rf"^```{kind}\n(.*?)^```", text, re.M | re.S)
+
+
+SCENES = [quoted(name)[0] for name, *_ in rows(section(README, "Scenes"))]
+
+# ---------------------------------------------------------------- scenes and flags
+
+
+@functools.cache
+def help_table(scene):
+    """{flag: (default, words of the rest)} as -help prints them."""
+    lines = run_in(ROOT, script(scene), "-help").stdout.splitlines()
+    return {line.split()[0]: line[18:].split() for line in lines if line.startswith("-")}
+
+
+def documented():
+    """{flag: (default's cell, unit)} of the README's table."""
+    table = [row for row in rows(section(README, "Flags")) if row[0].startswith("`")]
+    return {quoted(flag)[0]: (default, unit) for flag, default, unit, _ in table}
+
+
+def default_for(scene, cell):
+    """The default of a cell such as "40 (`confined-block`: 20)"."""
+    own = re.search(rf"`{scene}`: ([^;)]+)", cell)
+    return own[1].strip() if own else cell.split(" (")[0]
+
+
+def test_every_scene_is_documented():
+    """The README shall name every scene with its script, and no other."""
+    assert sorted(SCENES) == sorted(["disc-on-block", *(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))])
+    for name, path, _ in rows(section(README, "Scenes")):
+        assert quoted(path) == [script(quoted(name)[0])]
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_flags(scene):
+    """Every flag of -help shall stand in the README with this scene's default and unit."""
+    table = documented()
+    for flag, words in help_table(scene).items():
+        assert flag in table, f"{flag} is not documented"
+        default, unit = table[flag]
+        if flag == "-out":
+            results = "disc-on-block" if scene == "disc-on-block-ipopt" else scene
+            assert re.search(rf"results/{results}/\w+$", words[0])
+            continue
+        expected = default_for(scene, default)
+        if scene == "disc-on-block-ipopt" and "other methods:" in default:  # its default method is another one
+            expected = re.search(r"other methods: ([^;)]+)", default)[1]
+        assert words[0] == expected, flag
+        assert not unit or words[1] == unit, flag
+
+
+def test_no_other_flags():
+    """The README shall document no flag that no scene has."""
+    known = set().union(*(help_table(scene) for scene in SCENES))
+    assert documented().keys() <= known
+    mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README) if word not in ("-help", "-kapa", "-spring")}
+    assert mentioned <= known
+
+
+def test_methods_and_laws():
+    """The methods and the laws of -help shall be those that the README names."""
+    for scene, flag, title, end in (("disc-on-block", "-method", "Methods", 7), ("disc-on-block", "-law", "Laws", 99)):
+        words = " ".join(help_table(scene)[flag])
+        allowed = re.search(r"one of: ([^)]*)", words)[1].split()
+        assert sorted(quoted(name)[0] for name, *_ in rows(section(README, title))[:end]) == sorted(allowed)
+
+
+# ---------------------------------------------------------------- files
+
+
+def flat(summary):
+    """The keys of summary.json, nested ones as "seconds.mesh"; parameters are the flags."""
+    keys = set()
+    for key, value in summary.items():
+        keys |= {f"{key}.{inner}" for inner in value} if isinstance(value, dict) and key != "parameters" else {key}
+    return keys
+
+
+@pytest.fixture(scope="module")
+def paper_run(tmp_path_factory):
+    """A run that writes every file."""
+    out = tmp_path_factory.mktemp("readme") / "paper"
+    return run_in(ROOT, script("disc-on-block"), "-method", "paper", "-h", 2, "-states", 1, out=out)
+
+
+def test_summary_keys(paper_run):
+    """summary.json shall have the keys that the README lists, and no other."""
+    listed = [key for keys, *_ in rows(section(README, "Files of a run")) for key in quoted(keys)]
+    files = {path.name for path in paper_run.folder.iterdir()}
+    assert {key for key in listed if not key.endswith(".csv") and not key.startswith("-")} == flat(paper_run.summary)
+    assert {key for key in listed if key.endswith(".csv")} == {name for name in files if name.endswith(".csv")}
+    assert paper_run.summary["parameters"].keys() == {flag[1:] for flag in help_table("disc-on-block")}
+
+
+def test_columns(paper_run):
+    """Each table shall have the columns that the README lists, in that order."""
+    tables = [row for row in rows(section(README, "Files of a run")) if ".csv" in row[0]]
+    assert len(tables) == 5
+    for name, _, columns in tables:
+        head = (paper_run.folder / quoted(name)[0]).read_text().splitlines()[0]
+        assert [head] == quoted(columns), name
+
+
+def test_vtu(paper_run):
+    """solution.vtu shall hold the fields that the README names."""
+    words = (paper_run.folder / "solution.vtu").read_bytes()
+    for name in ("displacement", "vonMises"):
+        assert f"`{name}`" in section(README, "Files of a run")
+        assert f'Name="{name}"'.encode() in words
+
+
+def test_exit_codes(tmp_path):
+    """The exit codes shall be those of the README."""
+    codes = [int(row[0]) for row in rows(section(README, "Files of a run")) if row[0].isdigit()]
+    assert codes == [0, 10, 20, 30]
+    run_in(ROOT, script("confined-block"), "-h", 5, out=tmp_path / "a", expect=0)
+    run_in(ROOT, script("confined-block"), "-kapa", 5, out=tmp_path / "b", expect=10)
+    run_in(ROOT, script("confined-block"), "-method", "newton", "-maxNewton", 1, "-h", 5, out=tmp_path / "c", expect=20)
+    assert '"message": "Newton' in (tmp_path / "c" / "summary.json").read_text()
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_what_a_scene_loads(scene, tmp_path):
+    """A scene shall load the modules and plugins that the README lists."""
+    text = section(README, "What a scene loads")
+    common = {name for name in quoted(text.split("\n|")[0]) if "/" in name}
+    (row,) = [row for row in rows(text) if quoted(row[0]) == [scene]]
+    result = run_in(ROOT, script(scene), "-h", 4, out=tmp_path / "out")
+    assert set(result.modules) == common | set(quoted(row[1]))
+    assert set(result.plugins) == set(quoted(row[2]))
+
+
+# ---------------------------------------------------------------- commands
+
+
+def commands():
+    """The lines of the README's sh blocks."""
+    return [line for block in fences(README, "sh") for line in block.splitlines() if line and not line.startswith("#")]
+
+
+FREEFEM_COMMANDS = [line for line in commands() if line.startswith("FreeFem++")]
+MAKE_COMMANDS = sorted({line for line in [*commands(), *quoted(README)] if line.startswith("make ")})
+
+
+@pytest.mark.parametrize("line", FREEFEM_COMMANDS)
+def test_freefem_commands(line, tmp_path):
+    """FreeFEM's commands shall run, on a coarse mesh and with a value for each placeholder."""
+    words = [str(VALUES.get(word, word)) for word in shlex.split(line)]
+    assert words[: len(FREEFEM)] == FREEFEM
+    if "-h" in words:
+        words[words.index("-h") + 1] = "2"
+    code, stdout = execute([*words, *([] if "-help" in words else ["-out", tmp_path / "out"])], ROOT)
+    assert code == 0, stdout
+
+
+def test_placeholders():
+    """Every word in capitals in a command shall be one that the tests know."""
+    for line in FREEFEM_COMMANDS:
+        assert set(re.findall(r" ([A-Z][A-Z0-9]*)\b", line)) <= VALUES.keys()
+
+
+def test_make_commands():
+    """Every target of make that the README names shall exist, and make know how to bring it up to date."""
+    assert len(MAKE_COMMANDS) > 5
+    for line in MAKE_COMMANDS:
+        if "SCENE=name" not in line:
+            code, stdout = execute(["make", "-n", *DONE, *shlex.split(line)[1:]], ROOT)
+            assert code == 0, f"{line}: {stdout}"
+
+
+def test_show(paper_run):
+    """The command that prints a summary shall do so."""
+    (line,) = [line for line in commands() if line.startswith(".venv")]
+    code, stdout = execute([*shlex.split(line)[:-1], paper_run.folder], ROOT, environment())
+    assert code == 0
+    assert "adaptations" in stdout
+
+
+# ---------------------------------------------------------------- examples
+
+
+def test_scene_example():
+    """The scene that the README walks through shall be the one in edp/scenes/."""
+    (example,) = fences(section(README, "Writing a scene"), "freefem")
+    assert example == (ROOT / "edp/scenes/flat-punch.edp").read_text()
+
+
+def test_law_example(tmp_path):
+    """The law that the README adds shall work: the exact state of the confined block, by every method that it has."""
+    law, listed = fences(section(README, "Adding a law"), "freefem")
+    macro, include = listed.splitlines()
+    package = tree(tmp_path / "package")
+    (package / "edp/laws" / f"{LAW}.idp").write_text(law)
+    laws = package / "edp/laws/laws.idp"
+    text, lists = re.subn(r"^macro eachLaw\(do\).*$", macro, laws.read_text(), flags=re.M)
+    assert macro.replace(f" do({LAW})", "") in (ROOT / "edp/laws/laws.idp").read_text()
+    text, includes = re.subn(r'^include "laws/signorini.idp"$', rf"\g<0>\n{include}", text, flags=re.M)
+    assert lists == includes == 1
+    laws.write_text(text)
+
+    width, depth, spring, d0, approach, modulus, nu = 20, 20, 500, -0.25, 2.5 - 0.5, 100, 0.3
+    confined = modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / depth
+    pressure = spring * confined * (approach - d0) / (spring + confined)  # two springs in series
+    energy = 0.5 * width * pressure * (approach - d0)
+    for method in ("xnewton", "paper", "newton"):
+        flags = ["-law", LAW, "-spring", spring, "-method", method, "-h", 4, "-tol", 1e-11, "-vtu", 0]
+        result = run_in(package, script("confined-block"), *flags, out=tmp_path / method)
+        assert abs(result.force / (width * pressure) - 1) < 1e-9
+        assert abs(result.energy / energy - 1) < 1e-9
+
+
+# ---------------------------------------------------------------- numbers
+
+
+def test_the_papers_count():
+    """The README's table of adaptations and Newton steps shall hold (its two coarsest meshes)."""
+    table = [row for row in rows(section(README, "The paper's count")) if row[0] in ("P1, 1", "P1, 0.5")]
+    assert len(table) == 2
+    for mesh, *cells in table:
+        cases = [(start, tol) for start in ("0", "d0") for tol in ("1e-4", "1e-6", "1e-8")]
+        for (start, tol), cell in zip(cases, cells, strict=True):
+            flags = ["-method", "paper", "-order", 1, "-h", mesh.split(", ")[1], "-T0", start, "-tol", tol]
+            result = run("disc-on-block", *flags)
+            assert f"{result.adaptations} / {result.newton}" == cell, (mesh, start, tol)
+
+
+def test_counts_of_xnewton():
+    """A cell of the README's table of Newton steps and back-substitutions shall hold."""
+    text = section(README, "Newton steps and back-substitutions over stiffness and exponent")
+    (cell,) = [row[3] for row in rows(text) if len(row) == 8 and row[0] == "1e12"]
+    result = run("disc-on-block", "-order", 2, "-h", 0.1, "-tol", "1e-8", "-kappa", "1e12", "-m", 3)
+    steps, backsolves = map(int, cell.split(" / "))
+    assert result.newton <= steps
+    assert result.backsolves <= backsolves
+    assert result.factorisations == result.adaptations == 1
+
+
+def test_reference_values():
+    """The README's reference values shall be those that the tests compare with."""
+    values = re.findall(r"(?:force|pressure|half-width) (\d+\.\d{5,})", section(README, "Accuracy"))
+    assert tuple(map(float, values)) == (FORCE, PRESSURE_MAX, HALF_WIDTH)
+
+
+# ---------------------------------------------------------------- theory
+
+
+def test_from_the_paper_to_the_code():
+    """Each text of the table shall stand in the file that it names; no equation and no line shall be missing."""
+    table = rows(section(THEORY, "From the paper to the code"))
+    for what, file, text in table:
+        assert quoted(text)[0] in (ROOT / "edp" / quoted(file)[0]).read_text(), what
+    names = " ".join(row[0] for row in table)
+    assert {*map(str, range(1, 9))} <= set(re.findall(r"\((\d)\)", names))
+    assert {*map(str, range(1, 11))} == set(re.findall(r"line (\d+)", names))
+
+
+def test_every_module_is_in_the_map():
+    """The theory's list of modules shall be that of the package."""
+    listed = {quoted(row[0])[0] for row in rows(section(THEORY, "Modules")) if ".idp" in row[0]}
+    assert listed == {str(path.relative_to(ROOT / "edp")) for path in (ROOT / "edp").rglob("*.idp")}
+
+
+def test_notation():
+    """Every name that the notation table gives shall exist in the code."""
+    code = " ".join(path.read_text() for path in (ROOT / "edp").rglob("*.idp"))
+    for row in rows(section(THEORY, "Notation")):
+        for name in quoted(row[1]):
+            assert re.search(rf"\b{name}\b", code), name
+
+
+@pytest.mark.parametrize("text", [README, THEORY], ids=["README.md", "edp/README.md"])
+def test_links(text):
+    """Relative links and the picture shall exist."""
+    base = ROOT if text is README else ROOT / "edp"
+    for target in re.findall(r"\]\(([^)#]+)\)", text):
+        assert target.startswith("http") or (base / target).exists(), target
+    assert (ROOT / "postprocess/readme-figure.png").stat().st_size < 150_000
+
+
+def test_parameters_are_what_was_used(paper_run):
+    """`parameters` shall hold the flags as they were used."""
+    parameters = json.loads((paper_run.folder / "summary.json").read_text())["parameters"]
+    assert parameters["method"] == "paper"
+    assert parameters["h"] == 2
