@@ -15,6 +15,11 @@ import pytest
 import stability
 from campaign import Case, case, read_rows, value
 
+from postprocess import figures
+from postprocess.__main__ import main
+from postprocess.campaign import read_campaign
+from postprocess.results import ResultsError
+
 # Writes a summary as a run does; -code N ends with it, -sleep S takes that long first, -count FILE adds a line to it.
 STAND_IN = """
 import json, os, sys, time
@@ -211,6 +216,76 @@ def test_errors_of_the_benchmark():
 def test_markdown():
     """A table shall have a header, a rule and a line a row."""
     assert campaign.markdown(["a", "b"], [[1, 2]]) == "| a | b |\n| --- | --- |\n| 1 | 2 |"
+
+
+# ---------------------------------------------------------------- figures
+
+FIGURES = sorted(name for name, module in figures.modules().items() if hasattr(module, "READ"))
+
+
+def made_up(item, columns, every):
+    """A row such as the case might give; every so many cases one has failed."""
+    dofs = 512 / float(item.parameters.get("h", 0.25)) ** 2
+    row = dict.fromkeys(columns, "1") | {
+        "p0": "0.02",
+        "beta": "60",
+        "T0": "0",
+        "costRatio": "1.3",
+        "memory": dofs / 500,
+    }
+    row |= {name: text for name, text in item.parameters.items() if name in columns}
+    row |= {
+        "name": item.name,
+        "script": item.script,
+        "flags": " ".join(item.flags),
+        "scene": item.script.split("/")[-1],
+    }
+    row |= {"status": "timeout" if every == 0 else "converged", "ndof": dofs, "cpu": 1e-5 * dofs}
+    row |= {"newton": 1 + len(row["flags"]) % 7, "seconds_assembly": 1e-5 * dofs}
+    return row | {name: 0.1 / dofs for name in columns if name.endswith("Error")}
+
+
+@pytest.fixture(scope="module")
+def campaigns(tmp_path_factory):
+    """Folders bench and stability with tables of the real lists of cases and made-up results."""
+    folder = tmp_path_factory.mktemp("campaigns")
+    lists = {f"bench/{name}": (cases(campaign.ROOT), columns) for name, (cases, columns, *_) in bench.PARTS.items()}
+    lists["stability/stability"] = stability.cases(), stability.COLUMNS
+    for name, (cases, further) in lists.items():
+        columns = [*campaign.COLUMNS, *further]
+        rows = [made_up(item, columns, place % 9) for place, item in enumerate(cases)]
+        path = folder / f"{name}.csv"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("".join(campaign.csv_line(line) for line in [columns, *(row.values() for row in rows)]))
+    return folder
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_figures(campaigns, tmp_path, name):
+    """Each figure of a campaign shall be written as PDF and PNG, failed runs included."""
+    out = tmp_path / f"{name}.pdf"
+    assert main(["figure", name, "--out", str(out), str(campaigns / name.split("_")[0])]) == 0
+    assert out.read_bytes().startswith(b"%PDF-") and out.with_suffix(".png").stat().st_size > 20000
+
+
+def test_there_are_figures_of_both_campaigns():
+    assert {name.split("_")[0] for name in FIGURES} == {"bench", "stability"} and len(FIGURES) >= 6
+
+
+@pytest.mark.parametrize(
+    "text, why",
+    [("", "is empty"), ("a,b\n", "has no rows"), ("a,b\n1,2\n", "no c"), ("a,b,c\n1,2\n", "longer or shorter")],
+)
+def test_tables_that_are_refused(tmp_path, text, why):
+    """A table that a figure cannot be drawn from shall be refused with its name and the reason."""
+    (tmp_path / "t.csv").write_text(text)
+    with pytest.raises(ResultsError, match=rf"t\.csv: .*{why}"):
+        read_campaign(tmp_path).rows("t", "a b c")
+
+
+def test_a_table_cut_off_is_read_to_its_last_whole_line(tmp_path):
+    (tmp_path / "t.csv").write_text("a,b\n1,2\n3")
+    assert read_campaign(tmp_path).rows("t", "a b") == [{"a": "1", "b": "2"}]
 
 
 # ---------------------------------------------------------------- the real runs

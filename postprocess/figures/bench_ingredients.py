@@ -46,10 +46,9 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     panels[-1].set_xticks(range(len(columns)), [text for _, text in columns], rotation=90, fontsize=7)
     for scene in dict.fromkeys(scene for scene, _ in columns):
         places = [place for place, column in enumerate(columns) if column[0] == scene]
-        panels[0].text(
-            np.mean(places), 1.1, scene, transform=panels[0].get_xaxis_transform(), ha="center", fontsize=7.5
-        )
-    panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=20)
+        above = panels[0].get_xaxis_transform()
+        panels[0].text(np.mean(places), 1.03, scene, transform=above, ha="center", fontsize=7.5)
+    panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=16)
     return figure
 
 
