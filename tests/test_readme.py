@@ -131,10 +131,22 @@ def paper_run(tmp_path_factory):
 def test_summary_keys(paper_run):
     """summary.json shall have the keys that the README lists, and no other."""
     listed = [key for keys, *_ in rows(section(README, "Files of a run")) for key in quoted(keys)]
+    space = {key for row in rows(section(README, "Files of a run")) for key in quoted(row[0].partition("in space")[2])}
     files = {path.name for path in paper_run.folder.iterdir()}
-    assert {key for key in listed if not key.endswith(".csv") and not key.startswith("-")} == flat(paper_run.summary)
+    names = {key for key in listed if not key.endswith(".csv") and not key.startswith("-")}
+    assert names - space == flat(paper_run.summary)
     assert {key for key in listed if key.endswith(".csv")} == {name for name in files if name.endswith(".csv")}
     assert paper_run.summary["parameters"].keys() == {flag[1:] for flag in help_table("disc-on-block")}
+
+
+def test_summary_keys_in_space(tmp_path):
+    """The README shall list what a run in space adds."""
+    cells = [row[0].partition("in space")[2] for row in rows(section(README, "Files of a run"))]
+    result = run_in(ROOT, script("sphere-on-block"), "-h", 2, "-vtu", 0, out=tmp_path / "out")
+    assert {key for cell in cells for key in quoted(cell)} <= result.summary.keys()
+    listed = [key for keys, *_ in rows(section(README, "Files of a run")) for key in quoted(keys)]
+    assert flat(result.summary) <= set(listed)
+    assert result.contact.dtype.names[:3] == ("x", "y", "z")
 
 
 def test_columns(paper_run):
