@@ -1,55 +1,66 @@
-// block-3d.geo: a box with a square base; element size h on the disc of its top that can touch, growing away from it
+// block-3d.geo: a box with a square base; below the square of its top that can touch a regular grid of size h, growing away
 // Lengths in units of the box's width. Origin in the middle of the bottom, so the top is z = depth.
+// The grid's cells are alike, split alike: nodal forces are smooth there, as they are not on an irregular mesh.
 DefineConstant[
   depth   = {0.5,   Name "depth"},    // height of the box
-  patch   = {0.05,  Name "patch"},    // radius of the disc where contact is possible
+  patch   = {0.05,  Name "patch"},    // half the side of the square where contact is possible
   h       = {0.01,  Name "h"},        // element size there
-  grading = {80,    Name "grading"}   // size = h (1 + grading r), r: distance from the disc
+  layers  = {4,     Name "layers"},   // of the grid below the square
+  grading = {80,    Name "grading"}   // size = h (1 + grading r), r: distance from the grid
 ];
 
 half = 0.5;
-Point(1) = {-half, -half, 0};
-Point(2) = { half, -half, 0};
-Point(3) = { half,  half, 0};
-Point(4) = {-half,  half, 0};
-Point(5) = {-half, -half, depth};
-Point(6) = { half, -half, depth};
-Point(7) = { half,  half, depth};
-Point(8) = {-half,  half, depth};
-Point(9) = {0, 0, depth};
-Point(10) = {patch, 0, depth};
-Point(11) = {0, patch, depth};
-Point(12) = {-patch, 0, depth};
-Point(13) = {0, -patch, depth};
-For i In {1 : 4}
-  next = i % 4 + 1;
-  Line(i) = {i, next};
-  Line(4 + i) = {4 + i, 4 + next};
-  Line(8 + i) = {i, 4 + i};
-  Circle(12 + i) = {9 + i, 9, 9 + next};
+n = Ceil(patch / h - 1e-9);           // 2 n cells: a node in the middle
+cell = patch / n;
+low = depth - layers * cell;
+// four squares, from below: the box's bottom and top, the grid's bottom and top
+For k In {0 : 3}
+  s = (k < 2) ? half : patch;
+  z = (k == 0) ? 0 : ((k == 2) ? low : depth);
+  Point(4 * k + 1) = {-s, -s, z};
+  Point(4 * k + 2) = { s, -s, z};
+  Point(4 * k + 3) = { s,  s, z};
+  Point(4 * k + 4) = {-s,  s, z};
+  For i In {1 : 4}
+    Line(4 * k + i) = {4 * k + i, 4 * k + i % 4 + 1};
+  EndFor
+  Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
 EndFor
-Curve Loop(1) = {-4, -3, -2, -1};
+// uprights and sides: of the box 0, of the grid 2
+For k In {0 : 2 : 2}
+  For i In {1 : 4}
+    Line(20 + 4 * k + i) = {4 * k + i, 4 * k + 4 + i};
+  EndFor
+  For i In {1 : 4}
+    Curve Loop(10 + 2 * k + i) = {4 * k + i, 20 + 4 * k + i % 4 + 1, -(4 * k + 4 + i), -(20 + 4 * k + i)};
+    Plane Surface(10 + 2 * k + i) = {10 + 2 * k + i};
+  EndFor
+EndFor
 Plane Surface(1) = {1};
-Curve Loop(2) = {13, 14, 15, 16};
-Plane Surface(2) = {2};
-Curve Loop(3) = {5, 6, 7, 8};
-Plane Surface(3) = {3, 2};
-For i In {1 : 4}
-  Curve Loop(3 + i) = {i, 8 + i % 4 + 1, -(4 + i), -(8 + i)};
-  Plane Surface(3 + i) = {3 + i};
-EndFor
-Surface Loop(1) = {1 : 7};
+Plane Surface(2) = {2, 4};
+Plane Surface(3) = {3};
+Plane Surface(4) = {4};
+Surface Loop(1) = {3, 4, 15 : 18};
 Volume(1) = {1};
-Point{9} In Surface{2};      // a node in the middle
+Surface Loop(2) = {1, 2, 11 : 14, 3, 15 : 18};
+Volume(2) = {2};
+
+Transfinite Curve {9 : 16} = 2 * n + 1;
+Transfinite Curve {29 : 32} = layers + 1;
+Transfinite Surface {3, 4, 15 : 18};
+Transfinite Volume {1};
 
 Physical Surface("clamped", 1) = {1};
-Physical Surface("contact", 2) = {2};
-Physical Surface("free", 3) = {3 : 7};
-Physical Volume("block", 1) = {1};
+Physical Surface("contact", 2) = {4};
+Physical Surface("free", 3) = {2, 11 : 14};
+Physical Volume("block", 1) = {1, 2};
 
-beyond = Sprintf("(0.5*(Sqrt(x*x+y*y)-%.12g+Fabs(Sqrt(x*x+y*y)-%.12g)))", patch, patch);
+// distance from the grid: beyond max(0, .) in each direction
+outx = Sprintf("(0.5*(Fabs(x)-%.12g+Fabs(Fabs(x)-%.12g)))", patch, patch);
+outy = Sprintf("(0.5*(Fabs(y)-%.12g+Fabs(Fabs(y)-%.12g)))", patch, patch);
+outz = Sprintf("(0.5*(%.12g-z+Fabs(%.12g-z)))", low, low);
 Field[1] = MathEval;
-Field[1].F = StrCat(Sprintf("%.12g*(1+%.12g*Sqrt((%.12g-z)*(%.12g-z)+", h, grading, depth, depth), beyond, "*", beyond, "))");
+Field[1].F = StrCat(Sprintf("%.12g*(1+%.12g*Sqrt(", cell, grading), outx, "*", outx, "+", outy, "*", outy, "+", outz, "*", outz, "))");
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;

@@ -4,7 +4,7 @@ The package reads what a run wrote into its folder and nothing else: it computes
 
     results.py    result files -> checked numpy arrays
     style.py      fonts, colours, widths and labels that all figures share
-    output.py     a figure -> FILE.pdf and FILE.png, whole or not at all
+    output.py     files, and a figure as FILE.pdf and FILE.png, whole or not at all
     figures/      one file per figure: draw(runs, units) -> matplotlib Figure
     commands/     one file per subcommand of `python -m postprocess`
 

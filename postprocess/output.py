@@ -1,7 +1,8 @@
-"""A figure written as FILE.pdf and FILE.png: both whole, or neither."""
+"""Files written whole or not at all; a figure as FILE.pdf and FILE.png."""
 
 import contextlib
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -13,26 +14,48 @@ METADATA = {"pdf": {"CreationDate": None, "Producer": None, "Creator": None}, "p
 
 
 def write_figure(figure: Figure, out: Path | str) -> list[Path]:
-    """Writes the figure as `out`, whose name ends in .pdf, and as PNG beside it; returns both paths.
+    """Writes the figure as `out`, whose name ends in .pdf, and as PNG beside it; returns both paths."""
+    return write_figures({Path(out): figure})
 
-    Both are first written under temporary names in the same folder, which is created when it is missing.
-    """
-    out = Path(out)
-    if out.suffix != ".pdf":
-        raise ResultsError(out, "the name of a figure ends in .pdf (the PNG is written beside it)")
-    written = {}
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
+
+def write_figures(figures: dict[Path, Figure]) -> list[Path]:
+    """Writes each figure under its name, which ends in .pdf, and as PNG beside it: all of them, or none."""
+    writers = {}
+    for out, figure in figures.items():
+        if out.suffix != ".pdf":
+            raise ResultsError(out, "the name of a figure ends in .pdf (the PNG is written beside it)")
         for kind, metadata in METADATA.items():
-            path = out.with_suffix(f".{kind}")
+            writers[out.with_suffix(f".{kind}")] = save_figure(figure, kind, metadata)
+    return write_whole(writers)
+
+
+def save_figure(figure: Figure, kind: str, metadata: dict) -> Callable[[Path], object]:
+    return lambda path: figure.savefig(path, format=kind, metadata=metadata)
+
+
+def write_files(contents: dict[Path, bytes]) -> list[Path]:
+    """Writes each content under its name: all of them, or none."""
+    return write_whole({path: (lambda part, data=data: part.write_bytes(data)) for path, data in contents.items()})
+
+
+def write_whole(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
+    """Calls each path's writer with a temporary name in the same folder, then renames them all; returns the paths.
+
+    Folders are created when they are missing. When a writer fails nothing is left behind.
+    """
+    written = {}
+    first = next(iter(writers))
+    try:
+        for path, writer in writers.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
             written[path] = path.with_name(f".{path.name}.{os.getpid()}.part")
-            figure.savefig(written[path], format=kind, metadata=metadata)
+            writer(written[path])
         for path, temporary in written.items():
             os.replace(temporary, path)
     except OSError as error:
-        raise ResultsError(error.filename2 or error.filename or out, reason(error)) from None
+        raise ResultsError(error.filename2 or error.filename or first, reason(error)) from None
     finally:
         for temporary in written.values():
             with contextlib.suppress(OSError):
                 temporary.unlink()
-    return list(written)
+    return list(writers)

@@ -27,6 +27,7 @@ HISTORY = (
 ).split()
 CONTACT = "x y weight overlap pressure lambda status threshold".split()
 ADAPTATIONS = "adaptation x y overlap pressure lambda status threshold".split()
+STEPS = "adaptation newton x y overlap pressure lambda status threshold".split()
 TRIANGLES = "a b c region".split()
 STATES = "state adaptation newton vertex x y ux uy".split()
 WHOLE = frozenset(
@@ -76,6 +77,26 @@ class Mesh:
 
     triangles: np.ndarray
     region: np.ndarray
+
+
+@dataclass(frozen=True)
+class Steps:
+    """The collocation points before the first and after every Newton step, sorted by x.
+
+    adaptation, newton: (S,) int, the step that led to each state; both 0 before the first one.
+    x, y:   (P,) undeformed coordinates [length].
+    overlap, pressure, multiplier, status, threshold: (S, P); threshold may be inf (no wall).
+    """
+
+    adaptation: np.ndarray
+    newton: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    overlap: np.ndarray
+    pressure: np.ndarray
+    multiplier: np.ndarray
+    status: np.ndarray
+    threshold: np.ndarray
 
 
 @dataclass
@@ -164,6 +185,29 @@ class Run:
         return States(
             grid["adaptation"][:, 0], newton, grid["x"][0], grid["y"][0], grid["ux"].copy(), grid["uy"].copy()
         )
+
+    @cached_property
+    def steps(self) -> Steps:
+        """The points at every Newton step (runs made with `-states 1`)."""
+        path = self.path / "steps.csv"
+        table = read_table(path, STEPS, hint="; run the scene with -states 1")
+        points = self.summary["points"]
+        rows = len(table["x"])
+        check_count(path, "rows", rows, points * (self.summary["newton"] + 1))
+        if rows == 0:
+            raise ResultsError(path, "has no rows")
+        check_status(path, table["status"])
+        grid = {name: column.reshape(-1, points) for name, column in table.items()}
+        if np.any(grid["newton"] != np.arange(len(grid["newton"]))[:, None]):
+            raise ResultsError(path, f"column newton does not count 0, 1, 2 ..., {points} rows each")
+        for name in ("adaptation", "x", "y"):
+            reference = grid[name][:, :1] if name == "adaptation" else grid[name][:1]
+            if np.any(grid[name] != reference):
+                raise ResultsError(path, f"column {name} differs from row to row of a step, or from step to step")
+        order = np.lexsort((grid["y"][0], grid["x"][0]))
+        fields = [grid[name][:, order] for name in "overlap pressure lambda status threshold".split()]
+        labels = grid["adaptation"][:, 0], grid["newton"][:, 0]
+        return Steps(*labels, grid["x"][0, order], grid["y"][0, order], *fields)
 
     def parameter(self, name: str) -> float:
         """A finite number from the summary's `parameters`; ResultsError when it is not there."""

@@ -61,7 +61,7 @@ def weight(h: float = 0.25, order: int = 1, **_) -> float:
 
 def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     """The whole map, for the scenes and methods that `root` has; the extreme cases come first."""
-    found = extreme() + steel()
+    found = extreme() + steel() + further()
 
     def add(name, *parts, factor=1.0, **flags):
         merged = {"tol": TOL}
@@ -103,6 +103,7 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block"):
             for mesh in ({"h": 0.5, "order": 1}, {"h": 0.25, "order": 2}, {"h": 0.1, "order": 1}):
                 add("scene", law, mesh, scene=scene)
+            add("scene", law, {"h": 0.5, "order": 1}, scene=scene, method="newton", factor=10)
     for order in (1, 2):
         add("scene", TABLE, h=0.1, order=order)
         add("scene", TABLE, h=0.1, order=order, method="newton")
@@ -123,13 +124,14 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
 
 
 def extreme() -> list[campaign.Case]:
-    """Named extreme cases, each with several laws."""
+    """Named extreme cases, each with several laws, and by plain Newton to compare with."""
     found = []
 
     def add(name, scene="disc-on-block", laws=STIFF, **flags):
         for law in laws:
-            merged = {"method": "xnewton", "tol": TOL, **law, **flags}
-            found.append(case(name, scene=scene, weight=weight(**merged), **merged))
+            for method, factor in (("xnewton", 1), ("newton", 5)):
+                merged = {"method": method, "tol": TOL, **law, **flags}
+                found.append(case(name, scene=scene, weight=factor * weight(**merged), **merged))
 
     add("nu 0.4999", nu=0.4999, h=0.1, order=2)
     add("nu 0.4999", nu=0.4999, h=0.5, order=2)
@@ -152,6 +154,25 @@ def extreme() -> list[campaign.Case]:
         add("u0 three times", laws=STIFF + OTHER, u0=3 * U0, h=0.1, order=order)
     add("stiff disc", scene="meshed-disc", Eratio=1e6, h=0.25, order=2)
     add("equal bodies", scene="meshed-disc", Eratio=1, h=0.25, order=2)
+    return found
+
+
+def further() -> list[campaign.Case]:
+    """Scenes and kinds of problem beyond the paper's: rough surface, two curved bodies, 3D, force, exact distance."""
+    found = []
+
+    def add(name, **flags):
+        for law in SAMPLE:
+            merged = {"method": "xnewton", "tol": TOL, **law, **flags}
+            found.append(case(name, weight=weight(**merged), **merged))
+
+    for order in (1, 2):
+        add("rough", scene="rough", h=0.1, order=order)
+        add("two cylinders", scene="two-cylinders", d0=-0.01, h=0.05, order=order)
+        add("prescribed force", force=100, h=0.25, order=order)
+        add("exact distance", distance="exact", h=0.25, order=order)
+    add("sphere", scene="sphere-on-block", h=0.5)
+    add("sphere", scene="sphere-on-block", h=1.0)
     return found
 
 
@@ -200,8 +221,9 @@ def quick() -> list[campaign.Case]:
         add("d0", STIFF[2], d0=d0, h=0.5, order=2)
     add("aspect", STIFF[2], aspect=100, h=1.0, order=1)
     add("offset", STIFF[2], offset=15, h=0.5, order=1)
-    for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block"):
+    for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block", "rough"):
         add("scene", STIFF[2], scene=scene, h=0.25, order=1)
+    add("scene", STIFF[2], scene="sphere-on-block", h=1.0)
     return found
 
 
@@ -219,6 +241,14 @@ def law_table() -> str:
 # ---------------------------------------------------------------- checks
 
 PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
+MORE_PROBLEM = ("-force", "-distance", "-Eratio")  # flags without a column
+
+
+def problem(row: dict[str, str]) -> tuple[str, ...]:
+    """The problem that a run solves, whatever the method: rows that share it have the same answer."""
+    texts = row["flags"].split()
+    flags = dict(zip(texts[::2], texts[1::2], strict=True))
+    return tuple([*(row[name] for name in PROBLEM), *(flags.get(name, "") for name in MORE_PROBLEM)])
 
 
 def checks(rows: list[dict[str, str]]) -> list[dict]:
@@ -256,8 +286,7 @@ def against_newton(rows: list[dict]) -> list[dict]:
     """
     groups = defaultdict(list)
     for row in rows:
-        if row["law"] != "table":
-            groups[tuple(row[name] for name in PROBLEM)].append(row)
+        groups[problem(row)].append(row)
     found = []
     for group in groups.values():
         others = [row for row in group if row["method"] in ("newton", "linesearch", "incremental")]

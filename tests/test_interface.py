@@ -171,7 +171,7 @@ def test_second_run_replaces_the_first(tmp_path):
     """A run into the folder of another shall leave its own files only."""
     out = tmp_path / "out"
     run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-states", 1, out=out)
-    assert sorted(path.name for path in out.iterdir()) == sorted([*RESULTS, "states.csv", "triangles.csv"])
+    assert sorted(path.name for path in out.iterdir()) == sorted([*RESULTS, "states.csv", "steps.csv", "triangles.csv"])
     (out / "mine.txt").touch()
     run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-vtu", 0, out=out)
     assert sorted(path.name for path in out.iterdir()) == sorted(["mine.txt", *RESULTS[:3], "summary.json"])

@@ -185,7 +185,7 @@ def test_what_a_scene_loads(scene, tmp_path):
     text = section(README, "What a scene loads")
     common = {name for name in quoted(text.split("\n|")[0]) if "/" in name}
     (row,) = [row for row in rows(text) if quoted(row[0]) == [scene]]
-    result = run_in(ROOT, script(scene), "-h", 4, out=tmp_path / "out")
+    result = run_in(ROOT, script(scene), "-h", 2, out=tmp_path / "out")
     assert set(result.modules) == common | set(quoted(row[1]))
     assert set(result.plugins) == set(quoted(row[2]))
 

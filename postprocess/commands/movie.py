@@ -1,0 +1,66 @@
+"""draw a run's Newton steps as a movie: a page with a player, and a GIF
+
+RUN is a result folder of a run made with -states 1. Written are DIR/movie.html and DIR/movie.gif: both, or neither.
+One frame per Newton step: the collocation points in the (overlap, pressure) plane on the law's curve with its wall,
+the pressure along the contact, and the deformed bodies. The page needs no network.
+"""
+
+import argparse
+from pathlib import Path
+
+from postprocess import page, style
+from postprocess.commands.show import cell
+from postprocess.frames import Movie
+from postprocess.output import write_files
+from postprocess.player import render
+from postprocess.results import Run, read_run
+from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", metavar="RUN", help="a run's result folder")
+    parser.add_argument("--out", required=True, metavar="DIR", help="where to write; folders are created")
+    parser.add_argument(
+        "--units",
+        nargs=2,
+        metavar=("LENGTH", "STRESS"),
+        default=(style.Units.length, style.Units.stress),
+        help="names of the units in the axis labels, such as mm MPa",
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Reads the run, draws the frames, writes both files and prints their paths."""
+    chosen = read_run(arguments.folder)
+    with style.look():
+        movie = Movie(chosen, style.Units(*map(style.plain, arguments.units)))
+    player, picture = render(movie, description(chosen))
+    folder = Path(arguments.out)
+    contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
+    for path in write_files(contents):
+        print(path)
+
+
+def description(run: Run) -> str:
+    """What the movie shows, in words."""
+    return (
+        f"One picture per Newton step of the run {run_words(run)}. Left: each contact point's overlap and pressure, "
+        "beside the curve of the law and its wall. Right: the pressure along the contact, and the deformed bodies. "
+        "The table of Newton steps tells the same in numbers."
+    )
+
+
+def web_page(run: Run, player: str) -> str:
+    """The player, and the same steps as a table."""
+    head = [
+        page.element("h1", f"The method at work: {run_words(run)}"),
+        page.element(
+            "p",
+            "Each dot is a contact point. Its overlap and pressure come from a linear solve, so they are in equilibrium, "
+            "but on the curve of the law only once the iteration has converged.",
+        ),
+    ]
+    steps = page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
+    outcome = page.element("p", f"Force {cell(run.summary['force'])}, residual {cell(run.summary['residual'])}.")
+    body = page.joined([*head, page.Markup(player), outcome, steps])
+    return page.document(f"Newton steps: {run_words(run)}", page.element("main", body, id="main"))

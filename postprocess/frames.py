@@ -1,0 +1,239 @@
+"""The frames of a movie: points on the law's curve, pressure profile, deformed bodies; one frame per Newton step."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+from matplotlib.ticker import MaxNLocator
+
+from postprocess import style
+from postprocess.laws import law_of, overlap_at
+from postprocess.results import LAW, OPEN, WALL, ResultsError, Run
+
+SIZE = (8.6, 4.8)  # inches
+FILLS = ("#DCE9F3", "#E9E6E1", "#E3EFE3")  # of the bodies, by region
+LINES = (style.BLUE, "#6E675F", style.GREEN)
+# Status of a point: what it is called, and how it is drawn; colour and shape both tell.
+LOOKS = {
+    OPEN: ("open", {"marker": "o", "markerfacecolor": "white", "color": style.GREY, "markersize": 3.5}),
+    LAW: ("on the law", {"marker": "o", "color": style.BLUE, "markersize": 4.5}),
+    WALL: ("at the wall", {"marker": "s", "color": style.VERMILION, "markersize": 4.5}),
+}
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Limits of the (overlap, pressure) plane, the law's curve in it, and its end of contact."""
+
+    left: float
+    right: float
+    top: float
+    curve: tuple[np.ndarray, np.ndarray] | None
+    at: object  # overlap -> pressure, or None
+
+
+class Movie:
+    """Draws the frames of one run, which was made with -states 1, into one figure."""
+
+    def __init__(self, run: Run, units: style.Units):
+        self.run, self.units, self.steps = run, units, run.steps
+        self.count = len(self.steps.newton)
+        self.state = states_of_steps(run)
+        self.plane = plane_of(run)
+        self.rigid = len(np.unique(run.mesh.region)) == 1
+        self.figure = Figure(figsize=SIZE)
+        FigureCanvasAgg(self.figure)
+        self.left = self.figure.add_axes((0.075, 0.2, 0.4, 0.66))
+        self.above = self.figure.add_axes((0.575, 0.565, 0.405, 0.295))
+        self.below = self.figure.add_axes((0.575, 0.115, 0.405, 0.335))
+        self.window = window_of(run, self.below.bbox.height / self.below.bbox.width)
+
+    def draw(self, index: int) -> None:
+        """Draws frame `index`, 0 ... count - 1, in place of the one before."""
+        for artist in list(self.figure.legends):
+            artist.remove()
+        for axes in (self.left, self.above, self.below):
+            axes.clear()
+        self.figure.suptitle(title(self.run, index), fontsize=11, y=0.975)
+        self.draw_plane(index)
+        self.draw_profile(index)
+        self.draw_bodies(index)
+        handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in LOOKS.values()]
+        handles.append(Line2D([], [], linestyle="none", marker=">", color=style.BLACK, label="beyond the picture"))
+        self.figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.06, 0.0), ncols=4, columnspacing=1.2)
+
+    def draw_plane(self, index: int) -> None:
+        """The law, its walls, and the points, each where the linear solve left it."""
+        axes, plane, steps = self.left, self.plane, self.steps
+        if plane.curve is not None:
+            axes.plot(*plane.curve, color=style.BLACK, linewidth=1.0, zorder=2)
+        walls = np.unique(steps.threshold[index][np.isfinite(steps.threshold[index])])
+        walls = walls[(walls > plane.left) & (walls < plane.right)]
+        foot = plane.at(walls) if plane.at is not None else np.zeros(len(walls))
+        seen = foot < plane.top
+        segments = [[(wall, low), (wall, plane.top)] for wall, low in zip(walls[seen], foot[seen], strict=True)]
+        axes.add_collection(LineCollection(segments, color=style.VERMILION, linewidth=0.9, alpha=0.7, zorder=1))
+        overlap, pressure = steps.overlap[index], steps.pressure[index]
+        bottom = -0.06 * plane.top
+        at = np.clip(overlap, plane.left, plane.right), np.clip(pressure, bottom, plane.top)
+        outside = (overlap > plane.right) | (pressure > plane.top) | (pressure < bottom)
+        for status, (_, look) in LOOKS.items():
+            chosen = (steps.status[index] == status) & ~outside & (overlap >= plane.left)
+            axes.plot(at[0][chosen], at[1][chosen], linestyle="none", zorder=4, **look)
+        for chosen, marker in (
+            (outside & (overlap > plane.right), ">"),
+            (outside & (overlap <= plane.right) & (pressure > plane.top), "^"),
+            (outside & (overlap <= plane.right) & (pressure < bottom), "v"),
+        ):
+            colors = [LOOKS[status][1]["color"] for status in steps.status[index][chosen]]
+            axes.scatter(at[0][chosen], at[1][chosen], c=colors, marker=marker, s=28, clip_on=False, zorder=5)
+        axes.set_xlim(plane.left, plane.right)
+        axes.set_ylim(bottom, plane.top)
+        axes.set_xlabel(f"overlap $d$ [{self.units.length}]")
+        axes.set_ylabel(f"pressure $p$ [{self.units.stress}]")
+        axes.set_title(wall_words(walls, steps.threshold[index], plane), fontsize=9, loc="left")
+
+    def draw_profile(self, index: int) -> None:
+        """Pressure along the contact; the last step's as a line to compare with."""
+        axes, steps = self.above, self.steps
+        axes.plot(steps.x, steps.pressure[-1], color=style.GREY, linewidth=0.8, zorder=1)
+        pressure = np.clip(steps.pressure[index], -0.06 * self.plane.top, self.plane.top)
+        for status, (_, look) in LOOKS.items():
+            chosen = steps.status[index] == status
+            axes.plot(steps.x[chosen], pressure[chosen], linestyle="none", zorder=2, **{**look, "markersize": 3})
+        axes.set_xlim(self.window[0], self.window[1])
+        axes.set_ylim(-0.06 * self.plane.top, self.plane.top)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
+        axes.set_ylabel(f"$p$ [{self.units.stress}]")
+        axes.set_title("pressure along the contact; line: last step", fontsize=9, loc="left")
+
+    def draw_bodies(self, index: int) -> None:
+        """The deformed bodies at true scale around the contact; a rigid obstacle as the points see it."""
+        axes, run = self.below, self.run
+        states, mesh, state = run.states, run.mesh, self.state[index]
+        x, y = states.x + states.ux[state], states.y + states.uy[state]
+        left, right, bottom, top = self.window
+        for order, region in enumerate(np.unique(mesh.region)):
+            triangles = mesh.triangles[mesh.region == region]
+            near = (x[triangles].max(1) > left) & (x[triangles].min(1) < right)
+            near &= (y[triangles].max(1) > bottom - (right - left)) & (y[triangles].min(1) < top + (right - left))
+            corners = np.stack([x[triangles[near]], y[triangles[near]]], axis=-1)
+            look = {"facecolor": FILLS[order % len(FILLS)], "edgecolor": LINES[order % len(LINES)]}
+            axes.add_collection(PolyCollection(corners, **look, linewidth=0.2, alpha=0.85, zorder=1))
+        if self.rigid:
+            outline = obstacle(run, self.steps, index, x, y)
+            axes.add_patch(Polygon(outline, facecolor=FILLS[1], edgecolor=LINES[1], linewidth=0.8, alpha=0.7, zorder=2))
+        axes.set_aspect("equal")
+        axes.set_xlim(left, right)
+        axes.set_ylim(bottom, top)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
+        axes.set_xlabel(f"$x$ [{self.units.length}]")
+        axes.set_ylabel(f"$y$ [{self.units.length}]")
+
+
+def title(run: Run, index: int) -> str:
+    """Where in the scheme a frame stands."""
+    steps = run.steps
+    total = steps.newton[-1]
+    if index == 0:
+        return f"before the first of {style.count(total, 'Newton step')}: the prescribed motion alone"
+    history = run.history
+    row = int(steps.newton[index]) - 1
+    words = f"Newton step {steps.newton[index]} of {total}, residual ${style.number(history['residual'][row])}$"
+    words = f"adaptation {steps.adaptation[index]}, {words}"
+    last = history["step"].max()
+    return f"load step {history['step'][row]} of {last}, {words}" if last > 1 else words
+
+
+def wall_words(walls: np.ndarray, threshold: np.ndarray, plane: Plane) -> str:
+    """What the vertical lines are."""
+    if not np.isfinite(threshold).any():
+        return "law; no wall"
+    name = "law" if plane.curve is not None else "points"
+    if len(walls) == 0:
+        return f"{name}; wall beyond the picture"
+    return f"{name}; wall at $T = {style.number(walls[0])}$" if len(walls) == 1 else f"{name}; walls: $T$ of the points"
+
+
+def states_of_steps(run: Run) -> np.ndarray:
+    """The state of states.csv that belongs to each of the steps: the last one with its number."""
+    last = {int(newton): state for state, newton in enumerate(run.states.newton)}
+    missing = [int(newton) for newton in run.steps.newton if int(newton) not in last]
+    if missing:
+        raise ResultsError(run.path / "states.csv", f"has no state of Newton step {missing[0]}, which steps.csv has")
+    return np.array([last[int(newton)] for newton in run.steps.newton])
+
+
+def plane_of(run: Run) -> Plane:
+    """Limits that show the last step well and most of the others; a few far points are left outside."""
+    steps, law = run.steps, law_of(run)
+    start = run.summary["parameters"].get("d0")
+    start = float(start) if isinstance(start, int | float) else float(steps.overlap[-1].min())
+    after = slice(1, None) if len(steps.newton) > 1 else slice(None)
+    greatest, pressures = steps.overlap[after].max(axis=1), steps.pressure[after].max(axis=1)
+    top = 1.12 * max(pressures[-1], np.quantile(pressures, 0.8))
+    walls = steps.threshold[after][steps.status[after] == WALL]
+    ends = [greatest[-1], np.quantile(greatest, 0.6), *walls[:1], *walls[-1:]]
+    span = max(max(ends) - start, 0.0)
+    if span == 0 or not np.isfinite(span):
+        span = abs(start) or float(np.ptp(steps.overlap[-1])) or 1.0
+    left, right = start - 0.45 * span, start + 1.12 * span
+    if not top > 0:
+        top = 1.0 if law is None else max(float(law(np.array([right]))[0]), 1e-300)
+        top = top if np.isfinite(top) and top > 0 else 1.0
+    if law is None:
+        return Plane(left, right, float(top), None, None)
+    end = overlap_at(law, 1.05 * top, start, right)
+    overlap = np.concatenate([[left], start + (end - start) * np.linspace(0, 1, 400)])
+    pressure = np.minimum(law(overlap), 1.05 * top)
+    if run.summary["parameters"].get("law") == "signorini":
+        overlap, pressure = np.array([left, start]), np.zeros(2)
+    return Plane(left, right, float(top), (overlap, pressure), law)
+
+
+def window_of(run: Run, ratio: float) -> tuple[float, float, float, float]:
+    """Limits (left, right, bottom, top) around the points that carry pressure in any step; ratio: height to width."""
+    steps = run.steps
+    touched = steps.x[(steps.pressure > 0).any(axis=0)]
+    if len(touched) < 2:
+        touched = steps.x
+    middle = 0.5 * (touched.min() + touched.max())
+    reach = 0.675 * max(touched.max() - touched.min(), 1e-300)
+    height = 2 * reach * ratio
+    surface = float(np.mean(steps.y))
+    return middle - reach, middle + reach, surface - 0.7 * height, surface + 0.3 * height
+
+
+def obstacle(run: Run, steps, index: int, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The outline (n, 2) of the rigid obstacle: at each point as far above the deformed surface as the gap says.
+
+    x, y: deformed vertices. Scenes with a disc (parameter R) get its lower half, at the height that the points tell.
+    """
+    states = run.states
+    surface = np.flatnonzero(np.abs(states.y - steps.y.mean()) < 1e-9 * max(np.ptp(states.y), 1e-300))
+    surface = surface[np.argsort(states.x[surface])]
+    if len(surface) < 2:
+        raise ResultsError(run.path / "states.csv", "has no vertices at the height of the points in steps.csv")
+    height = np.interp(steps.x, states.x[surface], y[surface])
+    overlap = steps.overlap[index]
+    radius = run.summary["parameters"].get("R")
+    if not isinstance(radius, int | float) or not radius > 0:
+        top = height.max() + 2 * np.ptp(steps.x)
+        return np.column_stack(
+            [[*steps.x, steps.x[-1], steps.x[0]], [*(height - overlap), top, top]],
+        )
+    offset = run.summary["parameters"].get("offset", 0.0)
+    if run.summary["parameters"].get("distance") == "exact":
+        across = np.interp(steps.x, states.x[surface], x[surface]) - offset
+        reach = np.maximum((radius - overlap) ** 2 - across**2, 0)
+    else:
+        reach = np.maximum(radius**2 - (steps.x - offset) ** 2, 0)
+    near = np.argsort(np.abs(steps.x - offset))[: max(1, len(steps.x) // 5)]
+    rise = np.sqrt(reach) if run.summary["parameters"].get("distance") == "exact" else np.sqrt(reach) - overlap
+    centre = float(np.median((height + rise)[near]))
+    angle = np.linspace(np.pi, 2 * np.pi, 721)
+    return np.column_stack([offset + radius * np.cos(angle), centre + radius * np.sin(angle)])

@@ -1,0 +1,87 @@
+"""A movie as matplotlib's HTML player, made to work without network and for screen readers, and as GIF."""
+
+import hashlib
+import html
+import logging
+import re
+import tempfile
+from pathlib import Path
+
+from matplotlib.animation import HTMLWriter, PillowWriter
+
+from postprocess import style
+from postprocess.frames import Movie
+
+BEGIN, END = "<!-- player -->", "<!-- end of player -->"
+MILLISECONDS = 800  # a frame
+HOLD = 3  # frames for which the GIF shows the last one
+MANY = 40  # frames above which they are drawn smaller
+
+# The player's buttons ask for an icon font from the network; these characters stand in for it.
+ICONS = {
+    "minus": "\u2212",
+    "plus": "+",
+    "fast-backward": "|\u25c0",
+    "step-backward": "\u2039",
+    "play": "\u25b6\ufe0e",
+    "play.fa-flip-horizontal": "\u25c0\ufe0e",
+    "pause": "\u2016",
+    "step-forward": "\u203a",
+    "fast-forward": "\u25b6|",
+}
+
+
+def render(movie: Movie, described: str) -> tuple[str, bytes]:
+    """Every frame drawn once: the player as a piece of HTML between BEGIN and END, and the GIF's bytes.
+
+    described: what the pictures show, for those who do not see them.
+    """
+    dpi = 100 if movie.count <= MANY else 72
+    rate = 1000 / MILLISECONDS
+    web = HTMLWriter(fps=rate, embed_frames=True, default_mode="once", embed_limit=1e6)
+    gif = PillowWriter(fps=rate)
+    with tempfile.TemporaryDirectory() as folder, style.look():
+        page, picture = Path(folder) / "player.html", Path(folder) / "movie.gif"
+        web.setup(movie.figure, page, dpi=dpi)
+        gif.setup(movie.figure, picture, dpi=dpi)
+        for index in range(movie.count):
+            movie.draw(index)
+            web.grab_frame()
+            gif.grab_frame()
+        for _ in range(HOLD - 1):
+            gif.grab_frame()
+        web.finish()
+        logging.getLogger("PIL").setLevel(logging.WARNING)
+        gif.finish()
+        return adapted(page.read_text(encoding="utf-8"), described), picture.read_bytes()
+
+
+def adapted(player: str, described: str) -> str:
+    """matplotlib's player without its reference to the network, with texts for a screen reader and a name of its own.
+
+    The name comes from the content: the same movie gives the same bytes.
+    """
+    player = re.sub(r"<link\b[^>]*>", "", player)
+    player = player.replace(' language="javascript"', "")
+    (name,) = set(re.findall(r"_anim_img([0-9a-f]{32})", player))
+    player = player.replace(name, "0" * 32)
+    player = player.replace("0" * 32, hashlib.sha256(player.encode()).hexdigest()[:16])
+    described = html.escape(described, quote=True)
+    player = re.sub(r'<img id="', f'<img alt="{described}" id="', player, count=1)
+    player = player.replace('type="range"', 'type="range" aria-label="Frame"', 1)
+    player = player.replace('<i class="fa', '<i aria-hidden="true" class="fa')
+    player = player.replace("<button ", '<button type="button" ')
+    icons = "".join(f'.fa-{name}::before{{content:"{text}"}}' for name, text in ICONS.items())
+    look = (
+        "<style>.animation,.animation img{max-width:100%}.animation img{height:auto}"
+        "input[type=range].anim-slider{width:min(374px,100%)}.anim-buttons button{min-width:32px;min-height:32px}"
+        f".fa{{font-style:normal}}{icons}@media print{{.anim-controls{{display:none}}}}</style>"
+    )
+    without = "<noscript><p>The player needs JavaScript. The same frames are in movie.gif.</p></noscript>"
+    return "\n".join([BEGIN, player.strip(), look, without, END])
+
+
+def extract(page: str) -> str | None:
+    """The player of a page that `render` was used for; None when there is none, or not the whole of it."""
+    begin, end = page.find(BEGIN), page.find(END)
+    return page[begin : end + len(END)] if 0 <= begin < end else None
