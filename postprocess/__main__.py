@@ -4,6 +4,7 @@ Exit code 0 on success, 2 when an argument or a result file is refused; the reas
 """
 
 import argparse
+import os
 import sys
 
 from postprocess import commands
@@ -36,9 +37,13 @@ def main(argv: list[str] | None = None) -> int:
     arguments = parser().parse_args(argv)
     try:
         arguments.run(arguments)
+        sys.stdout.flush()
     except ResultsError as error:
         print(f"postprocess: {error}", file=sys.stderr)
         return 2
+    except BrokenPipeError:  # the reader of the output has had enough: `show RUN | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 141
     except KeyboardInterrupt:
         return 130
     return 0

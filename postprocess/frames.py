@@ -12,9 +12,10 @@ from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
 from postprocess.laws import law_of, overlap_at
-from postprocess.results import LAW, OPEN, WALL, ResultsError, Run
+from postprocess.results import LAW, OPEN, WALL, ResultsError, Run, is_number
 
 SIZE = (8.6, 4.8)  # inches
+CROWD = 120  # points beyond which their dots are drawn smaller
 FILLS = ("#DCE9F3", "#E9E6E1", "#E3EFE3")  # of the bodies, by region
 LINES = (style.BLUE, "#6E675F", style.GREEN)
 # Status of a point: what it is called, and how it is drawn; colour and shape both tell.
@@ -44,6 +45,7 @@ class Movie:
         self.count = len(self.steps.newton)
         self.state = states_of_steps(run)
         self.plane = plane_of(run)
+        self.scale = 1.0 if len(self.steps.x) <= CROWD else 0.6
         self.rigid = len(np.unique(run.mesh.region)) == 1
         self.figure = Figure(figsize=SIZE)
         FigureCanvasAgg(self.figure)
@@ -83,7 +85,8 @@ class Movie:
         outside = (overlap > plane.right) | (pressure > plane.top) | (pressure < bottom)
         for status, (_, look) in LOOKS.items():
             chosen = (steps.status[index] == status) & ~outside & (overlap >= plane.left)
-            axes.plot(at[0][chosen], at[1][chosen], linestyle="none", zorder=4, **look)
+            size = {"markersize": self.scale * look["markersize"]}
+            axes.plot(at[0][chosen], at[1][chosen], linestyle="none", zorder=4, **{**look, **size})
         for chosen, marker in (
             (outside & (overlap > plane.right), ">"),
             (outside & (overlap <= plane.right) & (pressure > plane.top), "^"),
@@ -104,7 +107,7 @@ class Movie:
         pressure = np.clip(steps.pressure[index], -0.06 * self.plane.top, self.plane.top)
         for status, (_, look) in LOOKS.items():
             chosen = steps.status[index] == status
-            axes.plot(steps.x[chosen], pressure[chosen], linestyle="none", zorder=2, **{**look, "markersize": 3})
+            axes.plot(steps.x[chosen], pressure[chosen], linestyle="none", zorder=2, **{**look, "markersize": 3 * self.scale})
         axes.set_xlim(self.window[0], self.window[1])
         axes.set_ylim(-0.06 * self.plane.top, self.plane.top)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
@@ -140,7 +143,7 @@ def title(run: Run, index: int) -> str:
     steps = run.steps
     total = steps.newton[-1]
     if index == 0:
-        return f"before the first of {style.count(total, 'Newton step')}: the prescribed motion alone"
+        return f"before the first of {style.count(total, 'Newton step')}"
     history = run.history
     row = int(steps.newton[index]) - 1
     words = f"Newton step {steps.newton[index]} of {total}, residual ${style.number(history['residual'][row])}$"
@@ -171,13 +174,12 @@ def states_of_steps(run: Run) -> np.ndarray:
 def plane_of(run: Run) -> Plane:
     """Limits that show the last step well and most of the others; a few far points are left outside."""
     steps, law = run.steps, law_of(run)
-    start = run.summary["parameters"].get("d0")
-    start = float(start) if isinstance(start, int | float) else float(steps.overlap[-1].min())
+    start = finite(run, "d0", float(steps.overlap[-1].min()))
     after = slice(1, None) if len(steps.newton) > 1 else slice(None)
     greatest, pressures = steps.overlap[after].max(axis=1), steps.pressure[after].max(axis=1)
     top = 1.12 * max(pressures[-1], np.quantile(pressures, 0.8))
     walls = steps.threshold[after][steps.status[after] == WALL]
-    ends = [greatest[-1], np.quantile(greatest, 0.6), *walls[:1], *walls[-1:]]
+    ends = [greatest[-1], np.quantile(greatest, 0.85), *walls[:1], *walls[-1:]]
     span = max(max(ends) - start, 0.0)
     if span == 0 or not np.isfinite(span):
         span = abs(start) or float(np.ptp(steps.overlap[-1])) or 1.0
@@ -220,13 +222,13 @@ def obstacle(run: Run, steps, index: int, x: np.ndarray, y: np.ndarray) -> np.nd
         raise ResultsError(run.path / "states.csv", "has no vertices at the height of the points in steps.csv")
     height = np.interp(steps.x, states.x[surface], y[surface])
     overlap = steps.overlap[index]
-    radius = run.summary["parameters"].get("R")
-    if not isinstance(radius, int | float) or not radius > 0:
+    radius = finite(run, "R", 0.0)
+    if radius <= 0:
         top = height.max() + 2 * np.ptp(steps.x)
         return np.column_stack(
             [[*steps.x, steps.x[-1], steps.x[0]], [*(height - overlap), top, top]],
         )
-    offset = run.summary["parameters"].get("offset", 0.0)
+    offset = finite(run, "offset", 0.0)
     if run.summary["parameters"].get("distance") == "exact":
         across = np.interp(steps.x, states.x[surface], x[surface]) - offset
         reach = np.maximum((radius - overlap) ** 2 - across**2, 0)
@@ -237,3 +239,9 @@ def obstacle(run: Run, steps, index: int, x: np.ndarray, y: np.ndarray) -> np.nd
     centre = float(np.median((height + rise)[near]))
     angle = np.linspace(np.pi, 2 * np.pi, 721)
     return np.column_stack([offset + radius * np.cos(angle), centre + radius * np.sin(angle)])
+
+
+def finite(run: Run, name: str, otherwise: float) -> float:
+    """A number from the summary's parameters, or what stands in for it."""
+    value = run.summary["parameters"].get(name)
+    return float(value) if is_number(value) else otherwise

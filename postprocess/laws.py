@@ -28,7 +28,7 @@ def law_of(run: Run) -> Law | None:
         of_asperities = lambda s: np.where(s < -d0, scale * s / np.maximum(-d0 - s, 1e-300), np.inf)  # noqa: E731
 
     def pressure(overlap: np.ndarray) -> np.ndarray:
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             return of_asperities(np.maximum(np.asarray(overlap, float) - d0, 0))
 
     return pressure

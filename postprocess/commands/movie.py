@@ -13,7 +13,7 @@ from postprocess.commands.show import cell
 from postprocess.frames import Movie
 from postprocess.output import write_files
 from postprocess.player import render
-from postprocess.results import Run, read_run
+from postprocess.results import ResultsError, Run, brief, read_run
 from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
 
 
@@ -32,9 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Reads the run, draws the frames, writes both files and prints their paths."""
     chosen = read_run(arguments.folder)
-    with style.look():
-        movie = Movie(chosen, style.Units(*map(style.plain, arguments.units)))
-    player, picture = render(movie, description(chosen))
+    try:
+        with style.look():
+            movie = Movie(chosen, style.Units(*map(style.plain, arguments.units)))
+        player, picture = render(movie, description(chosen))
+    except (ValueError, OverflowError) as error:
+        raise ResultsError(chosen.path, f"cannot be drawn: {brief(str(error))}") from None
     folder = Path(arguments.out)
     contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
     for path in write_files(contents):

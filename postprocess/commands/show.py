@@ -9,8 +9,11 @@ from postprocess.results import read_run
 
 GROUPS = {
     "run": "scene method converged".split(),
-    "cost": "adaptations newton newtonPerAdaptation factorisations backsolves".split(),
-    "contact": "force pressureMax overlapMax halfWidth contactPoints wallPoints".split(),
+    "cost": "adaptations newton newtonPerAdaptation kernelNewton factorisations backsolves costRatio".split(),
+    "contact": (
+        "force approach pressureMax overlapMax halfWidth halfWidthMoment contactPoints wallPoints unpairedPoints".split()
+    ),
+    "balance": "reactionX reactionY reactionMoment contactMoment".split(),
     "accuracy": "residual modelError energy".split(),
     "mesh": "points ndof order h".split(),
 }
@@ -27,7 +30,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def table(summary: dict) -> list[str]:
     """The lines of the table: names left, values from one common column on, a blank line between groups."""
-    groups = {title: {key: summary[key] for key in keys} for title, keys in GROUPS.items()}
+    groups = {title: {key: summary[key] for key in keys if key in summary} for title, keys in GROUPS.items()}
     listed = {key for keys in GROUPS.values() for key in keys} | {"seconds", "parameters"}
     groups["further"] = {key: value for key, value in summary.items() if key not in listed}
     groups["seconds"] = summary["seconds"]
@@ -52,5 +55,7 @@ def cell(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.8g}"
     if isinstance(value, list):
-        return " ".join(map(cell, value))
+        return " ".join(map(cell, value)) or "-"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {cell(inner)}" for name, inner in value.items()) or "-"
     return str(value)

@@ -1,0 +1,129 @@
+"""draw every figure that can be made from a folder of results
+
+RESULTS is a folder of results, `results` when it is not given. Each figure takes the runs that suit it, those of
+`make figures` first; the figures of campaigns take the folders bench and stability. What cannot be made is listed
+with what it needs. The figures are written as PDF and PNG: all of them, or none.
+"""
+
+import argparse
+from pathlib import Path
+
+from postprocess import figures, style
+from postprocess.figures.figure2 import SAME_PROBLEM
+from postprocess.output import write_figures
+from postprocess.results import ResultsError, Run
+from postprocess.tree import Tree, read_tree
+
+# What a figure of runs needs, for those who have to make it.
+NEEDS = {
+    "figure1": "a run of disc-on-block or meshed-disc made with -states 1",
+    "figure2": "a run of the method incremental, and one of another method of the same problem",
+    "convergence": "a run",
+    "thresholds": "a run of the method paper",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", metavar="RESULTS", nargs="?", default="results", help="a folder of results")
+    parser.add_argument("--out", metavar="DIR", help="where to write (default: RESULTS/figures)")
+    parser.add_argument(
+        "--units",
+        nargs=2,
+        metavar=("LENGTH", "STRESS"),
+        default=(style.Units.length, style.Units.stress),
+        help="names of the units in the axis labels, such as mm MPa",
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Draws what can be drawn, writes it, prints the paths, and what is missing with the reason."""
+    tree = read_tree(arguments.folder)
+    folder = Path(arguments.out) if arguments.out else tree.path / "figures"
+    drawn, missing = {}, []
+    with style.look():
+        units = style.Units(*map(style.plain, arguments.units))
+        for name, module in figures.modules().items():
+            found = material(tree, name, module)
+            if isinstance(found, str):
+                missing.append(f"{name}: {found}")
+                continue
+            drawn[folder / f"{name}.pdf"] = module.draw(found, units)
+        if not drawn:
+            raise ResultsError(tree.path, "holds nothing that a figure could be made of")
+        for path in write_figures(drawn):
+            print(path)
+    for line in missing:
+        print(f"not made: {line}")
+
+
+def material(tree: Tree, name: str, module) -> list | str:
+    """What a figure is drawn from, or what it needs."""
+    if hasattr(module, "READ"):
+        folder = tree.path / name.partition("_")[0]
+        if not any(folder.glob("*.csv")):
+            return f"needs make {folder.name}"
+        campaign = module.READ(folder)
+        try:
+            module.draw([campaign], style.Units())
+        except ResultsError as error:
+            if "no such file" in str(error):
+                return f"needs the whole of make {folder.name}"
+            raise
+        return [campaign]
+    chosen = CHOICES[name](ordered(tree.runs)) if name in CHOICES else []
+    return chosen or f"needs {NEEDS.get(name, 'runs that this command does not know how to choose')}"
+
+
+def ordered(runs: list[Run]) -> list[Run]:
+    """Those in a folder called figures first: they were made for it."""
+    return sorted(runs, key=lambda run: ("figures" not in run.path.parts, str(run.path)))
+
+
+def choose_states(runs: list[Run]) -> list[Run]:
+    """Bodies of the paper's test, both meshed if possible."""
+    fit = [run for run in runs if (run.path / "states.csv").exists() and run.summary["newton"] > 0]
+    fit = [run for run in fit if run.summary["scene"] in ("meshed-disc", "disc-on-block")]
+    return sorted(fit, key=lambda run: run.summary["scene"] != "meshed-disc")[:1]
+
+
+def choose_pair(runs: list[Run]) -> list[Run]:
+    """A run and the reference in small load steps, of one problem on one mesh."""
+    references = [run for run in runs if run.summary["method"] == "incremental"]
+    others = [run for run in runs if run.summary["method"] in ("paper", "xnewton")]
+    others.sort(key=lambda run: run.summary["method"] != "paper")
+    for other in others:
+        for reference in references:
+            if problem(other) == problem(reference) and min(each.summary["contactPoints"] for each in (other, reference)) >= 5:
+                return [other, reference]
+    return []
+
+
+def choose_histories(runs: list[Run]) -> list[Run]:
+    """One run per method and first threshold, all of the problem that most of them are of; no load steps."""
+    fit = [run for run in runs if run.summary["newton"] > 0 and run.summary["method"] != "incremental"]
+    groups: dict = {}
+    for run in fit:
+        key = run.summary["method"], str(run.summary["parameters"].get("T0"))
+        groups.setdefault(problem(run), {}).setdefault(key, run)
+    return list(max(groups.values(), key=len).values()) if groups else []
+
+
+def choose_thresholds(runs: list[Run]) -> list[Run]:
+    """The paper's scheme, from hard contact if possible, where the threshold goes the longest way."""
+    fit = [run for run in runs if run.summary["method"] == "paper" and run.summary["contactPoints"] > 0]
+    return sorted(fit, key=lambda run: run.summary["parameters"].get("T0") != "d0")[:1]
+
+
+CHOICES = {
+    "figure1": choose_states,
+    "figure2": choose_pair,
+    "convergence": choose_histories,
+    "thresholds": choose_thresholds,
+}
+
+
+def problem(run: Run) -> tuple:
+    """What two runs have in common whose results may be laid over each other."""
+    summary = run.summary
+    values = [str(summary["parameters"].get(name)) for name in [*SAME_PROBLEM, "law", "geometry"]]
+    return summary["scene"], summary["order"], summary["h"], *values

@@ -1,0 +1,319 @@
+"""The report: one page of everything that has been run, from a tree of results."""
+
+import datetime
+import platform
+
+import matplotlib
+import numpy as np
+
+from postprocess import doctor, figures, page, player
+from postprocess.campaign import CONVERGED, Campaign, Row, good, number
+from postprocess.page import Markup, element, folded, joined, section, table
+from postprocess.references import Check, checks
+from postprocess.results import ResultsError, Run, brief, is_number
+from postprocess.tree import Tree, read_bytes, read_png
+from postprocess.words import HISTORY_COLUMNS, command, history_rows, place, run_words, short
+
+LONG = 40  # rows of an iteration table above which it is folded away
+HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
+
+# What the figures show, for those who do not see them.
+ALTS = {
+    "figure1": "Deformed meshes of block and disc at successive states of the scheme, the whole bodies above and the "
+    "contact zone below. After the prescribed motion alone the bodies interpenetrate; at the end they only touch.",
+    "figure2": "Contact pressure over the contact's width, an arch that falls to zero at both edges: the scheme's points "
+    "lie on the reference's line. Below, their relative difference on a logarithmic axis.",
+    "convergence": "Relative residual against Newton step on a logarithmic axis, a curve for each run; it jumps up where "
+    "a new model begins and then falls faster and faster.",
+    "thresholds": "The threshold field over the contact, a curve for each model: it rises from one to the next, and only "
+    "where the points are at the wall.",
+    "bench_work_precision": "Error of the iteration against seconds, factorisations and back-substitutions, on "
+    "logarithmic axes, a curve for each method.",
+    "bench_meshes": "Errors against the independent reference solution over meshes, against run time, on logarithmic axes.",
+    "bench_growth": "Seconds, memory and cost ratio against the number of unknowns, on logarithmic axes.",
+    "bench_ingredients": "A map of counts: each ingredient of the method exchanged in turn, scene by scene.",
+    "stability_methods": "A map for each method: number of linearisations over stiffness and exponent; failures hatched.",
+    "stability_xnewton": "A map: the default method's greatest number of linearisations over stiffness and exponent.",
+    "stability_backsolves": "A map: the default method's most back-substitutions over stiffness and exponent.",
+}
+CAMPAIGNS = {
+    "bench": ("Work and precision", "make bench", ("work_precision", "meshes", "growth", "ingredients")),
+    "stability": ("Stability", "make stability", ("stability", "quick")),
+}
+
+
+def build(tree: Tree) -> str:
+    """The whole page."""
+    verdicts = [(run, checks(run)) for run in tree.runs]
+    pictures = {path: read_png(path) for path in tree.figures}
+    movies = {path: read_movie(path) for path in tree.movies}
+    campaigns = [campaign(tree, name, pictures) for name in CAMPAIGNS]
+    if not (tree.runs or pictures or movies or any(campaigns)):
+        raise ResultsError(tree.path, "holds no run and no figure; make run, make figures, make bench or make stability")
+    own = {path: data for path, data in pictures.items() if path.parent.name == "figures"}
+    parts = [
+        section("runs", "Runs", *overview(tree)) if tree.runs else "",
+        section("references", "Results against references", *references(tree, verdicts)) if tree.runs else "",
+        section("figures", "Figures", *(figure(tree, path, data) for path, data in own.items())) if own else "",
+        section("movies", "Movies", *(movie(tree, path, part) for path, part in movies.items())) if movies else "",
+        *campaigns,
+        section("details", "Each run", *(details(tree, run, k) for k, run in enumerate(tree.runs, 1)))
+        if tree.runs
+        else "",
+        section("machine", "Machine and versions", machine()),
+    ]
+    body = joined([header(tree, verdicts, parts), element("main", joined(filter(None, parts)), id="main")])
+    return page.document("Stiff normal contact: report", body)
+
+
+def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> Markup:
+    """What the page holds, in a few lines, and links to its parts."""
+    converged = sum(run.summary["converged"] for run in tree.runs)
+    found = [check for _, several in verdicts for check in several]
+    sentences = [f"{converged} of {len(tree.runs)} runs converged."] if tree.runs else []
+    if found:
+        sentences.append(f"{sum(check.passed for check in found)} of {len(found)} comparisons with a reference pass.")
+    newest = max((run.path / "summary.json").stat().st_mtime for run in tree.runs) if tree.runs else None
+    if newest is not None:
+        when = datetime.datetime.fromtimestamp(newest, datetime.UTC)
+        sentences.append(f"Newest run: {when:%Y-%m-%d %H:%M} UTC.")
+    names = {"runs": "Runs", "references": "References", "figures": "Figures", "movies": "Movies"}
+    names |= {name: title for name, (title, _, _) in CAMPAIGNS.items()}
+    names |= {"details": "Each run", "machine": "Machine and versions"}
+    there = [name for name in names if any(f'<section id="{name}"' in part for part in parts)]
+    links = joined(element("li", element("a", names[name], href=f"#{name}")) for name in there)
+    return element(
+        "header",
+        joined(
+            [
+                element("h1", "Stiff normal contact: report"),
+                element("p", " ".join(sentences), class_="lead"),
+                element("p", joined(["Made from ", element("code", place(tree.path)), " by ", element("code", "make report"), "."], "")),
+                element("nav", element("ul", links), aria_label="Parts of this page"),
+            ]
+        ),
+    )
+
+
+def overview(tree: Tree) -> list[Markup]:
+    """A row per run."""
+    columns = (
+        "run,scene,method,element,h,dofs,converged,adaptations,Newton steps,factorisations,back-substitutions,"
+        "force,greatest pressure,half-width,CPU s"
+    ).split(",")
+    rows = []
+    for index, run in enumerate(tree.runs, 1):
+        summary = run.summary
+        seconds = summary["seconds"].get("total")
+        rows.append(
+            [
+                element("a", tree.name(run.path), href=f"#run-{index}"),
+                *(summary["scene"], summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
+                verdict(summary["converged"], "yes", "NO"),
+                *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
+                *(short(summary[name]) for name in "force pressureMax halfWidth".split()),
+                f"{seconds:.2f}" if is_number(seconds) else "–",
+            ]
+        )
+    return [table("All runs", columns, rows, [4, 5, *range(7, 15)])]
+
+
+def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
+    """A row per comparison, and what is compared with what."""
+    rows = [
+        [
+            element("a", tree.name(run.path), href=f"#run-{index}"),
+            f"P{run.summary['order']}, h = {short(run.summary['h'])}",
+            check.name,
+            check.source,
+            f"{check.value:.8g}",
+            f"{check.reference:.8g}",
+            f"{check.difference:+.1e}",
+            f"{check.allowed:.1e}",
+            verdict(check.passed, "pass", "FAIL"),
+        ]
+        for index, (run, several) in enumerate(verdicts, 1)
+        for check in several
+    ]
+    words = element(
+        "p",
+        "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an independent "
+        "computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h^1.5 for P1 and "
+        "0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block has an exact state. "
+        "Runs with other parameters have no reference and are not in the table.",
+    )
+    if not rows:
+        return [words, element("p", "No run so far is one of these.")]
+    columns = "run,mesh,value,reference,found,expected,difference,allowed,verdict".split(",")
+    return [words, table("Comparisons", columns, rows, [4, 5, 6, 7])]
+
+
+def verdict(passed: bool, good_word: str, bad_word: str) -> Markup:
+    return element("span", good_word if passed else bad_word, class_="pass" if passed else "fail")
+
+
+def figure(tree: Tree, path, data: bytes) -> Markup:
+    """A picture, what it is, and the command that makes it."""
+    name = path.stem
+    module = figures.modules().get(name)
+    title = module.__doc__.splitlines()[0] if module else f"Picture {name}"
+    title = title[0].upper() + title[1:]
+    made = CAMPAIGNS[path.parent.name][1] if path.parent.name in CAMPAIGNS else f"make results/figures/{name}.pdf"
+    alt = ALTS.get(name, title)
+    caption = joined([element("strong", name), ": ", title, ". ", element("code", made)], "")
+    return page.picture(data, alt, caption)
+
+
+def read_movie(path) -> str | None:
+    """The player in a movie's page; None when it is too heavy to be shown here."""
+    data = read_bytes(path)
+    try:
+        part = player.extract(data.decode("utf-8"))
+    except UnicodeDecodeError:
+        part = None
+    if part is None:
+        raise ResultsError(path, "is not a movie's page, or is truncated; make it again")
+    return part if len(data) <= HEAVY else None
+
+
+def movie(tree: Tree, path, part: str | None) -> Markup:
+    """A movie with its player, or a link to it."""
+    name = tree.name(path.parent)
+    runs = {run.path: run for run in tree.runs}
+    run = runs.get(path.parent)
+    heading = element("h3", run_words(run) if run else name)
+    made = f"python -m postprocess movie --out {place(path.parent)} {place(path.parent) if run else 'RUN'}"
+    shown = Markup(part) if part is not None else element("p", element("a", "The movie's own page", href=path.resolve().as_uri()))
+    return joined([heading, element("pre", made), shown])
+
+
+def campaign(tree: Tree, name: str, pictures: dict) -> Markup | str:
+    """The figures of a campaign and its tables in brief; nothing when it has not been run."""
+    title, made, tables = CAMPAIGNS[name]
+    folder = tree.path / name
+    own = {path: data for path, data in pictures.items() if path.parent == folder}
+    there = [each for each in tables if (folder / f"{each}.csv").exists()]
+    if not own and not there:
+        return ""
+    parts = [element("p", joined(["Made by ", element("code", made), "."], ""))]
+    parts += [figure(tree, path, data) for path, data in own.items()]
+    for each in there:
+        parts += campaign_table(Campaign(folder), each)
+    checked = folder / "checks.csv"
+    if name == "stability" and checked.exists() and checked.stat().st_size:
+        parts += [campaign_checks(Campaign(folder))]
+    return section(name, title, *parts)
+
+
+def campaign_table(found: Campaign, name: str) -> list[Markup]:
+    """A table's runs counted method by method; those that failed, one by one."""
+    rows = found.rows(name, "script flags status method newton backsolves")
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        start = f", T⁰ = {row['T0']}" if row["method"] == "paper" and row.get("T0") else ""
+        groups.setdefault(row["method"] + start, []).append(row)
+    lines = []
+    for method, group in groups.items():
+        fine = [row for row in group if good(row)]
+        lines.append(
+            [
+                method,
+                len(group),
+                verdict(len(fine) == len(group), "0", str(len(group) - len(fine))),
+                *(extent(fine, column) for column in ("newton", "backsolves")),
+                *(middle(fine, column) for column in ("cpu", "costRatio")),
+                *(extent(fine, column) for column in ("forceError",) if column in rows[0]),
+            ]
+        )
+    columns = "method,runs,failed,linearisations,back-substitutions,median CPU s,median cost ratio".split(",")
+    columns += ["force error"] if "forceError" in rows[0] else []
+    title = name.replace("_", " ")
+    parts = [table(f"{title}: {len(rows)} runs", columns, lines, range(1, len(columns)))]
+    where = sorted({f"{row['machine']}, {row['cores']} cores, FreeFEM {row['freefem']}" for row in rows if "machine" in row})
+    if where:
+        parts.append(element("p", "Run on: " + "; ".join(where), class_="soft"))
+    failed = [row for row in rows if row["status"] != CONVERGED]
+    if failed:
+        shown = [[f"{row['script']} {row['flags']}", row["status"]] for row in failed[:200]]
+        more = f", the first {len(shown)}" if len(shown) < len(failed) else ""
+        parts.append(
+            folded(f"{title}: {len(failed)} runs that failed{more}", table("Failed runs", ["command", "status"], shown))
+        )
+    return parts
+
+
+def campaign_checks(found: Campaign) -> Markup:
+    """Comparisons of runs with what does not rest on the code, kind by kind."""
+    rows = found.rows("checks", "check passed error")
+    lines = []
+    for kind in dict.fromkeys(row["check"] for row in rows):
+        group = [row for row in rows if row["check"] == kind]
+        bad = sum(row["passed"] != "True" for row in group)
+        lines.append([kind, len(group), verdict(bad == 0, "0", str(bad)), extent(group, "error")])
+    return table("Checks of the runs", ["check", "comparisons", "not passed", "error"], lines, [1, 2, 3])
+
+
+def extent(rows: list[Row], column: str) -> str:
+    """Least and greatest of a column."""
+    values = np.array([number(row, column) for row in rows if column in row])
+    values = values[np.isfinite(values)]
+    if len(values) == 0:
+        return "–"
+    low, high = short(float(values.min()), 2), short(float(values.max()), 2)
+    if (values == values.round()).all() and values.max() < 1e9:
+        low, high = str(int(values.min())), str(int(values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def middle(rows: list[Row], column: str) -> str:
+    values = np.array([number(row, column) for row in rows if column in row])
+    values = values[np.isfinite(values)]
+    return short(float(np.median(values)), 3) if len(values) else "–"
+
+
+def details(tree: Tree, run: Run, index: int) -> Markup:
+    """One run: how to make it again, what it was given, what it gave, step by step."""
+    summary = run.summary
+    results = {**{name: value for name, value in summary.items() if not isinstance(value, dict | list)}}
+    results["newtonPerAdaptation"] = " ".join(map(str, summary["newtonPerAdaptation"]))
+    seconds = [[f"seconds {name}", cell(value)] for name, value in summary["seconds"].items()]
+    given = [[name, cell(value)] for name, value in summary["parameters"].items() if name != "out"]
+    gave = [[name, cell(value)] for name, value in results.items() if name not in ("scene", "method", "message")]
+    tables = [
+        table("Results", ["name", "value"], gave + seconds, [1]),
+        table("Parameters", ["flag", "value"], [[f"-{name}", value] for name, value in given], [1]),
+    ]
+    steps = table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
+    count = len(run.history["newton"])
+    parts = [
+        element("h3", f"{tree.name(run.path)}: {run_words(run)}", id=f"run-{index}"),
+        element("pre", command(run)),
+    ]
+    if not summary["converged"]:
+        parts.append(element("p", f"Not converged. {summary.get('message', '')}", class_="fail"))
+    parts.append(folded(f"{count} Newton steps", steps, unfolded=False))
+    parts.append(folded("Results and parameters", element("div", joined(tables), class_="columns")))
+    return element("article", joined(parts), aria_labelledby=f"run-{index}")
+
+
+def cell(value: object) -> str:
+    return brief(short(value, 8), 200)
+
+
+def machine() -> Markup:
+    """Where and with what the page was made."""
+    versions = doctor.versions()
+    rows = [
+        ["machine", f"{doctor.processor()}, {doctor.cores()} cores, {platform.machine()}"],
+        ["system", doctor.system_name()],
+        *([name, version] for name, version in versions.items()),
+        ["Python", platform.python_version()],
+        ["numpy", np.__version__],
+        ["matplotlib", matplotlib.__version__],
+    ]
+    return joined(
+        [
+            element("p", "The machine on which this page was made; the campaigns above name their own."),
+            table("Machine and versions", ["what", "which"], rows),
+        ]
+    )

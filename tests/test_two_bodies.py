@@ -1,0 +1,123 @@
+"""Two deformable bodies: patch test, two cylinders, symmetry, stiffness contrast; rough and wavy surfaces."""
+
+import numpy as np
+import pytest
+from freefem import run
+
+TIGHT = ["-tol", 1e-11]
+METHODS = [["-method", "xnewton"], ["-method", "paper", "-eps", 1e-12]]
+
+
+def confined(kappa, m, d0, push, lengths, moduli):
+    """Pressure of the 1D state: p = kappa (d - d0)^m = (push - d)/sum(L/M), by bisection."""
+    soft = sum(length / modulus for length, modulus in zip(lengths, moduli, strict=True))
+    low, high = d0, push
+    for _ in range(200):
+        d = (low + high) / 2
+        low, high = (d, high) if kappa * (d - d0) ** m < (push - d) / soft else (low, d)
+    return (push - d) / soft
+
+
+@pytest.mark.parametrize("method", METHODS, ids=lambda flags: flags[1])
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("ratio", [1, 1e-6, 1e9])
+def test_patch(method, order, ratio):
+    """Between meshes of 7 and 11 elements the pressure shall be exact to 1e-10, whatever the stiffness contrast."""
+    done = run("patch-test", *method, *TIGHT, "-order", order, "-Eratio", ratio)
+    modulus = 100 * 0.7 / (1.3 * 0.4)
+    exact = confined(1e3, 3, -0.25, 2, (20, 10), (modulus, modulus * ratio))
+    np.testing.assert_allclose(done.contact["pressure"], exact, rtol=1e-10)
+
+
+def test_patch_nodal_fails():
+    """Nodal collocation between different meshes shall show its known fault: that is what segment points are for."""
+    done = run("patch-test", "-method", "xnewton", "-points", "nodal")
+    pressure = done.contact["pressure"]
+    assert np.ptp(pressure) > 0.05 * pressure.mean()
+
+
+def hertz(force, r1, r2, e1, e2, nu=0.3):
+    modulus = 1 / ((1 - nu**2) / e1 + (1 - nu**2) / e2)
+    a = np.sqrt(4 * force / (np.pi * modulus * (1 / r1 + 1 / r2)))
+    return a, 2 * force / (np.pi * a)
+
+
+@pytest.mark.parametrize("second", [100, 400])
+def test_two_cylinders(second):
+    """Two elastic cylinders: half-width and greatest pressure within 1 % of Hertz at h = a/20."""
+    done = run("two-cylinders", "-method", "xnewton", "-tol", 1e-8, "-E2", second, "-h", 0.04)
+    a, greatest = hertz(8.631, 10, 10, 100, second)
+    assert done.force == pytest.approx(8.631, rel=1e-10)
+    assert done.halfWidthMoment == pytest.approx(a, rel=0.01)
+    assert done.pressureMax == pytest.approx(greatest, rel=0.01)
+
+
+def test_exchange_of_slave_and_master():
+    """Exchanging slave and master shall change the force by less than the discretisation error does."""
+    flags = ["-method", "xnewton", "-tol", 1e-9, "-force", 0, "-u0", 0.4, "-h", 0.1]
+    one = run("two-cylinders", *flags, "-E2", 300, "-R2", 8, "-ratio", 1.37)
+    other = run("two-cylinders", *flags, "-E1", 300, "-E2", 100, "-R1", 8, "-R2", 10, "-ratio", 0.73)
+    finer = run("two-cylinders", *flags[:-1], 0.05, "-E2", 300, "-R2", 8, "-ratio", 1.37)
+    assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
+
+
+def test_hertz_line_converges():
+    """A rigid cylinder under a force: within 1 % of Hertz at h = a/20, the pressure's error falling with h."""
+    a, greatest = hertz(8.631, 10, 1e300, 100, 1e300)
+    coarse, fine = (run("hertz-line", "-method", "xnewton", "-tol", 1e-8, "-h", h) for h in (0.2, 0.05))
+    assert fine.halfWidthMoment == pytest.approx(a, rel=0.01)
+    assert fine.pressureMax == pytest.approx(greatest, rel=0.01)
+    assert abs(fine.pressureMax / greatest - 1) < abs(coarse.pressureMax / greatest - 1)
+
+
+def test_meshed_disc_counts():
+    """The meshed disc: xnewton within 4 linearisations, and the paper's scheme still in 3 adaptations, 12 steps."""
+    ours = run("meshed-disc", "-method", "xnewton", "-tol", 1e-8, "-h", 0.5)
+    assert ours.newton <= 4
+    assert ours.adaptations == 1
+    assert run("meshed-disc", "-method", "paper", "-h", 0.5).summary["newtonPerAdaptation"] == [6, 4, 2]
+
+
+@pytest.mark.parametrize("kappa", [1e3, 1e9])
+def test_many_contacts(kappa):
+    """Wavy and rough surfaces: many separate contacts, to plain Newton's answer."""
+    for scene, flags in (("wavy", ["-u0", 0.7, "-h", 0.2]), ("rough", ["-h", 0.2])):
+        ours = run(scene, "-method", "xnewton", "-tol", 1e-8, "-kappa", kappa, *flags)
+        newton = run(scene, "-method", "newton", "-tol", 1e-10, "-kappa", kappa, *flags)
+        assert ours.force == pytest.approx(newton.force, rel=1e-6)
+        assert ours.newton <= 8
+        if kappa > 1e6:
+            contact = ours.contact["status"] > 0
+            assert np.count_nonzero(np.diff(contact.astype(int)) == 1) >= 5
+
+
+def test_flat_punch():
+    """Away from the corners a flat punch's pressure shall be that of the rigid punch on a half-plane, within 5 %."""
+    done = run(
+        "flat-punch",
+        "-method",
+        "xnewton",
+        "-law",
+        "signorini",
+        "-force",
+        20,
+        "-a",
+        1,
+        "-h",
+        0.05,
+        "-tol",
+        1e-8,
+        "-width",
+        80,
+        "-depth",
+        40,
+    )
+    x, pressure = done.contact["x"], done.contact["pressure"]
+    inner = abs(x) < 0.8
+    np.testing.assert_allclose(pressure[inner], 20 / (np.pi * np.sqrt(1 - x[inner] ** 2)), rtol=0.05)
+
+
+@pytest.mark.parametrize("scene", ["confined-block", "patch-test"])
+def test_scenes_without_gmsh(scene):
+    """A scene whose mesh is FreeFEM's own shall not load gmsh's plugin."""
+    assert "gmsh" not in run(scene, "-method", "xnewton").summary["plugins"]

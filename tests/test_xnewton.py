@@ -1,0 +1,211 @@
+"""Method xnewton: counts, laws, prescribed forces, exact distance, axisymmetry, against something independent."""
+
+import numpy as np
+import pytest
+from freefem import run, run_in, script, table
+
+BASE = ["-method", "xnewton", "-tol", 1e-8]
+LAWS = [
+    ["-law", "exponential", "-beta", 60],
+    ["-law", "exponential", "-beta", 500],
+    ["-law", "barrier", "-p0", 1],
+    ["-law", "barrier", "-p0", 1e-4],
+    ["-law", "signorini"],
+    ["-kappa", 1e-2, "-m", 30],
+    ["-kappa", 1e3, "-m", 1.05],
+    ["-kappa", 1e6, "-m", 10],
+    ["-kappa", 1e12],
+    ["-kappa", 1e30, "-m", 20],
+]
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("law", LAWS, ids=lambda flags: " ".join(map(str, flags)))
+def test_counts(law, order):
+    """Any law shall be solved in 4 linearisations, 20 back-substitutions, one factorisation and one model."""
+    done = run("disc-on-block", *BASE, *law, "-h", 0.2, "-order", order)
+    assert done.newton <= 4
+    assert done.backsolves <= 20
+    assert done.factorisations == 1
+    assert done.adaptations == 1
+    assert done.summary["used"]["kernel"] is True
+
+
+@pytest.mark.parametrize("law", [["-kappa", 1e3], ["-kappa", 1e9], ["-law", "exponential"]], ids=str)
+def test_cold_start(law):
+    """Without the half-plane start 10 linearisations shall do, and 16 with a wall that is met."""
+    assert run("disc-on-block", *BASE, *law, "-h", 0.2, "-start", "none").newton <= 10
+    walled = run("disc-on-block", *BASE, *law, "-h", 0.2, "-start", "none", "-T0", "d0")
+    assert walled.newton <= 16
+    assert walled.adaptations == 2
+    assert walled.summary["used"]["wall"] is True
+
+
+@pytest.mark.parametrize(
+    "flags", [[], ["-kappa", 1e6, "-m", 10], ["-law", "exponential"], ["-law", "barrier", "-T0", -0.01]], ids=str
+)
+def test_same_as_paper(flags):
+    """The paper's scheme, run to its exact stop, shall give the same force, pressures and energy."""
+    rest = flags[: flags.index("-T0")] if "-T0" in flags else flags
+    ours = run("disc-on-block", "-method", "xnewton", "-tol", 1e-11, "-h", 0.5, *rest)
+    paper = run("disc-on-block", "-method", "paper", "-tol", 1e-11, "-eps", 1e-12, "-h", 0.5, *flags)
+    assert ours.force == pytest.approx(paper.force, rel=1e-9)
+    np.testing.assert_allclose(ours.contact["pressure"], paper.contact["pressure"], atol=1e-8 * paper.pressureMax)
+    assert ours.energy <= paper.energy * (1 + 1e-12)
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        ["-start", "none"],
+        ["-preconditioner", "diagonal"],
+        ["-preconditioner", "none"],
+        ["-inner", "newton", "-T0", 0, "-start", "none"],
+        ["-threshold", "pointwise", "-T0", 0],
+        ["-T0", 0],
+        ["-T0", "d0"],
+    ],
+    ids=str,
+)
+def test_ingredients(part):
+    """Taking an ingredient away shall cost iterations, never change the answer."""
+    whole = run("disc-on-block", "-method", "xnewton", "-tol", 1e-10, "-h", 0.5)
+    bare = run("disc-on-block", "-method", "xnewton", "-tol", 1e-10, "-eps", 1e-10, "-h", 0.5, *part)
+    assert bare.force == pytest.approx(whole.force, rel=1e-8)
+    assert bare.backsolves >= whole.backsolves
+
+
+def test_signorini_limit():
+    """For kappa to infinity the force shall tend to Signorini's like kappa^(-1/m)."""
+    hard = run("disc-on-block", *BASE, "-law", "signorini", "-h", 0.5).force
+    off = [hard - run("disc-on-block", *BASE, "-kappa", kappa, "-h", 0.5).force for kappa in (1e9, 1e12, 1e15)]
+    rates = np.log10(np.array(off[:-1]) / off[1:]) / 3
+    np.testing.assert_allclose(rates, 1 / 3, atol=0.02)
+
+
+def test_pressure_does_not_oscillate():
+    """P1 at kappa=1e12: the greatest pressure shall be within 2 % of the P2 value on the same mesh."""
+    p1, p2 = (run("disc-on-block", *BASE, "-kappa", 1e12, "-h", 0.25, "-order", order) for order in (1, 2))
+    assert p1.pressureMax == pytest.approx(p2.pressureMax, rel=0.02)
+
+
+def test_steel_bearing_in_si_units():
+    """A steel bearing in metres and pascals shall take the steps of its twin in units of the radius and the modulus."""
+    shape = {"-R": 1, "-width": 4, "-depth": 2, "-gap": 2e-4, "-d0": -2e-4, "-u0": 1.2e-3, "-h": 2e-3, "-reach": 0.06}
+    metres = [word for flag, value in shape.items() for word in (flag, value * 5e-3)]
+    plain = [word for flag, value in shape.items() for word in (flag, value)]
+    young, kappa = 2.1e11, 1e7
+    steel = run("disc-on-block", *BASE, *metres, "-E", young, "-kappa", kappa * young / (5e-3) ** 3)
+    twin = run("disc-on-block", *BASE, *plain, "-E", 1, "-kappa", kappa)
+    for name in ("newton", "kernelNewton", "backsolves", "contactPoints"):
+        assert steel.summary[name] == twin.summary[name], name
+    assert steel.force == pytest.approx(twin.force * young * 5e-3, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [
+        ["-nu", 0.4999, "-order", 2],
+        ["-E", 1e-6],
+        ["-E", 1e12],
+        ["-d0", -1e-12],
+        ["-d0", -5],
+        ["-aspect", 100],
+        ["-offset", 15],
+        ["-u0", 7.5],
+        ["-u0", 0.25 + 1e-12],
+    ],
+    ids=str,
+)
+def test_extremes(flags):
+    """Extreme data shall be solved, and to plain Newton's answer."""
+    ours = run("disc-on-block", *BASE, "-h", 0.5, *flags)
+    newton = run("disc-on-block", "-method", "newton", "-tol", 1e-10, "-h", 0.5, *flags)
+    assert ours.newton <= 8
+    assert ours.force == pytest.approx(newton.force, rel=1e-6)
+
+
+@pytest.mark.parametrize("method", ["xnewton", "paper", "newton", "signorini"])
+def test_prescribed_force(method):
+    """The contact force shall be the applied one, and its approach, when prescribed, shall give this force."""
+    flags = ["-method", method, "-tol", 1e-10, "-h", 0.5] + (["-eps", 1e-10] if method == "paper" else [])
+    pushed = run("disc-on-block", *flags, "-force", 100)
+    assert pushed.force == pytest.approx(100, rel=1e-10)
+    moved = run("disc-on-block", *flags, "-u0", pushed.approach)
+    assert moved.force == pytest.approx(100, rel=1e-7)
+
+
+@pytest.mark.parametrize("kappa, m", [(1e3, 3), (1e12, 3), (1e30, 3), (1e3, 20)])
+def test_exact_distance(kappa, m):
+    """The true distance to the disc shall need 6 rounds, 25 linearisations, and raise the force by per cents."""
+    linear = run("disc-on-block", *BASE, "-h", 0.1, "-kappa", kappa, "-m", m)
+    exact = run("disc-on-block", *BASE, "-h", 0.1, "-kappa", kappa, "-m", m, "-distance", "exact")
+    assert exact.rounds <= 6
+    assert exact.newton <= 25
+    assert 1.005 < exact.force / linear.force < 1.04
+
+
+def test_table_law(tmp_path):
+    """A table of the power law's values shall give its solution; a bad one shall be refused with its line."""
+    good = tmp_path / "law.csv"
+    overlaps = np.linspace(0, 0.4, 401)
+    lines = [f"{d - 0.25:.17g},{1000 * d**3:.17g}" for d in overlaps]
+    good.write_text("overlap,pressure\n" + "\n".join(lines) + "\n")
+    tabled = run("disc-on-block", *BASE, "-h", 0.5, "-law", "table", "-table", good)
+    power = run("disc-on-block", *BASE, "-h", 0.5)
+    assert tabled.force == pytest.approx(power.force, rel=1e-6)
+    bad = tmp_path / "bad.csv"
+    bad.write_text("0,0\n1,2\n1,3\n")
+    refused = run_in(".", script("disc-on-block"), "-law", "table", "-table", bad, out=tmp_path / "out", expect=10)
+    assert "line 3" in refused.stdout.splitlines()[0]
+
+
+def test_sphere_about_the_axis_against_hertz():
+    """A rigid sphere under a force, axisymmetric: radius and greatest pressure within 1 % of Hertz at a/20."""
+    force, radius, modulus = 10, 10, 100 / (1 - 0.3**2)
+    a = (3 * force * radius / (4 * modulus)) ** (1 / 3)
+    flags = [
+        "-geometry",
+        "axisymmetric",
+        "-law",
+        "signorini",
+        "-force",
+        force,
+        "-reach",
+        2,
+        "-h",
+        a / 20,
+        "-grading",
+        40,
+    ]
+    sphere = run("disc-on-block", *BASE, *flags)
+    assert sphere.halfWidthMoment == pytest.approx(a, rel=0.01)
+    assert sphere.pressureMax == pytest.approx(3 * force / (2 * np.pi * a**2), rel=0.01)
+
+
+def test_load_series_goes_on(tmp_path):
+    """A load series shall write a row a step and go on after its last step, to the same end."""
+    flags = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 6, "-vtu", 0]
+    whole = run_in(".", script("disc-on-block"), *flags, out=tmp_path / "whole")
+    rows = table(tmp_path / "whole" / "series.csv")
+    assert list(rows["step"]) == [1, 2, 3, 4, 5, 6]
+    assert (np.diff(rows["force"]) >= 0).all()
+    # as if it had been interrupted after the third step
+    state = (tmp_path / "whole" / "series.state").read_text().splitlines()
+    again = tmp_path / "again"
+    again.mkdir()
+    points = whole.summary["points"]
+    short = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 3, "-vtu", 0]
+    shorter = run_in(".", script("disc-on-block"), *short, out=tmp_path / "half")
+    assert shorter.summary["points"] == points
+    half = (tmp_path / "half" / "series.state").read_text().splitlines()
+    # only the form of that state is borrowed: its identity, and the rows, are those of the whole run
+    body = half[1:]
+    forces = body[-points:]
+    data = [line for row in rows[:3] for line in map(repr, map(float, row))]
+    (again / "series.state").write_text("\n".join([state[0], "3 3 0", *data, *forces]) + "\n")
+    resumed = run_in(".", script("disc-on-block"), *flags, out=again)
+    assert "goes on after step 3" in resumed.stdout
+    end = table(again / "series.csv")
+    assert list(end["step"]) == [1, 2, 3, 4, 5, 6]
+    np.testing.assert_allclose(end["force"], rows["force"], rtol=1e-5)
