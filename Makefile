@@ -90,12 +90,26 @@ case.paper            := edp/main.edp -method paper -h 0.25 -order 2
 case.incremental      := edp/main.edp -method incremental -steps 20 -h 0.25 -order 2
 case.signorini-start  := edp/main.edp -method paper -T0 d0 -h 0.25 -order 2
 case.newton           := edp/main.edp -method newton -h 0.25 -order 2
+case.xnewton          := edp/main.edp -method xnewton -h 0.25 -order 2
+case.hertz-line       := edp/scenes/hertz-line.edp -order 2 -axis 1
+case.two-cylinders    := edp/scenes/two-cylinders.edp -order 2 -axis 1
+case.hertz-sphere     := edp/main.edp -geometry axisymmetric -law signorini -force 10 -reach 2 -h 0.044 -grading 40 -order 2 -axis 1
+case.rough-series     := edp/scenes/rough.edp -kappa 1e9 -history 1 -steps 20
 
 # figure.<name>: the cases that it draws.
 figure.figure1     := paper-two-bodies
 figure.figure2     := paper incremental
-figure.convergence := paper signorini-start newton
+figure.convergence := paper signorini-start newton xnewton
 figure.thresholds  := signorini-start
+figure.hertz-line    := hertz-line
+figure.two-cylinders := two-cylinders
+figure.hertz-sphere  := hertz-sphere
+figure.rough-series  := rough-series
+# draw.<figure>: its kind, where that is not its name
+draw.hertz-line    := hertz
+draw.two-cylinders := hertz
+draw.hertz-sphere  := hertz
+draw.rough-series  := series
 
 CASES   := $(sort $(patsubst case.%,%,$(filter case.%,$(.VARIABLES))))
 FIGURES := $(sort $(patsubst figure.%,%,$(filter figure.%,$(.VARIABLES))))
@@ -108,7 +122,7 @@ $(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(fi
 
 # A pattern with two targets makes both in one go.
 results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | .venv/run.stamp
-	$(PYTHON) -m postprocess figure $* --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
+	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
 
 # ---------------------------------------------------------------- campaigns
 

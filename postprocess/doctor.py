@@ -104,7 +104,9 @@ def freefem_version() -> str:
     found = re.search(r"FreeFem\+\+ +v?(\d[\w.]*)", output)
     if not found:
         return ""
-    code, package = answer(["dpkg-query", "-W", "-f", "${Version}", "freefem++"]) if shutil.which("dpkg-query") else (1, "")
+    code, package = (
+        answer(["dpkg-query", "-W", "-f", "${Version}", "freefem++"]) if shutil.which("dpkg-query") else (1, "")
+    )
     return found.group(1) + (f" (Debian's package {package.strip()})" if code == 0 and package.strip() else "")
 
 
@@ -195,7 +197,15 @@ def plugin_path(works: bool) -> list:
     try:
         text = (ROOT / "freefem++.pref").read_text()
     except OSError:
-        return [Finding("  plugin path", works, "no freefem++.pref in the repository's root", True, "git checkout freefem++.pref")]
+        return [
+            Finding(
+                "  plugin path",
+                works,
+                "no freefem++.pref in the repository's root",
+                True,
+                "git checkout freefem++.pref",
+            )
+        ]
     folders = re.findall(r'^loadpath \+= "(.*)"', text, re.M)
     words = [f"{folder}{'' if Path(folder).is_dir() else ' (not here)'}" for folder in folders]
     if os.environ.get("FF_LOADPATH"):
@@ -214,7 +224,9 @@ def find_python() -> list:
     check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))"
     able = [name for name in ("python3", "/usr/bin/python3") if answer([name, "-c", check])[0] == 0]
     version = answer([able[0], "--version"])[1].strip() if able else platform.python_version()
-    words = f"{version}, {shutil.which(able[0])}" if able else f"{version}; needed: 3.11 or newer, with venv and ensurepip"
+    words = (
+        f"{version}, {shutil.which(able[0])}" if able else f"{version}; needed: 3.11 or newer, with venv and ensurepip"
+    )
     findings = [Finding("Python", bool(able), words, True, hint("python"))]
     own = next((path for path in (ROOT / ".venv/bin/python", ROOT / ".venv/Scripts/python.exe") if path.exists()), None)
     for names, needed in ((MODULES, True), (DEVELOPERS, False)):
@@ -243,7 +255,9 @@ def find_others() -> list:
         slow = "openblas" not in library and "mkl" not in library and "blis" not in library
         words = f"{library}{' (slow)' if slow else ''}"
         findings.append(Finding("BLAS", not slow, words, False, "apt-get install libopenblas0-pthread"))
-    browser = next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
+    browser = next(
+        (path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None
+    )
     words = browser or "not on the PATH; the tests of the report's page are skipped"
     findings.append(Finding("Chromium", bool(browser), words, False, hint("chromium")))
     return findings

@@ -107,7 +107,9 @@ class Movie:
         pressure = np.clip(steps.pressure[index], -0.06 * self.plane.top, self.plane.top)
         for status, (_, look) in LOOKS.items():
             chosen = steps.status[index] == status
-            axes.plot(steps.x[chosen], pressure[chosen], linestyle="none", zorder=2, **{**look, "markersize": 3 * self.scale})
+            axes.plot(
+                steps.x[chosen], pressure[chosen], linestyle="none", zorder=2, **{**look, "markersize": 3 * self.scale}
+            )
         axes.set_xlim(self.window[0], self.window[1])
         axes.set_ylim(-0.06 * self.plane.top, self.plane.top)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=4))

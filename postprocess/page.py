@@ -4,9 +4,9 @@ import base64
 import html
 import string
 from collections.abc import Iterable, Sequence
-from itertools import count
 from pathlib import Path
 
+WIDE = 1.3  # ratio of width to height above which a picture keeps its size on a phone and scrolls sideways
 TEMPLATES = Path(__file__).parent / "templates"
 
 
@@ -70,22 +70,18 @@ def picture(png: bytes, alt: str, caption: Markup) -> Markup:
     """A figure with its picture in it. alt: what the picture shows."""
     width, height = (int.from_bytes(png[start : start + 4], "big") for start in (16, 20))
     source = "data:image/png;base64," + base64.b64encode(png).decode()
-    image = f"<img{listed({'src': source, 'alt': alt, 'width': width // 2, 'height': height // 2})}>"
-    return element("figure", joined([Markup(image), element("figcaption", caption)]))
+    image = Markup(f"<img{listed({'src': source, 'alt': alt, 'width': width // 2, 'height': height // 2})}>")
+    if width > WIDE * height:
+        image = element("div", image, class_="scroll wide", role="region", tabindex=0, aria_label="Picture")
+    return element("figure", joined([image, element("figcaption", caption)]))
 
 
-def folded(summary: str, content: Markup, unfolded: bool = False) -> Markup:
-    """Content that is opened by a click on its summary."""
-    return Markup(f"<details{' open' if unfolded else ''}>{element('summary', summary)}\n{content}\n</details>")
+def folded(summary: str, content: Markup) -> Markup:
+    """Content that is opened by a click on its summary, and on paper."""
+    return element("details", joined([element("summary", summary), content]))
 
 
 def section(name: str, heading: str, *content: Markup) -> Markup:
     """A part of the page with its heading, which can be linked to by name."""
     head = element("h2", heading, id=f"{name}-heading")
     return element("section", joined([head, *content]), id=name, aria_labelledby=f"{name}-heading")
-
-
-def namer(prefix: str):
-    """Names for links: prefix-1, prefix-2 ..."""
-    numbers = count(1)
-    return lambda: f"{prefix}-{next(numbers)}"

@@ -15,7 +15,12 @@ PAPER_TEST = {
     **{"bodyForce": 0, "traction": 0, "Eratio": 1e6, "history": 0},
 }
 SCENES = ("disc-on-block", "disc-on-block-ipopt", "meshed-disc")
-NAMES = {"force": "force", "pressureMax": "greatest pressure", "halfWidth": "half-width", "overlapMax": "greatest overlap"}
+NAMES = {
+    "force": "force",
+    "pressureMax": "greatest pressure",
+    "halfWidth": "half-width",
+    "overlapMax": "greatest overlap",
+}
 LEAST_POINTS = 5  # points in contact below which a comparison means nothing
 
 

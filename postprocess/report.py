@@ -6,7 +6,7 @@ import platform
 import matplotlib
 import numpy as np
 
-from postprocess import doctor, figures, page, player
+from postprocess import doctor, figures, page, player, style
 from postprocess.campaign import CONVERGED, Campaign, Row, good, number
 from postprocess.page import Markup, element, folded, joined, section, table
 from postprocess.references import Check, checks
@@ -14,7 +14,6 @@ from postprocess.results import ResultsError, Run, brief, is_number
 from postprocess.tree import Tree, read_bytes, read_png
 from postprocess.words import HISTORY_COLUMNS, command, history_rows, place, run_words, short
 
-LONG = 40  # rows of an iteration table above which it is folded away
 HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
 
 # What the figures show, for those who do not see them.
@@ -49,7 +48,9 @@ def build(tree: Tree) -> str:
     movies = {path: read_movie(path) for path in tree.movies}
     campaigns = [campaign(tree, name, pictures) for name in CAMPAIGNS]
     if not (tree.runs or pictures or movies or any(campaigns)):
-        raise ResultsError(tree.path, "holds no run and no figure; make run, make figures, make bench or make stability")
+        raise ResultsError(
+            tree.path, "holds no run and no figure; make run, make figures, make bench or make stability"
+        )
     own = {path: data for path, data in pictures.items() if path.parent.name == "figures"}
     parts = [
         section("runs", "Runs", *overview(tree)) if tree.runs else "",
@@ -88,7 +89,13 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
             [
                 element("h1", "Stiff normal contact: report"),
                 element("p", " ".join(sentences), class_="lead"),
-                element("p", joined(["Made from ", element("code", place(tree.path)), " by ", element("code", "make report"), "."], "")),
+                element(
+                    "p",
+                    joined(
+                        ["Made from ", element("code", place(tree.path)), " by ", element("code", "make report"), "."],
+                        "",
+                    ),
+                ),
                 element("nav", element("ul", links), aria_label="Parts of this page"),
             ]
         ),
@@ -98,7 +105,7 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
 def overview(tree: Tree) -> list[Markup]:
     """A row per run."""
     columns = (
-        "run,scene,method,element,h,dofs,converged,adaptations,Newton steps,factorisations,back-substitutions,"
+        "run,converged,scene,method,element,h,dofs,adaptations,Newton steps,factorisations,back-substitutions,"
         "force,greatest pressure,half-width,CPU s"
     ).split(",")
     rows = []
@@ -108,14 +115,14 @@ def overview(tree: Tree) -> list[Markup]:
         rows.append(
             [
                 element("a", tree.name(run.path), href=f"#run-{index}"),
-                *(summary["scene"], summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
                 verdict(summary["converged"], "yes", "NO"),
+                *(summary["scene"], summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
                 *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
                 *(short(summary[name]) for name in "force pressureMax halfWidth".split()),
                 f"{seconds:.2f}" if is_number(seconds) else "–",
             ]
         )
-    return [table("All runs", columns, rows, [4, 5, *range(7, 15)])]
+    return [table("All runs", columns, rows, [5, 6, *range(7, 15)])]
 
 
 def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
@@ -123,14 +130,14 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
     rows = [
         [
             element("a", tree.name(run.path), href=f"#run-{index}"),
-            f"P{run.summary['order']}, h = {short(run.summary['h'])}",
+            verdict(check.passed, "pass", "FAIL"),
+            f"P{run.summary['order']}, h\u00a0=\u00a0{short(run.summary['h'])}",
             check.name,
             check.source,
             f"{check.value:.8g}",
             f"{check.reference:.8g}",
             f"{check.difference:+.1e}",
             f"{check.allowed:.1e}",
-            verdict(check.passed, "pass", "FAIL"),
         ]
         for index, (run, several) in enumerate(verdicts, 1)
         for check in several
@@ -138,14 +145,14 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
     words = element(
         "p",
         "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an independent "
-        "computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h^1.5 for P1 and "
+        "computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h for P1 and "
         "0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block has an exact state. "
         "Runs with other parameters have no reference and are not in the table.",
     )
     if not rows:
         return [words, element("p", "No run so far is one of these.")]
-    columns = "run,mesh,value,reference,found,expected,difference,allowed,verdict".split(",")
-    return [words, table("Comparisons", columns, rows, [4, 5, 6, 7])]
+    columns = "run,verdict,mesh,value,reference,found,expected,difference,allowed".split(",")
+    return [words, table("Comparisons", columns, rows, [5, 6, 7, 8])]
 
 
 def verdict(passed: bool, good_word: str, bad_word: str) -> Markup:
@@ -183,7 +190,11 @@ def movie(tree: Tree, path, part: str | None) -> Markup:
     run = runs.get(path.parent)
     heading = element("h3", run_words(run) if run else name)
     made = f"python -m postprocess movie --out {place(path.parent)} {place(path.parent) if run else 'RUN'}"
-    shown = Markup(part) if part is not None else element("p", element("a", "The movie's own page", href=path.resolve().as_uri()))
+    shown = (
+        Markup(part)
+        if part is not None
+        else element("p", element("a", "The movie's own page", href=path.resolve().as_uri()))
+    )
     return joined([heading, element("pre", made), shown])
 
 
@@ -229,7 +240,9 @@ def campaign_table(found: Campaign, name: str) -> list[Markup]:
     columns += ["force error"] if "forceError" in rows[0] else []
     title = name.replace("_", " ")
     parts = [table(f"{title}: {len(rows)} runs", columns, lines, range(1, len(columns)))]
-    where = sorted({f"{row['machine']}, {row['cores']} cores, FreeFEM {row['freefem']}" for row in rows if "machine" in row})
+    where = sorted(
+        {f"{row['machine']}, {row['cores']} cores, FreeFEM {row['freefem']}" for row in rows if "machine" in row}
+    )
     if where:
         parts.append(element("p", "Run on: " + "; ".join(where), class_="soft"))
     failed = [row for row in rows if row["status"] != CONVERGED]
@@ -291,7 +304,7 @@ def details(tree: Tree, run: Run, index: int) -> Markup:
     ]
     if not summary["converged"]:
         parts.append(element("p", f"Not converged. {summary.get('message', '')}", class_="fail"))
-    parts.append(folded(f"{count} Newton steps", steps, unfolded=False))
+    parts.append(folded(style.count(count, "Newton step"), steps))
     parts.append(folded("Results and parameters", element("div", joined(tables), class_="columns")))
     return element("article", joined(parts), aria_labelledby=f"run-{index}")
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from postprocess.results import ResultsError, Run, check_file, reason, read_run
+from postprocess.results import ResultsError, Run, check_file, read_run, reason
 
 PNG_START, PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB`\x82"
 FIGURES = ("figures", "bench", "stability")  # folders whose pictures are figures

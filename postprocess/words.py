@@ -27,7 +27,13 @@ OTHERWISE = {
 }
 # What a method takes from its own defaults.
 BY_METHOD = {
-    "xnewton": {"T0": "auto", "threshold": "uniform", "inner": "proximal", "start": "kernel", "preconditioner": "kernel"},
+    "xnewton": {
+        "T0": "auto",
+        "threshold": "uniform",
+        "inner": "proximal",
+        "start": "kernel",
+        "preconditioner": "kernel",
+    },
     "": {"T0": "0", "threshold": "pointwise", "inner": "newton", "start": "none", "preconditioner": "none"},
 }
 
@@ -56,7 +62,10 @@ def history_rows(run: Run) -> list[list[str]]:
     history = run.history
     names = "newton adaptation residual contactPoints statusChanges wallPoints overlapMax force backsolves".split()
     rows = zip(*(history[name].tolist() for name in names), strict=True)
-    return [[f"{value:.2e}" if name == "residual" else short(value) for name, value in zip(names, row, strict=True)] for row in rows]
+    return [
+        [f"{value:.2e}" if name == "residual" else short(value) for name, value in zip(names, row, strict=True)]
+        for row in rows
+    ]
 
 
 def script(scene: str, method: str = "") -> str:
@@ -87,9 +96,9 @@ def same(value: object, default: object) -> bool:
 
 def flag_text(value: object) -> str:
     """A flag's value as the command line takes it."""
-    if isinstance(value, float):
-        return f"{value:g}" if float(f"{value:g}") == value else repr(value)
-    return str(value)
+    if is_number(value) and float(f"{value:g}") == value:
+        return f"{value:g}"
+    return repr(value) if isinstance(value, float) else str(value)
 
 
 def place(path: Path | str) -> str:

@@ -51,20 +51,28 @@ def table(first: Run, second: Run) -> list[str]:
     for name in ("scene", "method", "converged"):
         pair = cell(first.summary[name]), cell(second.summary[name])
         rows.append([name, *pair, "" if pair[0] == pair[1] else "differs", ""])
-    both = [{**run.summary, **{f"seconds.{name}": s for name, s in run.summary["seconds"].items()}} for run in (first, second)]
+    both = [
+        {**run.summary, **{f"seconds.{name}": s for name, s in run.summary["seconds"].items()}}
+        for run in (first, second)
+    ]
     seconds = [name for name in both[0] if name.startswith("seconds.") and name in both[1]]
     for name in [*VALUES, *seconds]:
         if name in both[0] and name in both[1]:
             rows.append(row(name, both[0][name], both[1][name]))
     rows += profiles(first, second)
     given = [run.summary["parameters"] for run in (first, second)]
-    different = [name for name in {**given[0], **given[1]} if given[0].get(name) != given[1].get(name) and name != "out"]
+    different = [
+        name for name in {**given[0], **given[1]} if given[0].get(name) != given[1].get(name) and name != "out"
+    ]
     for name in different:
         rows.append([f"-{name}", *(cell(each.get(name)) for each in given), "", ""])
     widths = [max(len(line[column]) for line in rows) for column in range(5)]
     aligned = []
     for line in rows:
-        cells = [line[0].ljust(widths[0]), *(text.rjust(width) for text, width in zip(line[1:], widths[1:], strict=True))]
+        cells = [
+            line[0].ljust(widths[0]),
+            *(text.rjust(width) for text, width in zip(line[1:], widths[1:], strict=True)),
+        ]
         aligned.append("  ".join(cells).rstrip())
     return aligned
 
@@ -113,12 +121,13 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             look["linestyle"] = "none"
         else:
             look_at = contact["x"]
-        every = max(1, len(look_at) // 40)
-        pressures.plot(look_at, contact["pressure"], label=name, markevery=every, **look)
-        overlaps.plot(look_at, contact["overlap"], markevery=every, **look)
+        every = max(2, len(look_at) // 40)
+        shown = index * every // 2, every  # the markers of one run between those of the other
+        pressures.plot(look_at, contact["pressure"], label=name, markevery=shown, **look)
+        overlaps.plot(look_at, contact["overlap"], markevery=shown, **look)
         history = run.history
-        shown = history["residual"] > 0
-        residuals.plot(history["newton"][shown], history["residual"][shown], **look)
+        positive = history["residual"] > 0
+        residuals.plot(history["newton"][positive], history["residual"][positive], **look)
     touched = [run.contact["overlap"][run.contact["pressure"] > 0] for run in runs]
     touched = np.concatenate(touched)
     if len(touched):

@@ -93,7 +93,10 @@ def choose_pair(runs: list[Run]) -> list[Run]:
     others.sort(key=lambda run: run.summary["method"] != "paper")
     for other in others:
         for reference in references:
-            if problem(other) == problem(reference) and min(each.summary["contactPoints"] for each in (other, reference)) >= 5:
+            if (
+                problem(other) == problem(reference)
+                and min(each.summary["contactPoints"] for each in (other, reference)) >= 5
+            ):
                 return [other, reference]
     return []
 

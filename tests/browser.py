@@ -1,0 +1,150 @@
+"""A headless Chromium, told what to do through its DevTools pipe: no driver and no further Python package.
+
+`with Browser(folder) as browser: page = browser.open(path)`: then `page.evaluate(expression)`, `page.screenshot()`,
+`page.messages` (what it complained about) and `page.requests` (what it asked the network for).
+"""
+
+import base64
+import contextlib
+import json
+import os
+import select
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+CHROMIUM = next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
+SECONDS = 60
+
+
+class Browser:
+    """The browser's process; `folder` is where it may keep its profile."""
+
+    def __init__(self, folder):
+        to_child, self.write = os.pipe()
+        self.read, from_child = os.pipe()
+        os.set_inheritable(to_child, True)
+        os.set_inheritable(from_child, True)
+        flags = "--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --disable-background-networking"
+        command = [CHROMIUM, *flags.split(), "--remote-debugging-pipe", f"--user-data-dir={folder}"]
+        # Chromium takes commands on file descriptor 3 and answers on 4.
+        words = ["sh", "-c", f'exec "$@" 3<&{to_child} 4>&{from_child}', "sh", *command]
+        quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        self.process = subprocess.Popen(words, pass_fds=(to_child, from_child), start_new_session=True, **quiet)
+        os.close(to_child)
+        os.close(from_child)
+        self.buffer = b""
+        self.number = 0
+        self.events = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        os.close(self.write)
+        os.close(self.read)
+
+    def call(self, method, session=None, **parameters):
+        """One command and its answer; events that come before it are kept."""
+        self.number += 1
+        message = {"id": self.number, "method": method, "params": parameters}
+        if session:
+            message["sessionId"] = session
+        data = json.dumps(message).encode() + b"\0"
+        while data:
+            data = data[os.write(self.write, data) :]
+        while True:
+            answer = self.next()
+            if answer.get("id") == self.number:
+                assert "error" not in answer, f"{method}: {answer['error']}"
+                return answer["result"]
+            self.events.append(answer)
+
+    def next(self):
+        """The next message."""
+        deadline = time.monotonic() + SECONDS
+        while b"\0" not in self.buffer:
+            ready, _, _ = select.select([self.read], [], [], max(0, deadline - time.monotonic()))
+            data = os.read(self.read, 1 << 20) if ready else b""
+            if not data:
+                raise RuntimeError("Chromium does not answer")
+            self.buffer += data
+        message, _, self.buffer = self.buffer.partition(b"\0")
+        return json.loads(message)
+
+    def open(self, path, width=1200, height=900):
+        """A page of its own for a file, loaded to the end, in a window of that size."""
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable", session)
+        page = Page(self, session)
+        page.resize(width, height)
+        self.call("Page.navigate", session, url=Path(path).resolve().as_uri())
+        page.wait("document.readyState == 'complete'")
+        return page
+
+
+class Page:
+    """One page of a browser."""
+
+    def __init__(self, browser, session):
+        self.browser, self.session = browser, session
+
+    def call(self, method, **parameters):
+        return self.browser.call(method, self.session, **parameters)
+
+    def resize(self, width, height):
+        mobile = width < 600
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=mobile)
+
+    def evaluate(self, expression):
+        """The value of a JavaScript expression."""
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
+
+    def wait(self, expression):
+        """Until an expression is true."""
+        deadline = time.monotonic() + SECONDS
+        while not self.evaluate(expression):
+            assert time.monotonic() < deadline, f"never true: {expression}"
+            time.sleep(0.05)
+
+    def screenshot(self, path, whole=False):
+        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole, **self.clip(whole))
+        Path(path).write_bytes(base64.b64decode(answer["data"]))
+
+    def clip(self, whole):
+        if not whole:
+            return {}
+        size = self.call("Page.getLayoutMetrics")["cssContentSize"]
+        return {"clip": {"x": 0, "y": 0, "width": size["width"], "height": min(size["height"], 16000), "scale": 1}}
+
+    def pdf(self):
+        """The page as it is printed."""
+        return base64.b64decode(self.call("Page.printToPDF", printBackground=True)["data"])
+
+    def occurred(self, *methods):
+        self.evaluate("1")  # what has happened so far has been told by the time this is answered
+        return [
+            event["params"]
+            for event in self.browser.events
+            if event.get("sessionId") == self.session and event.get("method") in methods
+        ]
+
+    @property
+    def messages(self):
+        """Errors and warnings of the console and of scripts."""
+        return self.occurred("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+
+    @property
+    def requests(self):
+        """The addresses that were asked for, pictures within the page aside."""
+        found = [event["request"]["url"] for event in self.occurred("Network.requestWillBeSent")]
+        return [url for url in found if not url.startswith("data:")]
