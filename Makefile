@@ -21,7 +21,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures bench stability test lint clean distclean
+.PHONY: help setup system run figures movie report bench stability test lint doctor clean distclean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -91,8 +91,8 @@ case.incremental      := edp/main.edp -method incremental -steps 20 -h 0.25 -ord
 case.signorini-start  := edp/main.edp -method paper -T0 d0 -h 0.25 -order 2
 case.newton           := edp/main.edp -method newton -h 0.25 -order 2
 case.xnewton          := edp/main.edp -method xnewton -h 0.25 -order 2
-case.hertz-line       := edp/scenes/hertz-line.edp -order 2 -axis 1
-case.two-cylinders    := edp/scenes/two-cylinders.edp -order 2 -axis 1
+case.hertz-line       := edp/scenes/hertz-line.edp -width 160 -depth 80 -grading 160 -order 2 -axis 1
+case.two-cylinders    := edp/scenes/two-cylinders.edp -R1 40 -R2 40 -force 2.158 -grading 80 -order 2 -axis 1
 case.hertz-sphere     := edp/main.edp -geometry axisymmetric -law signorini -force 10 -reach 2 -h 0.044 -grading 40 -order 2 -axis 1
 case.rough-series     := edp/scenes/rough.edp -kappa 1e9 -history 1 -steps 20
 
@@ -143,6 +143,23 @@ bench: .venv/run.stamp | system ## error against run time, cost growth, ingredie
 stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
 	@$(PYTHON) tests/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
+
+# ---------------------------------------------------------------- looking
+
+MOVIE := results/movies/$(SCENE)
+
+# Code 20, not converged: the steps are there, and worth seeing.
+movie: .venv/run.stamp | system ## show the method at work: make movie [SCENE=name] [ARGS="-method paper -h 0.5"], into results/movies/
+	@$(FREEFEM) $(SCRIPT) $(ARGS) -states 1 -out $(MOVIE); code=$$?; \
+	case $$code in 0|20) ;; *) echo "FreeFem++ ended with code $$code: no movie"; exit $$code;; esac; \
+	rm -f $(MOVIE)/movie.html $(MOVIE)/movie.gif; \
+	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE)
+
+report: .venv/run.stamp | system ## one page of everything that has been run: results/report/index.html
+	@$(PYTHON) -m postprocess report --out results/report/index.html results
+
+doctor: ## say what is installed, what is missing and how to get it
+	@{ $(FIND_PYTHON); } || python=python3; $$python postprocess/doctor.py
 
 # ---------------------------------------------------------------- checks
 

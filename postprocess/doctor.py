@@ -60,7 +60,7 @@ ELSEWHERE = {
 
 
 class Finding(NamedTuple):
-    """One line: what was looked for, whether it is there, what was found, whether `make run` needs it, how to get it."""
+    """What was looked for, whether it is there, what was found, whether `make run` needs it, how to get it."""
 
     name: str
     there: bool

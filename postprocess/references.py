@@ -97,7 +97,7 @@ def confined_block(run: Run) -> dict[str, float]:
 def allowed(run: Run, name: str, source: str) -> float:
     """The relative difference that the mesh and the tolerances of a run explain.
 
-    The paper's test: force and pressure 0.1 h^1.5 for P1 and 0.0025 h for P2, half-width 0.05 h; h as the run was given.
+    The paper's test: force and pressure 0.1 h^1.5 for P1 and 0.0025 h for P2, half-width 0.05 h.
     """
     tolerance = run.summary["parameters"].get("tol")
     tolerance = 10 * float(tolerance) if is_number(tolerance) else 1e-5

@@ -20,18 +20,18 @@ HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
 ALTS = {
     "figure1": "Deformed meshes of block and disc at successive states of the scheme, the whole bodies above and the "
     "contact zone below. After the prescribed motion alone the bodies interpenetrate; at the end they only touch.",
-    "figure2": "Contact pressure over the contact's width, an arch that falls to zero at both edges: the scheme's points "
-    "lie on the reference's line. Below, their relative difference on a logarithmic axis.",
-    "convergence": "Relative residual against Newton step on a logarithmic axis, a curve for each run; it jumps up where "
-    "a new model begins and then falls faster and faster.",
-    "thresholds": "The threshold field over the contact, a curve for each model: it rises from one to the next, and only "
-    "where the points are at the wall.",
+    "figure2": "Contact pressure over the contact's width, an arch that falls to zero at both edges: the scheme's "
+    "points lie on the reference's line. Below, their relative difference on a logarithmic axis.",
+    "convergence": "Relative residual against Newton step on a logarithmic axis, a curve for each run; it jumps up "
+    "where a new model begins and then falls faster and faster.",
+    "thresholds": "The threshold field over the contact, a curve for each model: it rises from one to the next, and "
+    "only where the points are at the wall.",
     "bench_work_precision": "Error of the iteration against seconds, factorisations and back-substitutions, on "
     "logarithmic axes, a curve for each method.",
-    "bench_meshes": "Errors against the independent reference solution over meshes, against run time, on logarithmic axes.",
+    "bench_meshes": "Errors against the independent reference solution, against run time, on logarithmic axes.",
     "bench_growth": "Seconds, memory and cost ratio against the number of unknowns, on logarithmic axes.",
     "bench_ingredients": "A map of counts: each ingredient of the method exchanged in turn, scene by scene.",
-    "stability_methods": "A map for each method: number of linearisations over stiffness and exponent; failures hatched.",
+    "stability_methods": "A map for each method: linearisations over stiffness and exponent; failures are hatched.",
     "stability_xnewton": "A map: the default method's greatest number of linearisations over stiffness and exponent.",
     "stability_backsolves": "A map: the default method's most back-substitutions over stiffness and exponent.",
 }
@@ -144,8 +144,8 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
     ]
     words = element(
         "p",
-        "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an independent "
-        "computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h for P1 and "
+        "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an "
+        "independent computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h for P1 and "
         "0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block has an exact state. "
         "Runs with other parameters have no reference and are not in the table.",
     )

@@ -95,7 +95,7 @@ def method(run: Run) -> str:
     if name == "incremental":
         steps = parameters.get("steps")
         return f"Newton, {count(int(steps), 'load step')}" if is_number(steps) else "Newton in load steps"
-    words = {"paper": "extended Newton", "newton": "Newton", "signorini": "hard contact"}.get(name, plain(name))
+    words = {"paper": "paper's scheme", "newton": "Newton", "signorini": "hard contact"}.get(name, plain(name))
     first = first_threshold(run)
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 

@@ -16,6 +16,9 @@ import time
 from pathlib import Path
 
 CHROMIUM = next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
+FLAGS = (
+    "--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --disable-background-networking"
+).split()
 SECONDS = 60
 
 
@@ -27,8 +30,7 @@ class Browser:
         self.read, from_child = os.pipe()
         os.set_inheritable(to_child, True)
         os.set_inheritable(from_child, True)
-        flags = "--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --disable-background-networking"
-        command = [CHROMIUM, *flags.split(), "--remote-debugging-pipe", f"--user-data-dir={folder}"]
+        command = [CHROMIUM, *FLAGS, "--remote-debugging-pipe", f"--user-data-dir={folder}"]
         # Chromium takes commands on file descriptor 3 and answers on 4.
         words = ["sh", "-c", f'exec "$@" 3<&{to_child} 4>&{from_child}', "sh", *command]
         quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}

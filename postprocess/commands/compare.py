@@ -88,7 +88,7 @@ def row(name: str, first: object, second: object) -> list[str]:
 
 
 def profiles(first: Run, second: Run) -> list[list[str]]:
-    """How far the pressures are from each other where both are known, the second's interpolated to the first's points."""
+    """How far the pressures are from each other; the second's are interpolated to the first's points."""
     x, pressure = first.contact["x"], first.contact["pressure"]
     other = second.contact
     inside = (x >= other["x"][0]) & (x <= other["x"][-1]) if len(other["x"]) else np.zeros(len(x), bool)

@@ -6,6 +6,7 @@ with what it needs. The figures are written as PDF and PNG: all of them, or none
 """
 
 import argparse
+import contextlib
 from pathlib import Path
 
 from postprocess import figures, style
@@ -70,8 +71,17 @@ def material(tree: Tree, name: str, module) -> list | str:
                 return f"needs the whole of make {folder.name}"
             raise
         return [campaign]
-    chosen = CHOICES[name](ordered(tree.runs)) if name in CHOICES else []
-    return chosen or f"needs {NEEDS.get(name, 'runs that this command does not know how to choose')}"
+    chosen = CHOICES[name](ordered(tree.runs)) if name in CHOICES else first_that_fits(tree.runs, module)
+    return chosen or f"needs {NEEDS.get(name, 'a run that holds what it shows')}"
+
+
+def first_that_fits(runs: list[Run], module) -> list[Run]:
+    """For a figure of one run: the first that it can be drawn from."""
+    for run in runs if module.RUNS[0] == 1 else ():
+        with contextlib.suppress(ResultsError):
+            module.draw([run], style.Units())
+            return [run]
+    return []
 
 
 def ordered(runs: list[Run]) -> list[Run]:

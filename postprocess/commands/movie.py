@@ -59,7 +59,7 @@ def web_page(run: Run, player: str) -> str:
         page.element("h1", f"The method at work: {run_words(run)}"),
         page.element(
             "p",
-            "Each dot is a contact point. Its overlap and pressure come from a linear solve, so they are in equilibrium, "
+            "Each dot is a contact point. Its overlap and pressure come from a linear solve: they are in equilibrium, "
             "but on the curve of the law only once the iteration has converged.",
         ),
     ]

@@ -10,9 +10,7 @@ from postprocess.results import read_run
 GROUPS = {
     "run": "scene method converged".split(),
     "cost": "adaptations newton newtonPerAdaptation kernelNewton factorisations backsolves costRatio".split(),
-    "contact": (
-        "force approach pressureMax overlapMax halfWidth halfWidthMoment contactPoints wallPoints unpairedPoints".split()
-    ),
+    "contact": "force approach pressureMax overlapMax halfWidth halfWidthMoment contactPoints wallPoints".split(),
     "balance": "reactionX reactionY reactionMoment contactMoment".split(),
     "accuracy": "residual modelError energy".split(),
     "mesh": "points ndof order h".split(),

@@ -1,0 +1,48 @@
+"""postprocess/figures: hertz and series, drawn from real runs."""
+
+import numpy as np
+import pytest
+from freefem import run
+
+from postprocess import figures
+from postprocess.__main__ import main
+from postprocess.results import read_run
+
+HERTZ = [
+    ("hertz-line", ["-width", 80, "-depth", 40, "-grading", 80, "-h", 0.1]),
+    ("two-cylinders", ["-h", 0.1]),
+    ("disc-on-block", ["-geometry", "axisymmetric", "-law", "signorini", "-force", 10, "-reach", 2, "-h", 0.1]),
+]
+
+
+@pytest.mark.parametrize("scene, flags", HERTZ, ids=[scene for scene, _ in HERTZ])
+def test_hertz(tmp_path, scene, flags):
+    """The figure of a contact under a force shall be drawn; the stress below peaks near where Hertz's does."""
+    done = run(scene, "-method", "xnewton", "-order", 2, "-axis", 1, *flags)
+    out = tmp_path / "hertz.pdf"
+    assert main(["figure", "hertz", "--out", str(out), str(done.folder)]) == 0
+    assert out.with_suffix(".png").stat().st_size > 10_000
+    module = figures.modules()["hertz"]
+    round_contact = scene == "disc-on-block"
+    a, greatest = module.hertz(read_run(done.folder), round_contact)
+    rows = np.genfromtxt(done.folder / "axis.csv", delimiter=",", names=True)
+    shear = np.abs(rows["s11"] - rows["s22"]) / 2
+    peak = shear.argmax()
+    expected = (0.48, 0.310) if round_contact else (0.786, 0.300)
+    assert rows["depth"][peak] / a == pytest.approx(expected[0], rel=0.15)
+    assert shear[peak] / greatest == pytest.approx(expected[1], rel=0.1)
+
+
+def test_hertz_needs_a_force(tmp_path, capsys):
+    """A run whose displacement is prescribed shall be refused in one line."""
+    done = run("disc-on-block", "-method", "xnewton", "-h", 0.5, "-axis", 1)
+    assert main(["figure", "hertz", "--out", str(tmp_path / "x.pdf"), str(done.folder)]) == 2
+    assert "without -force" in capsys.readouterr().err
+
+
+def test_series(tmp_path):
+    """Force against approach of a load series shall be drawn."""
+    done = run("rough", "-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 4)
+    out = tmp_path / "series.pdf"
+    assert main(["figure", "series", "--out", str(out), str(done.folder)]) == 0
+    assert out.stat().st_size > 5_000
