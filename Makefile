@@ -153,7 +153,7 @@ movie: .venv/run.stamp | system ## show the method at work: make movie [SCENE=na
 	@$(FREEFEM) $(SCRIPT) $(ARGS) -states 1 -out $(MOVIE); code=$$?; \
 	case $$code in 0|20) ;; *) echo "FreeFem++ ended with code $$code: no movie"; exit $$code;; esac; \
 	rm -f $(MOVIE)/movie.html $(MOVIE)/movie.gif; \
-	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE)
+	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE) && exit $$code
 
 report: .venv/run.stamp | system ## one page of everything that has been run: results/report/index.html
 	@$(PYTHON) -m postprocess report --out results/report/index.html results

@@ -145,8 +145,8 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
     words = element(
         "p",
         "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an "
-        "independent computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h for P1 and "
-        "0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block has an exact state. "
+        "independent computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h "
+        "for P1 and 0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block has an exact state. "
         "Runs with other parameters have no reference and are not in the table.",
     )
     if not rows:

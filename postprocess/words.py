@@ -14,7 +14,7 @@ DEFAULTS = {
     **{"bodyForce": 0, "traction": 0, "grading": 20, "aspect": 1, "R": 10, "offset": 0, "distance": "linear"},
     **{"reach": 0, "Eratio": 1e6, "law": "power", "d0": -0.25, "p0": 0.02, "kappa": 1e3, "m": 3, "beta": 60},
     **{"table": "none", "rho": 100, "forcing": 0.001, "eps": 1e-4, "tol": 1e-6, "maxNewton": 200},
-    **{"maxAdaptations": 50, "history": 0, "steps": 20, "order": 1, "h": 0.25, "states": 0, "vtu": 1},
+    **{"maxAdaptations": 50, "history": 0, "steps": 20, "order": 1, "h": 0.25, "states": 0, "vtu": 1, "axis": 0},
 }
 # Scenes whose own defaults of some of these differ: there the flags are always written out.
 OTHERWISE = {

@@ -35,9 +35,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.plot(expected, depth, color=style.BLACK)
     below = axis["depth"] / a
     right.plot(shear, below, color=style.VERMILION, linestyle=(0, (4, 1.5)))
-    peak = np.argmax(shear)
+    peak, theirs = np.argmax(shear), np.argmax(expected)
     right.annotate(
-        f"{shear[peak]:.3f} at {below[peak]:.2f} $a$\n(Hertz: {expected.max():.3f} at {depth[expected.argmax()]:.2f} $a$)",
+        f"{shear[peak]:.3f} at {below[peak]:.2f} $a$\n(Hertz: {expected[theirs]:.3f} at {depth[theirs]:.2f} $a$)",
         (shear[peak], below[peak]),
         (0.35 * shear[peak], below[peak] + 0.7),
         arrowprops={"arrowstyle": "-", "linewidth": 0.6},

@@ -1,0 +1,601 @@
+"""Movies, the report, comparisons, all figures at once, the set-up check: on real runs, and the page in a real browser."""
+
+import errno
+import html.parser
+import json
+import math
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import browser
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, run, run_in, script, tree
+
+from postprocess import doctor, output, player, style
+from postprocess.__main__ import main
+from postprocess.commands.compare import table
+from postprocess.frames import Movie, title
+from postprocess.laws import law_of, overlap_at
+from postprocess.references import PAPER, checks
+from postprocess.results import Run, read_run
+from postprocess.words import BY_METHOD, DEFAULTS, OTHERWISE, command, same
+
+SCENES = ["disc-on-block", *sorted(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))]
+
+
+@pytest.fixture(scope="module")
+def paper():
+    """The paper's test by the paper's scheme, with its states: 12 Newton steps."""
+    return run("disc-on-block", "-method", "paper", "-h", 0.5, "-states", 1).folder
+
+
+@pytest.fixture(scope="module")
+def brief():
+    """The same by the default method: 2 or 3 Newton steps, so few frames."""
+    return run("disc-on-block", "-h", 0.5, "-states", 1).folder
+
+
+@pytest.fixture(scope="module")
+def bodies():
+    """Both bodies meshed, two steps of hard contact and more."""
+    return run("meshed-disc", "-h", 1, "-method", "signorini", "-states", 1).folder
+
+
+@pytest.fixture(scope="module")
+def film(paper, tmp_path_factory):
+    """The folder of the paper's movie, beside its run."""
+    folder = tmp_path_factory.mktemp("movie") / "results" / "movies" / "disc-on-block"
+    shutil.copytree(paper, folder)
+    assert main(["movie", "--out", str(folder), str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def results(film, brief):
+    """A tree of results: a movie with its run, another run, a figure, a campaign, and the report made of them."""
+    root = film.parent.parent
+    shutil.copytree(brief, root / "disc-on-block" / "xnewton")
+    assert main(["figure", "figure1", "--out", str(root / "figures" / "figure1.pdf"), str(film)]) == 0
+    (root / "bench").mkdir()
+    (root / "bench" / "work_precision.csv").write_text(CAMPAIGN)
+    assert main(["report", "--out", str(root / "report" / "index.html"), str(root)]) == 0
+    return root
+
+
+CAMPAIGN = """script,flags,status,method,T0,newton,backsolves,cpu,costRatio,forceError,machine,cores,freefem
+edp/main.edp,-method xnewton,converged,xnewton,,2,6,0.1,1.5,1e-9,a machine,2,4.9
+edp/main.edp,-method paper,converged,paper,0,12,12,0.3,8.5,1e-8,a machine,2,4.9
+edp/main.edp,-method paper -T0 <d0>,not converged,paper,d0,200,200,3,80,,a machine,2,4.9
+"""
+
+
+@pytest.fixture
+def broken(brief, tmp_path):
+    """broken(file, spoil): a copy of a run with one file spoilt."""
+
+    def copy(name, spoil):
+        folder = Path(shutil.copytree(brief, tmp_path / "runs" / "broken"))
+        spoil(folder / name)
+        return folder
+
+    return copy
+
+
+def rewritten(change):
+    return lambda path: path.write_bytes(change(path.read_bytes()))
+
+
+SPOILT = {
+    "nan": rewritten(lambda data: data.rstrip(b"\n").rpartition(b",")[0] + b",nan\n"),
+    "empty": rewritten(lambda data: b""),
+    "binary": rewritten(lambda data: bytes(range(256)) * 8),
+    "huge": lambda path: os.truncate(path, 10**9),
+    "columns": rewritten(lambda data: b"time;price\n1;2\n"),
+    "truncated": rewritten(lambda data: data[: len(data) // 2].rpartition(b"\n")[0] + b"\n"),
+    "missing": Path.unlink,
+}
+
+
+def refused(capsys, *words):
+    """The one line with which the command line refuses its arguments."""
+    capsys.readouterr()
+    assert main([str(word) for word in words]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == "" and captured.err.startswith("postprocess: ")
+    (line,) = captured.err.splitlines()
+    return line
+
+
+def loaded(folder, **changes):
+    """The run with other parameters in its summary."""
+    found = read_run(folder)
+    parameters = {**found.summary["parameters"], **changes.pop("parameters", {})}
+    return Run(found.path, {**found.summary, **changes, "parameters": parameters})
+
+
+# ---------------------------------------------------------------- frames
+
+
+class TestFrames:
+    def test_steps_are_read(self, paper):
+        """steps.csv shall hold the points before the first and after every Newton step; the last is the result."""
+        found = read_run(paper)
+        steps, contact = found.steps, found.contact
+        assert steps.newton.tolist() == list(range(found.summary["newton"] + 1))
+        assert steps.overlap.shape == (found.summary["newton"] + 1, found.summary["points"])
+        for name, field in (("overlap", steps.overlap), ("pressure", steps.pressure), ("status", steps.status)):
+            assert np.array_equal(field[-1], contact[name])
+        assert np.all(np.diff(steps.x) > 0) and not steps.pressure[0].any()
+
+    @pytest.mark.parametrize(
+        "law, overlap, pressure",
+        [
+            ({"law": "power", "kappa": 1000, "m": 3, "d0": -0.25}, [-0.3, -0.25, 0.0], [0, 0, 15.625]),
+            ({"law": "exponential", "p0": 0.02, "beta": 60, "d0": -0.25}, [-0.3, -0.15], [0, 0.02 * math.expm1(6)]),
+            ({"law": "barrier", "p0": 1, "d0": -0.25}, [-0.3, -0.125, -0.05, 0], [0, 1, 4, math.inf]),
+            ({"law": "signorini", "d0": -0.25}, [-0.3, 1], [0, 0]),
+        ],
+    )
+    def test_the_laws_curves(self, brief, law, overlap, pressure):
+        """The curve shall be that of the run's parameters."""
+        assert law_of(loaded(brief, parameters=law))(np.array(overlap)) == pytest.approx(pressure)
+
+    def test_no_curve_of_a_table(self, brief):
+        """A law made of data has no curve; the points stand for it."""
+        found = loaded(brief, parameters={"law": "table", "table": "pairs.csv"})
+        assert law_of(found) is None
+        with style.look():
+            Movie(found, style.Units()).draw(1)
+
+    def test_where_a_law_reaches_a_pressure(self):
+        assert overlap_at(lambda s: s**3, 8.0, 0, 10) == pytest.approx(2)
+        assert overlap_at(lambda s: s**3, 8.0, 0, 1) == 1
+
+    def test_a_frame_shows_the_points_and_the_disc(self, paper):
+        """The dots shall be the points' overlaps and pressures, the disc where its prescribed motion takes it."""
+        found = read_run(paper)
+        with style.look():
+            movie = Movie(found, style.Units("mm", "MPa"))
+            movie.draw(movie.count - 1)
+        assert movie.count == found.summary["newton"] + 1
+        dots = np.concatenate([line.get_xydata() for line in movie.left.lines[1:]])
+        contact = found.contact
+        inside = contact["overlap"] >= movie.plane.left
+        expected = np.column_stack([contact["overlap"], contact["pressure"]])[inside]
+        assert sorted(map(tuple, dots)) == sorted(map(tuple, expected))
+        (disc,) = movie.below.patches
+        p = found.summary["parameters"]
+        assert disc.get_xy()[:, 1].min() == pytest.approx(p["depth"] + p["gap"] - p["u0"], abs=1e-6)
+        assert movie.left.get_xlabel() == "overlap $d$ [mm]" and movie.below.get_aspect() == 1
+        assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1399$"
+        assert title(found, 0) == "before the first of 12 Newton steps"
+
+    def test_far_points_are_told(self, paper):
+        """A point beyond the picture shall be an arrow at its edge, not left out."""
+        with style.look():
+            movie = Movie(read_run(paper), style.Units())
+            movie.draw(0)
+        steps = movie.steps
+        shown = sum(len(line.get_xdata()) for line in movie.left.lines[1:])
+        arrows = sum(len(each.get_offsets()) for each in movie.left.collections[1:])
+        assert arrows == np.sum(steps.overlap[0] > movie.plane.right) > 0
+        assert shown + arrows == np.sum(steps.overlap[0] >= movie.plane.left)
+
+    def test_two_meshed_bodies(self, bodies):
+        """Where both bodies are meshed no obstacle is drawn beside them."""
+        with style.look():
+            movie = Movie(read_run(bodies), style.Units())
+            movie.draw(1)
+        assert not movie.below.patches and len(movie.below.collections) == 2
+
+
+# ---------------------------------------------------------------- movies
+
+
+class TestMovie:
+    def test_the_player(self, film):
+        """The page shall hold every frame, ask nothing of the network, and tell in words what it shows."""
+        page = (film / "movie.html").read_text()
+        assert len(re.findall(r"frames\[\d+\] = ", page)) == 13
+        assert "http" not in re.sub(r"base64,[^\"]*", "", page).replace("http-equiv", "")
+        assert (film / "movie.html").stat().st_size < 6e6
+        check_page(page)
+        assert player.extract(page).count("<script") == 2
+
+    def test_the_gif(self, film):
+        from PIL import Image
+
+        with Image.open(film / "movie.gif") as picture:
+            assert picture.n_frames >= 13 and picture.size == (860, 480)
+        assert (film / "movie.gif").stat().st_size < 3e6
+
+    def test_the_same_bytes_again_and_whole_or_not_at_all(self, brief, tmp_path, monkeypatch, capsys):
+        """The same run shall give the same files; an interruption or a full disk none, nor a folder's debris."""
+        words = ["movie", "--out", str(tmp_path / "one"), str(brief)]
+        assert main(words) == 0
+        assert capsys.readouterr().out.split() == [str(tmp_path / "one" / name) for name in ("movie.html", "movie.gif")]
+        first = {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()}
+        monkeypatch.setattr(output.os, "replace", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+        assert main(words) == 130
+        monkeypatch.undo()
+        assert {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()} == first
+        assert main([*words[:2], str(tmp_path / "two"), str(brief)]) == 0
+        assert {path.name: path.read_bytes() for path in (tmp_path / "two").iterdir()} == first
+
+    def test_a_full_disk(self, tmp_path, monkeypatch):
+        def full(path, data):
+            with path.open("wb") as file:
+                file.write(data[:10])
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+        monkeypatch.setattr(Path, "write_bytes", full)
+        with pytest.raises(output.ResultsError, match="no space left"):
+            output.write_files({tmp_path / "a.html": b"x" * 100, tmp_path / "b.gif": b"y"})
+        assert not list(tmp_path.iterdir())
+
+    def test_make_movie(self, tmp_path):
+        """`make movie` shall make the run and its movie, and say why there is none."""
+        package = tree(tmp_path / "package")
+        for name in ("postprocess", ".venv"):
+            (package / name).symlink_to(ROOT / name)
+        made = ["make", "-o", ".venv/run.stamp", "-o", "system", "movie", "SCENE=confined-block"]
+        code, stdout = execute([*made, "ARGS=-method newton -h 5 -tol 0.5"], cwd=package)
+        assert code == 0, stdout
+        folder = package / "results/movies/confined-block"
+        assert (folder / "movie.html").exists() and (folder / "movie.gif").exists()
+        code, stdout = execute([*made, "ARGS=-kappa 0"], cwd=package)
+        assert code != 0 and "no movie" in stdout
+
+    def test_a_run_without_states(self, brief, tmp_path, capsys):
+        folder = tmp_path / "run"
+        shutil.copytree(brief, folder, ignore=shutil.ignore_patterns("steps.csv"))
+        line = refused(capsys, "movie", "--out", tmp_path / "out", folder)
+        assert line.endswith("steps.csv: no such file; run the scene with -states 1")
+        assert not (tmp_path / "out").exists()
+
+
+# ---------------------------------------------------------------- hostile inputs
+
+
+@pytest.mark.parametrize("spoilt", SPOILT)
+@pytest.mark.parametrize("name", ["steps.csv", "states.csv", "history.csv", "contact.csv", "summary.json"])
+def test_hostile_files(broken, brief, tmp_path, capsys, name, spoilt):
+    """A file that cannot be used: one clear line that names it, exit code 2, no traceback, nothing written."""
+    folder = broken(name, SPOILT[spoilt])
+    out = tmp_path / "new" / "out"
+    movie = ("movie", "--out", out, folder)
+    report = ("report", "--out", out / "index.html", folder.parent)
+    compare = ("compare", brief, folder, "--out", out / "c.pdf")
+    readers = {
+        "steps.csv": [movie],
+        "states.csv": [movie],
+        "history.csv": [movie, report, compare],
+        "contact.csv": [compare],
+        "summary.json": [movie, compare, ("show", folder), report, ("figures", folder.parent, "--out", out)],
+    }[name]
+    for words in readers:
+        if spoilt == "missing" and name == "summary.json" and words[0] in ("report", "figures"):
+            assert "holds no" in refused(capsys, *words)
+        else:
+            assert f"{name}: " in refused(capsys, *words)
+    assert not out.parent.exists()
+
+
+@pytest.mark.parametrize(
+    "name, content, words",
+    [
+        ("figures/f.png", b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR", "is truncated"),
+        ("figures/f.png", b"GIF89a", "is not a PNG"),
+        ("figures/f.png", b"", "is empty"),
+        ("movies/a/movie.html", b"<html></html>", "is not a movie's page"),
+        ("movies/a/movie.html", b"\xff\xfe\x00", "is not a movie's page"),
+        ("bench/meshes.csv", b"a,b\n1,2\n", "wrong columns"),
+        ("bench/meshes.csv", bytes(range(256)), "is binary"),
+        ("stability/stability.csv", b"", "is empty"),
+        ("stability/checks.csv", b"check,found\nx,1\n", "wrong columns"),
+    ],
+)
+def test_hostile_files_of_a_tree(tmp_path, capsys, name, content, words):
+    """The same for figures, movies and campaigns."""
+    (tmp_path / name).parent.mkdir(parents=True)
+    (tmp_path / name).write_bytes(content)
+    line = refused(capsys, "report", "--out", tmp_path / "out" / "index.html", tmp_path)
+    assert name in line and words in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_senseless_parameters(brief, capsys, tmp_path):
+    """Numbers that no run would write shall be refused or drawn, never end in a traceback."""
+    for changes in ({"d0": 1e308}, {"R": -1, "d0": "x"}, {"law": "barrier", "d0": 0}, {"kappa": 1e300, "m": 1e300}):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        shutil.copytree(brief, folder)
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["parameters"].update(changes)
+        (folder / "summary.json").write_text(json.dumps(summary))
+        assert main(["movie", "--out", str(folder / "out"), str(folder)]) in (0, 2)
+        assert main(["report", "--out", str(folder / "r.html"), str(folder)]) in (0, 2)
+        assert "Traceback" not in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------- the report
+
+
+class Checker(html.parser.HTMLParser):
+    """What a page must have for those who do not see it; everything it links to must be in it."""
+
+    VOID = frozenset("img meta link input br hr".split())
+
+    def __init__(self):
+        super().__init__()
+        self.faults, self.ids, self.links, self.open, self.seen = [], [], [], [], {}
+
+    def handle_starttag(self, tag, pairs):
+        attributes = dict(pairs)
+        self.seen.setdefault(tag, []).append(attributes)
+        if "id" in attributes:
+            self.ids.append(attributes["id"])
+        if tag not in self.VOID:
+            self.open.append(tag)
+        if tag == "img" and not attributes.get("alt"):
+            self.faults.append(f"a picture without words: {attributes}")
+        if tag == "th" and attributes.get("scope") not in ("row", "col"):
+            self.faults.append("a table's header without scope")
+        for name in ("src", "href"):
+            address = attributes.get(name, "#")
+            if not address.startswith(("#", "data:")):
+                self.faults.append(f"an address outside the page: {address[:80]}")
+            if address.startswith("#") and len(address) > 1:
+                self.links.append(address[1:])
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"</{tag}> closes nothing")
+
+
+def check_page(page):
+    """The page's parser, once it is well formed and complete."""
+    checker = Checker()
+    checker.feed(page)
+    checker.close()
+    assert not checker.faults, checker.faults[:5]
+    assert not checker.open
+    assert len(set(checker.ids)) == len(checker.ids)
+    assert set(checker.links) <= set(checker.ids)
+    assert page.startswith("<!DOCTYPE html>") and checker.seen["html"] == [{"lang": "en"}]
+    assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in checker.seen["meta"]
+    assert len(checker.seen["title"]) == len(checker.seen["h1"]) == len(checker.seen["main"]) == 1
+    assert len(checker.seen["caption"]) == len(checker.seen["table"]) > 0
+    assert "@media print" in page and "@import" not in page
+    return checker
+
+
+class TestReport:
+    def test_the_page(self, results, film):
+        """One page, complete in itself: runs, references, iterations, figures, movie, campaign, machine, commands."""
+        page = (results / "report" / "index.html").read_text()
+        seen = check_page(page).seen
+        assert [each["id"] for each in seen["section"]] == (
+            "runs references figures movies bench details machine".split()
+        )
+        assert len(seen["img"]) == 2 and len(seen["details"]) == 5  # two runs, each twice; the failed runs
+        assert len(seen["script"]) == 2  # matplotlib's player and nothing else
+        assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
+        for words in ("150.02947", "22.559747", "4.927623", "make results/figures/figure1.pdf", "make bench"):
+            assert words in page
+        assert "FreeFem++ -nw -v 0 edp/main.edp -method paper -h 0.5 -states 1 -out" in page
+        assert "T⁰ = d0" in page and "-T0 &lt;d0&gt;" in page  # the campaign's failed run, escaped
+        text = re.sub(r"<[^>]*>", " ", page)
+        for residual in read_run(film).history["residual"]:
+            assert f"{residual:.2e}" in text
+
+    def test_texts_of_runs_are_escaped(self, brief, tmp_path):
+        folder = tmp_path / "results" / "a<b>"
+        shutil.copytree(brief, folder)
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["scene"] = summary["parameters"]["note"] = '<script>alert("x")</script>'
+        (folder / "summary.json").write_text(json.dumps(summary))
+        out = tmp_path / "index.html"
+        assert main(["report", "--out", str(out), str(tmp_path / "results")]) == 0
+        assert "script" not in check_page(out.read_text()).seen
+
+    def test_a_wrong_result_fails(self, brief):
+        """The force shall be compared, within what mesh and tolerance explain, and fail beyond it."""
+        force = next(each for each in checks(read_run(brief)) if each.name == "force")
+        assert force.passed and force.reference == PAPER[1000, 3]["force"]
+        wrong = checks(loaded(brief, force=1.04 * force.reference))
+        assert [each.name for each in wrong if not each.passed] == ["force"]
+
+    @pytest.mark.parametrize(
+        "changes", [{"kappa": 1e6}, {"u0": 2}, {"offset": 1}, {"law": "barrier"}, {"geometry": "stress"}, {"m": 5}]
+    )
+    def test_other_parameters_are_not_compared(self, brief, changes):
+        assert checks(loaded(brief, parameters=changes)) == []
+
+    def test_what_has_no_result_is_not_compared(self, brief):
+        for changes in ({"converged": False}, {"contactPoints": 3}, {"scene": "wavy"}, {"h": None}):
+            assert checks(loaded(brief, **changes)) == []
+
+    @pytest.mark.parametrize("flags", [["-h", 5], ["-h", 5, "-method", "signorini"], ["-h", 5, "-kappa", 1e9, "-m", 2]])
+    def test_the_confined_block_is_compared_with_its_exact_state(self, flags):
+        found = checks(read_run(run("confined-block", *flags).folder))
+        assert [each.name for each in found] == ["force", "greatest pressure"]
+        assert all(each.passed for each in found)
+
+    def test_nothing_to_report(self, tmp_path, capsys):
+        assert "holds no run and no figure" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path)
+        assert "no such folder" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path / "nowhere")
+        assert "ends in .html" in refused(capsys, "report", "--out", tmp_path / "r.pdf", tmp_path)
+
+
+@pytest.mark.skipif(browser.CHROMIUM is None, reason="no chromium, chromium-browser or google-chrome on the PATH")
+class TestInABrowser:
+    def test_the_report_on_a_screen_on_a_phone_and_on_paper(self, results, tmp_path):
+        """No error, no request to the network, every picture loaded, nothing wider than the screen; the player plays."""
+        with browser.Browser(tmp_path) as chromium:
+            page = chromium.open(results / "report" / "index.html")
+            page.wait("[...document.images].every(image => image.complete && image.naturalWidth > 0)")
+            assert page.evaluate("document.images.length") == 2
+            assert page.evaluate("[...document.querySelectorAll('i.fa')].every(i => i.offsetWidth > 3)")
+            page.evaluate("document.querySelector('[aria-label=\"Increase speed\"]').click()")
+            before = page.evaluate("document.querySelector('.animation img').src.length")
+            page.evaluate("document.querySelector('[aria-label=Play]').click()")
+            page.wait("document.querySelector('.anim-slider').value == '12'")
+            assert page.evaluate("document.querySelector('.animation img').src.length") != before
+            page.evaluate("document.querySelector('[aria-label=\"First frame\"]').click()")
+            assert page.evaluate("document.querySelector('.anim-slider').value") == "0"
+            page.resize(390, 844)
+            assert page.evaluate("document.documentElement.scrollWidth") <= 390
+            assert page.evaluate("parseFloat(getComputedStyle(document.body).fontSize)") >= 16
+            page.call("Emulation.setEmulatedMedia", media="print")
+            assert page.evaluate("getComputedStyle(document.querySelector('nav')).display") == "none"
+            assert page.messages == [] and len(page.requests) == 1
+
+    def test_the_movies_own_page(self, film, tmp_path):
+        with browser.Browser(tmp_path) as chromium:
+            page = chromium.open(film / "movie.html", 390, 844)
+            page.wait("document.images[0].naturalWidth > 0")
+            assert page.evaluate("document.querySelector('.anim-slider').max") == "12"
+            assert page.evaluate("document.documentElement.scrollWidth") <= 390
+            assert page.messages == [] and len(page.requests) == 1
+
+
+# ---------------------------------------------------------------- the commands that make runs again
+
+
+@pytest.mark.parametrize(
+    "scene, flags",
+    [
+        ("disc-on-block", ["-h", 1, "-method", "paper", "-T0", "d0", "-kappa", 1e6, "-nu", 0.25]),
+        ("disc-on-block", ["-h", 1, "-inner", "newton", "-start", "none", "-tol", 1e-8]),
+        ("confined-block", ["-h", 5, "-method", "incremental", "-steps", 3]),
+        ("rough", ["-h", 0.5, "-u0", 2.5, "-law", "exponential"]),
+    ],
+)
+def test_the_command_makes_the_run_again(tmp_path, scene, flags):
+    """The command in the report shall give the same numbers."""
+    found = read_run(run(scene, *flags).folder)
+    words = shlex.split(command(found))
+    assert words[:4] == FREEFEM and words[4] == script(scene) and words[-2] == "-out"
+    again = run_in(ROOT, words[4], *words[5:-2], out=tmp_path / "again").summary
+    for name in ("force", "newton", "backsolves", "energy", "ndof"):
+        assert again[name] == found.summary[name], name
+    left_out = {"out", "vtu"}
+    assert {name: value for name, value in again["parameters"].items() if name not in left_out} == {
+        name: value for name, value in found.summary["parameters"].items() if name not in left_out
+    }
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_defaults(scene):
+    """A flag that a command leaves out shall have that default in -help."""
+    stdout = run_in(ROOT, script(scene), "-help").stdout
+    helped = {line.split()[0][1:]: line.split()[1] for line in stdout.splitlines() if line.startswith("-")}
+    assert helped
+    method = BY_METHOD.get(helped["method"], BY_METHOD[""])
+    for name, default in {**DEFAULTS, **method}.items():
+        if name in helped and name not in OTHERWISE.get(scene, "").split():
+            value = float(helped[name]) if isinstance(default, int | float) else helped[name]
+            assert same(value, default), f"-{name} of {scene}: {helped[name]}, expected {default}"
+
+
+# ---------------------------------------------------------------- compare, figures, show
+
+
+def test_compare_prints_the_differences(paper, brief, tmp_path, capsys):
+    """The table shall hold both runs' values and their differences, and the parameters in which they differ."""
+    assert main(["compare", str(paper), str(brief), "--out", str(tmp_path / "c.pdf")]) == 0
+    *lines, pdf, png = capsys.readouterr().out.splitlines()
+    assert [pdf, png] == [str(tmp_path / "c.pdf"), str(tmp_path / "c.png")] and Path(pdf).exists()
+    rows = {line.split()[0]: line.split() for line in lines[1:]}
+    one, two = (read_run(folder).summary for folder in (paper, brief))
+    assert rows["newton"][1:4] == [str(one["newton"]), str(two["newton"]), f"{two['newton'] - one['newton']:+d}"]
+    assert float(rows["force"][3]) == pytest.approx(two["force"] - one["force"], rel=0.01)
+    assert rows["-T0"] == ["-T0", "0", "auto"] and "-kappa" not in rows
+    assert {"pressureMax", "halfWidth", "seconds.total", "method"} <= set(rows)
+    assert len({len(line.rstrip()) for line in lines if line.startswith(("force", "energy"))}) == 1
+
+
+def test_compare_a_run_with_itself(brief):
+    found = read_run(brief)
+    assert all(line.split()[3] == "0" for line in table(found, found) if line.startswith("force"))
+    assert not any(line.startswith("-") for line in table(found, found))
+
+
+def test_every_figure_at_once(results, paper, tmp_path, capsys):
+    """`figures` shall draw what can be drawn, and list what is missing with what it needs."""
+    out = tmp_path / "figures"
+    root = tmp_path / "tree"
+    shutil.copytree(paper, root / "paper")
+    assert main(["figures", str(root), "--out", str(out)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert sorted(path.name for path in out.iterdir()) == [
+        f"{name}.{kind}" for name in ("convergence", "figure1", "thresholds") for kind in ("pdf", "png")
+    ]
+    missing = [line for line in lines if line.startswith("not made: ")]
+    assert any("figure2: needs a run of the method incremental" in line for line in missing)
+    assert any("bench_growth: needs make bench" in line for line in missing)
+
+
+def test_output_that_is_not_read_to_its_end(brief):
+    """`show RUN | head -1` shall not end in a traceback."""
+    text = f"{shlex.quote(sys.executable)} -m postprocess show {shlex.quote(str(brief))} | head -n 1"
+    done = subprocess.run(["sh", "-c", text], cwd=ROOT, capture_output=True, text=True)
+    assert done.stdout.startswith("run") and done.stderr == ""
+
+
+def test_show_names_costs(brief, capsys):
+    assert main(["show", str(brief)]) == 0
+    shown = capsys.readouterr().out.split()
+    assert {"kernelNewton", "costRatio", "approach"} <= set(shown)
+
+
+# ---------------------------------------------------------------- the set-up check
+
+
+class TestDoctor:
+    SYSTEM = shutil.which("python3", path="/usr/bin:/bin") or sys.executable
+
+    def examine(self, folder, **environment):
+        """Exit code and output of the check with a bare Python: no module beyond the standard ones."""
+        command = [self.SYSTEM, "-I", "-S", str(folder / "postprocess" / "doctor.py")]
+        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=120)
+        assert done.stderr == ""
+        return done.returncode, done.stdout
+
+    def test_everything_is_there(self):
+        code, stdout = self.examine(ROOT)
+        assert code == 0, stdout
+        for name in ("FreeFem++", "plugin gmsh", "plugin lapack", "plugin ff-Ipopt", "gmsh", "numpy", "plugin path"):
+            assert re.search(rf"^(ok|absent) +{re.escape(name)} ", stdout, re.M), name
+
+    def test_what_is_missing_and_how_to_get_it(self, tmp_path):
+        """Without FreeFem++, and without .venv: code 1, and a way to get each."""
+        (tmp_path / "bin").mkdir()
+        for name in ("python3", "apt-get", "make"):
+            (tmp_path / "bin" / name).symlink_to(shutil.which(name) or "/bin/true")
+        (tmp_path / "postprocess").mkdir()
+        shutil.copy(ROOT / "postprocess" / "doctor.py", tmp_path / "postprocess")
+        code, stdout = self.examine(tmp_path, PATH=str(tmp_path / "bin"))
+        assert code == 1
+        assert "MISSING  FreeFem++" in stdout and "-> apt-get install freefem++" in stdout
+        assert "no .venv" in stdout and "-> make setup" in stdout and "Missing for `make run`: FreeFem++" in stdout
+
+    @pytest.mark.skipif(not Path("/usr/lib/freefem++").exists(), reason="only Debian's FreeFEM needs freefem++.pref")
+    def test_a_broken_plugin_path(self, tmp_path):
+        (tmp_path / "postprocess").mkdir()
+        shutil.copy(ROOT / "postprocess" / "doctor.py", tmp_path / "postprocess")
+        code, stdout = self.examine(tmp_path, HOME=str(tmp_path), FF_LOADPATH="")
+        assert code == 1 and re.search(r"^MISSING +plugin gmsh +cannot be loaded", stdout, re.M)
+
+    @pytest.mark.parametrize("system", ["Linux", "Darwin", "Windows"])
+    def test_hints_without_apt(self, monkeypatch, system):
+        monkeypatch.setattr(doctor.platform, "system", lambda: system)
+        monkeypatch.setattr(doctor.shutil, "which", lambda name: None)
+        assert "FreeFem-sources/releases" in doctor.hint("FreeFem++")
+        assert doctor.hint("gmsh") and doctor.hint("make") and doctor.hint("python")
