@@ -16,6 +16,7 @@ from postprocess.results import LAW, OPEN, WALL, ResultsError, Run, is_number
 
 SIZE = (8.6, 4.8)  # inches
 CROWD = 120  # points beyond which their dots are drawn smaller
+HUGE = 1e100  # overlaps and pressures beyond it are not drawn
 FILLS = ("#DCE9F3", "#E9E6E1", "#E3EFE3")  # of the bodies, by region
 LINES = (style.BLUE, "#6E675F", style.GREEN)
 # Status of a point: what it is called, and how it is drawn; colour and shape both tell.
@@ -177,6 +178,8 @@ def plane_of(run: Run) -> Plane:
     """Limits that show the last step well and most of the others; a few far points are left outside."""
     steps, law = run.steps, law_of(run)
     start = finite(run, "d0", float(steps.overlap[-1].min()))
+    if max(abs(start), np.abs(steps.overlap).max(), np.abs(steps.pressure).max()) > HUGE:
+        raise ResultsError(run.path, f"holds overlaps or pressures beyond {HUGE:g}, too large to be drawn")
     after = slice(1, None) if len(steps.newton) > 1 else slice(None)
     greatest, pressures = steps.overlap[after].max(axis=1), steps.pressure[after].max(axis=1)
     top = 1.12 * max(pressures[-1], np.quantile(pressures, 0.8))

@@ -146,8 +146,8 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
         "p",
         "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an "
         "independent computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h "
-        "for P1 and 0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block has an exact state. "
-        "Runs with other parameters have no reference and are not in the table.",
+        "for P1 and 0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block "
+        "has an exact state. Runs with other parameters have no reference and are not in the table.",
     )
     if not rows:
         return [words, element("p", "No run so far is one of these.")]
@@ -204,14 +204,14 @@ def campaign(tree: Tree, name: str, pictures: dict) -> Markup | str:
     folder = tree.path / name
     own = {path: data for path, data in pictures.items() if path.parent == folder}
     there = [each for each in tables if (folder / f"{each}.csv").exists()]
-    if not own and not there:
+    checked = folder / "checks.csv"
+    if not own and not there and not checked.exists():
         return ""
     parts = [element("p", joined(["Made by ", element("code", made), "."], ""))]
     parts += [figure(tree, path, data) for path, data in own.items()]
     for each in there:
         parts += campaign_table(Campaign(folder), each)
-    checked = folder / "checks.csv"
-    if name == "stability" and checked.exists() and checked.stat().st_size:
+    if checked.exists():
         parts += [campaign_checks(Campaign(folder))]
     return section(name, title, *parts)
 

@@ -6,12 +6,14 @@
 
 import base64
 import contextlib
+import fcntl
 import json
 import os
 import select
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -26,17 +28,17 @@ class Browser:
     """The browser's process; `folder` is where it may keep its profile."""
 
     def __init__(self, folder):
-        to_child, self.write = os.pipe()
-        self.read, from_child = os.pipe()
-        os.set_inheritable(to_child, True)
-        os.set_inheritable(from_child, True)
+        near, self.write = os.pipe()
+        self.read, far = os.pipe()
+        to_child, from_child = (fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (near, far))
         command = [CHROMIUM, *FLAGS, "--remote-debugging-pipe", f"--user-data-dir={folder}"]
         # Chromium takes commands on file descriptor 3 and answers on 4.
-        words = ["sh", "-c", f'exec "$@" 3<&{to_child} 4>&{from_child}', "sh", *command]
+        place = f"import os, sys; os.dup2({to_child}, 3); os.dup2({from_child}, 4); os.execv(sys.argv[1], sys.argv[1:])"
+        words = [sys.executable, "-c", place, *command]
         quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         self.process = subprocess.Popen(words, pass_fds=(to_child, from_child), start_new_session=True, **quiet)
-        os.close(to_child)
-        os.close(from_child)
+        for end in (near, far, to_child, from_child):
+            os.close(end)
         self.buffer = b""
         self.number = 0
         self.events = []

@@ -61,7 +61,7 @@ class Case:
     name: str
     script: str
     flags: tuple[str, ...]
-    timeout: float = 120.0
+    timeout: float = 300.0
     repeats: int = 1
     weight: float = 1.0
 
@@ -75,7 +75,7 @@ class Case:
 
 
 def case(
-    name: str, scene: str = "disc-on-block", timeout: float = 120, repeats: int = 1, weight: float = 1, **flags
+    name: str, scene: str = "disc-on-block", timeout: float = 300, repeats: int = 1, weight: float = 1, **flags
 ) -> Case:
     """A case from keyword flags: case("grid", kappa=1e6, order=2). With method="ipopt" the script is that method's."""
     texts = tuple(text for flag, value in flags.items() for text in (f"-{flag}", flag_text(value)))

@@ -30,6 +30,7 @@ SUMMARY_KEYS = set(
 )
 SECONDS_KEYS = set("mesh assembly factorisation contact total".split())
 CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold".split())
+SPACE_COLUMNS = ("x", "y", "z", *CONTACT_COLUMNS[2:])
 TIMEOUT = 280  # seconds; a run that hangs is a failure, not a hanging suite
 
 
@@ -219,7 +220,7 @@ def check_invariants(run):
     summary, contact = run.summary, run.contact
     assert summary.keys() >= SUMMARY_KEYS
     assert summary["seconds"].keys() >= SECONDS_KEYS
-    assert contact.dtype.names == CONTACT_COLUMNS
+    assert contact.dtype.names in (CONTACT_COLUMNS, SPACE_COLUMNS)
     assert len(contact) == summary["points"]
     assert summary["converged"] is True
     assert summary["residual"] <= summary["parameters"]["tol"]
@@ -249,7 +250,7 @@ def check_fields(run):
     nodal = contact["weight"] * pressure
     assert set(status) <= {OPEN, LAW, WALL}
     assert (contact["weight"] > 0).all()
-    assert (np.diff(contact["x"]) > 0).all()
+    assert "z" in contact.dtype.names or (np.diff(contact["x"]) > 0).all()
     # a point on the law is linearised: its pressure is off the law, and so below 0 at the edge, by the residual at most
     assert (nodal >= -summary["parameters"]["tol"] * np.linalg.norm(nodal)).all()
     assert (pressure[status == OPEN] == 0).all()
@@ -287,6 +288,9 @@ def check_equilibrium(run):
     summary, contact = run.summary, run.contact
     force = summary["force"]
     reach = np.hypot(contact["x"], contact["y"]).max()
+    if "z" in contact.dtype.names:
+        check_equilibrium_in_space(summary, contact, force)
+        return
     assert abs(summary["reactionY"] - force) <= 1e-9 * force
     if summary["scene"] == "patch-test":
         return  # the sliding sides carry too
@@ -295,3 +299,15 @@ def check_equilibrium(run):
     if summary.get("rounds", 1) == 1 and summary["parameters"].get("geometry") != "axisymmetric":
         moment = -np.sum(contact["x"] * contact["weight"] * contact["pressure"])
         assert abs(summary["contactMoment"] - moment) <= 1e-9 * force * reach
+
+
+def check_equilibrium_in_space(summary, contact, force):
+    """The same for contact forces along -z: three forces and three moments."""
+    nodal = contact["weight"] * contact["pressure"]
+    reach = np.abs([contact["x"], contact["y"], contact["z"]]).max()
+    for axis, expected in (("X", 0), ("Y", 0), ("Z", force)):
+        assert abs(summary[f"reaction{axis}"] - expected) <= 1e-9 * force
+    for axis, moment in (("X", -np.sum(contact["y"] * nodal)), ("Y", np.sum(contact["x"] * nodal))):
+        assert abs(summary[f"contactMoment{axis}"] - moment) <= 1e-9 * force * reach
+        assert abs(summary[f"reactionMoment{axis}"] + moment) <= 1e-9 * force * reach
+    assert abs(summary["reactionMomentZ"]) <= 1e-9 * force * reach

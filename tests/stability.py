@@ -241,6 +241,7 @@ def law_table() -> str:
 # ---------------------------------------------------------------- checks
 
 PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
+NOTHING = 1e-150  # a force or pressure below is none: its square underflows
 MORE_PROBLEM = ("-force", "-distance", "-Eratio")  # flags without a column
 
 
@@ -266,7 +267,7 @@ def checks(rows: list[dict[str, str]]) -> list[dict]:
 def check(what: str, row: dict, found: float, expected: float, tolerance: float, error: float | None = None) -> dict:
     """One comparison; the error is relative unless given."""
     if error is None:
-        error = abs(found - expected) / abs(expected) if expected else abs(found)
+        error = abs(found - expected) / max(abs(expected), NOTHING)
     return {
         "check": what,
         "name": row["name"],

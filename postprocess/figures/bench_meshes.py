@@ -44,6 +44,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.set_title(f"{title}, relative error", loc="left")
         axes.set_xlabel("CPU seconds, whole run")
         axes.grid(color="0.9", linewidth=0.5)
+        axes.margins(0.16, 0.1)  # room for the sizes
     mark_sizes(panels[0], rows)
     for name in SHOWN:
         panels[0].plot([], [], **look(name), label=NAMES[name])

@@ -1,0 +1,157 @@
+"""In space: a rigid sphere on a box against Hertz, agreement of the methods, counts, units, refusals."""
+
+import numpy as np
+import pytest
+from freefem import ROOT, run, run_in, scene_text, script, snippet, stored, told
+
+SCENE = "sphere-on-block"
+E, NU = 100.0, 0.3
+COARSE = ["-h", 1.2, "-layers", 2, "-tol", 1e-8]
+FORCE = 40 * E / (1 - NU**2) / 300  # contact radius a = 1 on a half-space, with R = 10
+
+
+def test_stiffness_and_points(tmp_path):
+    """Energies of linear displacements, and the weights of the points, shall be exact."""
+    code = """
+{
+    Vh [ax, ay, az] = [0, 0, z];
+    Vh [bx, by, bz] = [0, z, 0];
+    real[int] K = stiffness * ax[];
+    tell("stretch", K' * ax[]);
+    K = stiffness * bx[];
+    tell("shear", K' * bx[]);
+    tell("area", weight.sum);
+    real[int] off = pointX .* weight;
+    tell("middle", off.sum);
+    tell("top", pointZ);
+    Vh [cx, cy, cz] = [0, 0, x + 3 * y + z];
+    real[int] trace = cx[](pointDof);
+    trace -= pointX;
+    trace -= pointZ;
+    trace -= 3 * pointY;
+    tell("trace", trace.linfty);
+}
+"""
+    values = told(snippet(tmp_path, scene_text(SCENE) + code, "-h", 1, "-patch", 3, "-layers", 2))
+    volume, shear = 40 * 40 * 20, E / (2 * (1 + NU))
+    np.testing.assert_allclose(values["stretch"], volume * 2 * shear * (1 - NU) / (1 - 2 * NU), rtol=1e-11)
+    np.testing.assert_allclose(values["shear"], volume * shear, rtol=1e-11)
+    np.testing.assert_allclose(values["area"], 36, rtol=1e-12)
+    assert abs(values["middle"]) < 1e-10
+    assert (values["top"] == 20).all()
+    assert values["trace"] < 1e-12
+    assert len(values["top"]) == 49
+
+
+@pytest.mark.parametrize("kappa", [1e3, 1e9])
+def test_methods_agree(kappa):
+    """The paper's scheme, Newton's method, load steps and xnewton shall find one solution, the energy's minimum."""
+    best = run(SCENE, *COARSE, "-kappa", kappa)
+    for flags in (["paper"], ["paper", "-T0", "d0"], ["newton"], ["incremental", "-steps", 2]):
+        other = run(SCENE, *COARSE, "-kappa", kappa, "-eps", 1e-8, "-method", *flags)
+        assert other.force == pytest.approx(best.force, rel=1e-6)
+        assert other.energy >= best.energy * (1 - 1e-9)
+        np.testing.assert_allclose(other.contact["pressure"], best.contact["pressure"], atol=1e-5 * best.pressureMax)
+
+
+def test_hard_contact_is_the_limit():
+    """xnewton on a wall shall agree with the full system's, and a stiff law with both."""
+    wall = run(SCENE, *COARSE, "-method", "signorini")
+    assert run(SCENE, *COARSE, "-law", "signorini").force == pytest.approx(wall.force, rel=1e-7)
+    assert run(SCENE, *COARSE, "-kappa", 1e18).force == pytest.approx(wall.force, rel=1e-4)
+    assert wall.halfWidth is None
+
+
+def test_hertz():
+    """Under a force: radius and greatest pressure within 3 % of Hertz at h = a/10, the error falling with h."""
+    greatest = 3 * FORCE / (2 * np.pi)
+    errors = []
+    for h, layers in ((0.2, 2), (0.1, 4)):
+        flags = ["-law", "signorini", "-force", FORCE, "-patch", 1.3, "-h", h, "-layers", layers, "-grading", 80]
+        sphere = run(SCENE, *flags)
+        assert sphere.force == pytest.approx(FORCE, rel=1e-12)
+        errors.append((abs(sphere.halfWidthMoment - 1), abs(sphere.pressureMax / greatest - 1)))
+    coarse, fine = errors
+    assert max(fine) < 0.03
+    assert fine[0] < 0.5 * coarse[0]
+    assert fine[1] < 0.5 * coarse[1]
+
+
+@pytest.mark.parametrize(
+    "law", [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1, 1e12) for m in (1.1, 20)]]
+)
+def test_counts(law):
+    """At most 5 linearisations and 35 back-substitutions, one factorisation, whatever the law's stiffness."""
+    sphere = run(SCENE, *law, "-h", 0.8)
+    assert sphere.newton <= 5
+    assert sphere.backsolves <= 35
+    assert sphere.factorisations == 1
+    assert sphere.summary["used"]["kernel"]
+
+
+def test_force_and_displacement():
+    """The force found for an approach shall, prescribed, give that approach back."""
+    pushed = run(SCENE, *COARSE)
+    pressed = run(SCENE, *COARSE, "-force", pushed.force, "-patch", 1.1 * np.sqrt(2.25 * (20 - 2.25)))
+    assert pressed.approach == pytest.approx(2.5, rel=1e-6)
+    np.testing.assert_allclose(pressed.contact["x"], pushed.contact["x"], atol=1e-9)
+    np.testing.assert_allclose(pressed.contact["pressure"], pushed.contact["pressure"], atol=1e-5 * pushed.pressureMax)
+
+
+def test_units():
+    """In other units (lengths 1e3 times, pressures 1e-6 times) counts shall be the same and results scaled."""
+    here = run(SCENE, *COARSE)
+    lengths = {"width": 40, "depth": 20, "R": 10, "gap": 0.5, "u0": 2.5, "d0": -0.25, "h": 1.2}
+    flags = [text for name, value in lengths.items() for text in (f"-{name}", value * 1e3)]
+    flags += ["-E", 100e-6, "-kappa", 1e3 * 1e-6 / 1e9, "-rho", 100 * 1e-9, "-layers", 2, "-tol", 1e-8]
+    there = run(SCENE, *flags)
+    assert (there.newton, there.backsolves, there.points) == (here.newton, here.backsolves, here.points)
+    assert there.force == pytest.approx(here.force, rel=1e-10)
+    assert there.pressureMax == pytest.approx(here.pressureMax * 1e-6, rel=1e-9)
+    assert there.halfWidthMoment == pytest.approx(here.halfWidthMoment * 1e3, rel=1e-9)
+
+
+def test_no_contact():
+    """Short of first touch there shall be no force."""
+    sphere = run(SCENE, *COARSE, "-u0", 0.2)
+    assert sphere.force == sphere.contactPoints == sphere.energy == 0
+    assert sphere.overlapMax == pytest.approx(-0.3, rel=1e-12)
+
+
+def test_contact_up_to_the_edge_is_said():
+    """Contact that reaches the edge of the square shall be said in the summary, and stay within the counts."""
+    sphere = run(SCENE, "-h", 0.8, "-patch", 3)
+    assert "-patch" in sphere.summary["message"]
+    assert sphere.contactPoints == sphere.points == 81
+    assert sphere.backsolves <= 35
+
+
+@pytest.mark.parametrize(
+    "flags, words",
+    [
+        (["-order", 2], ["-order 2", "from 1 to 1"]),
+        (["-states", 1], ["-states 1", "two dimensions"]),
+        (["-patch", 7.5], ["-patch 7.5", "at most 7"]),
+        (["-R", 100, "-patch", 19], ["-patch 19", "at most 18"]),
+        (["-patch", 2, "-h", 3], ["-h 3", "at most 2"]),
+        (["-layers", 100], ["-layers 100", "at most 20"]),
+        (["-geometry", "strain"], ["-geometry", "unknown flag"]),
+        (["-nu", 0.5], ["-nu 0.5", "(-1, 0.5)"]),
+    ],
+)
+def test_refusals(flags, words):
+    """What is not allowed in space shall be refused in one line that names the flag and what is allowed."""
+    done = stored(SCENE, tuple(map(str, flags)))
+    assert done.code == 10
+    assert not done.folder.exists()
+    for word in words:
+        assert word in done.stdout.splitlines()[0]
+
+
+def test_solution_for_paraview(tmp_path):
+    """solution.vtu shall be written whole, a cell and a point for each of the mesh's."""
+    run_in(ROOT, script(SCENE), *COARSE, "-method", "newton", out=tmp_path / "out")
+    text = (tmp_path / "out" / "solution.vtu").read_text()
+    assert 'Name="displacement"' in text
+    assert 'Name="vonMises"' in text
+    assert text.rstrip().endswith("</VTKFile>")
