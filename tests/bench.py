@@ -258,6 +258,7 @@ def report_meshes(rows: list[dict]) -> str:
     for row in select(rows, method="xnewton"):
         cells = [row["kappa"] + ", " + row["m"], "P" + row["order"], row["h"], row["ndof"], f"{value(row, 'cpu'):.2f}"]
         cells += [f"{value(row, name):.1e}" for name in ("forceError", "pressureMaxError", "profileError")]
+        cells = ["-" if cell == "nan" else cell for cell in cells]
         times = []
         for method in ("newton", "paper"):
             other = select(
