@@ -56,6 +56,17 @@ class Units:
     stress: str = "force/area unit"
 
 
+def add_units(parser) -> None:
+    """The flag --units LENGTH STRESS of every command that draws."""
+    parser.add_argument(
+        "--units",
+        nargs=2,
+        metavar=("LENGTH", "STRESS"),
+        default=(Units.length, Units.stress),
+        help="names of the units in the axis labels, such as mm MPa",
+    )
+
+
 @contextlib.contextmanager
 def look():
     """Within this context figures are drawn and saved in the package's style, whatever the user's own settings."""

@@ -24,13 +24,7 @@ VALUES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folders", metavar="RUN", nargs=2, help="two result folders")
     parser.add_argument("--out", metavar="FILE.pdf", help="where to draw them; folders are created")
-    parser.add_argument(
-        "--units",
-        nargs=2,
-        metavar=("LENGTH", "STRESS"),
-        default=(style.Units.length, style.Units.stress),
-        help="names of the units in the axis labels, such as mm MPa",
-    )
+    style.add_units(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

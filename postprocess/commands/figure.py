@@ -18,13 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", choices=list(modules), metavar="NAME", help="which figure to draw")
     parser.add_argument("folders", nargs="+", metavar="DIR", help="a run's or a campaign's result folder")
     parser.add_argument("--out", required=True, metavar="FILE.pdf", help="where to write; folders are created")
-    parser.add_argument(
-        "--units",
-        nargs=2,
-        metavar=("LENGTH", "STRESS"),
-        default=(style.Units.length, style.Units.stress),
-        help="names of the units in the axis labels, such as mm MPa",
-    )
+    style.add_units(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -27,13 +27,7 @@ NEEDS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", metavar="RESULTS", nargs="?", default="results", help="a folder of results")
     parser.add_argument("--out", metavar="DIR", help="where to write (default: RESULTS/figures)")
-    parser.add_argument(
-        "--units",
-        nargs=2,
-        metavar=("LENGTH", "STRESS"),
-        default=(style.Units.length, style.Units.stress),
-        help="names of the units in the axis labels, such as mm MPa",
-    )
+    style.add_units(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

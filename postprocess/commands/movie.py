@@ -20,13 +20,7 @@ from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
     parser.add_argument("--out", required=True, metavar="DIR", help="where to write; folders are created")
-    parser.add_argument(
-        "--units",
-        nargs=2,
-        metavar=("LENGTH", "STRESS"),
-        default=(style.Units.length, style.Units.stress),
-        help="names of the units in the axis labels, such as mm MPa",
-    )
+    style.add_units(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
