@@ -155,7 +155,9 @@ def test_further_columns(runner):
 def test_interrupted_it_leaves_a_valid_table(runner, tmp_path, how):
     """Interrupted, a campaign shall end its runs, keep the rows that it has, and leave none half written."""
     script = f"""
+import signal
 import sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background is started with it ignored
 sys.path.insert(0, {str(campaign.ROOT / "tests")!r})
 import campaign
 from pathlib import Path

@@ -104,7 +104,7 @@ include "case/flags.idp"
 include "case/output.idp"
 cout << "root [" << repositoryRoot << "]" << endl;
 cout << "quoted [" << quoted("it's") << "]" << endl;
-openOutput("folder of results");
+openOutput("folder of results", "");
 {
     ofstream f(temporary("history.csv"));
     f << "a,b" << endl << "1,2" << endl << LAST << endl;
