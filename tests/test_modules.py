@@ -381,7 +381,9 @@ def test_tangent(tmp_path, scene, order):
     """The linearised system shall be the derivative of the equilibrium residual, by central differences."""
     solver = (ROOT / "edp/solve/solve.idp").read_text()
     assert solver.count("printHistoryHead();") == 1
-    solver = solver.split("printHistoryHead();")[0].replace("openOutput(outFolder);", "")
+    solver = solver.split("printHistoryHead();")[0].replace(
+        'openOutput(outFolder, (loadSeries ? "" : " series.csv series.state"));', ""
+    )
     flags = ["-method", "newton", "-order", order, "-h", 1, *(["-Eratio", 50] if scene == "meshed-disc" else [])]
     for steps in (2, 5):
         code = scene_text(scene) + solver + TANGENT.replace("STEPS", str(steps))
