@@ -94,6 +94,7 @@ case.xnewton          := edp/main.edp -method xnewton -h 0.25 -order 2
 case.hertz-line       := edp/scenes/hertz-line.edp -width 160 -depth 80 -grading 160 -order 2 -axis 1
 case.two-cylinders    := edp/scenes/two-cylinders.edp -R1 40 -R2 40 -force 2.158 -grading 80 -order 2 -axis 1
 case.hertz-sphere     := edp/main.edp -geometry axisymmetric -law signorini -force 10 -reach 2 -h 0.044 -grading 40 -order 2 -axis 1
+case.sphere           := edp/scenes/sphere-on-block.edp -law signorini -force 14.652014652 -patch 1.6 -layers 4 -h 0.1 -grading 80
 case.rough-series     := edp/scenes/rough.edp -kappa 1e9 -history 1 -steps 20
 
 # figure.<name>: the cases that it draws.
@@ -105,6 +106,7 @@ figure.hertz-line    := hertz-line
 figure.two-cylinders := two-cylinders
 figure.hertz-sphere  := hertz-sphere
 figure.rough-series  := rough-series
+figure.sphere        := sphere
 # draw.<figure>: its kind, where that is not its name
 draw.hertz-line    := hertz
 draw.two-cylinders := hertz
