@@ -47,7 +47,8 @@ Volume(2) = {2};
 
 Transfinite Curve {9 : 16} = 2 * n + 1;
 Transfinite Curve {29 : 32} = layers + 1;
-Transfinite Surface {3, 4, 15 : 18};
+Transfinite Surface {3, 4, 15, 16};
+Transfinite Surface {17, 18} Right;       // split as the grid's cells are
 Transfinite Volume {1};
 
 Physical Surface("clamped", 1) = {1};

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, run_in, scene_text, script, snippet, stored, told
+from freefem import ROOT, Run, run, run_in, scene_text, script, snippet, stored, told
+from test_two_bodies import confined
 
 SCENE = "sphere-on-block"
 E, NU = 100.0, 0.3
@@ -155,3 +156,101 @@ def test_solution_for_paraview(tmp_path):
     assert 'Name="displacement"' in text
     assert 'Name="vonMises"' in text
     assert text.rstrip().endswith("</VTKFile>")
+
+
+def hertz(force, radius, modulus):
+    """Radius and greatest pressure of Hertz's circle of contact."""
+    a = (0.75 * force * radius / modulus) ** (1 / 3)
+    return a, 1.5 * force / (np.pi * a**2)
+
+
+@pytest.mark.parametrize(
+    "scene, radius, modulus", [("two-spheres", 5, 50 / (1 - NU**2)), ("sphere-on-plane", 10, 100 / (1 - NU**2))]
+)
+def test_balls_against_hertz(scene, radius, modulus):
+    """Balls under a force: radius and greatest pressure within 4 % of Hertz at h = a/10, the errors falling with h."""
+    a, greatest = hertz(FORCE, radius, modulus)
+    errors = []
+    for h, layers in ((0.2, 2), (0.1, 4)):
+        balls = run(scene, "-force", FORCE, "-h", h, "-layers", layers)
+        assert balls.force == pytest.approx(FORCE, rel=1e-12)
+        assert balls.newton <= 4
+        errors.append((abs(balls.halfWidthMoment / a - 1), abs(balls.pressureMax / greatest - 1)))
+    coarse, fine = errors
+    assert fine[0] < 0.02
+    assert fine[1] < 0.04
+    assert fine[0] < 0.5 * coarse[0]
+    assert fine[1] < coarse[1] + 0.002
+
+
+def test_unequal_balls_exchanged():
+    """Exchanging slave and master shall change the force by less than the discretisation error does."""
+    flags = ["-force", 0, "-u0", 0.3, "-h", 0.2, "-layers", 2, "-tol", 1e-8]
+    one = run("two-spheres", *flags, "-E2", 300, "-R2", 8)
+    other = run("two-spheres", *flags, "-E1", 300, "-E2", 100, "-R1", 8, "-R2", 10, "-ratio", 0.73)
+    finer = run("two-spheres", *flags[:5], 0.1, "-layers", 4, "-tol", 1e-8, "-E2", 300, "-R2", 8)
+    assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
+
+
+@pytest.mark.parametrize("kappa", [1e3, 1e9])
+def test_two_balls_by_all_methods(kappa):
+    """With a deformable master too the methods shall find one solution, under a force and under a displacement."""
+    flags = ["-h", 0.3, "-layers", 1, "-law", "power", "-d0", -0.02, "-kappa", kappa, "-tol", 1e-8]
+    for load in (["-force", 10], ["-force", 0, "-u0", 0.3]):
+        best = run("two-spheres", *flags, *load)
+        for method in (["paper", "-eps", 1e-8], ["newton"]):
+            other = run("two-spheres", *flags, *load, "-method", *method)
+            assert other.force == pytest.approx(best.force, rel=1e-6)
+            np.testing.assert_allclose(
+                other.contact["pressure"], best.contact["pressure"], atol=1e-5 * best.pressureMax
+            )
+
+
+@pytest.mark.parametrize("ratio", [1, 1e-6, 1e9])
+def test_patch_in_space(ratio):
+    """Between meshes of 4 and 7 elements a side the pressure shall be exact to 1e-10, whatever the stiffness ratio."""
+    done = run("patch-test-3d", "-tol", 1e-11, "-Eratio", ratio)
+    modulus = 100 * 0.7 / (1.3 * 0.4)
+    exact = confined(1e3, 3, -0.25, 2, (20, 10), (modulus, modulus * ratio))
+    np.testing.assert_allclose(done.contact["pressure"], exact, rtol=1e-10)
+    assert done.summary["unpairedPoints"] == 0
+
+
+def test_patch_in_space_nodal_fails():
+    """Nodal collocation between different meshes shall show its known fault in space too."""
+    pressure = run("patch-test-3d", "-points", "nodal").contact["pressure"]
+    assert np.ptp(pressure) > 0.05 * pressure.mean()
+
+
+@pytest.mark.parametrize("points", ["nodal", "segment"])
+@pytest.mark.parametrize("scene, flags", [("patch-test-3d", []), ("two-spheres", ["-h", 0.3, "-layers", 1])])
+def test_action_is_reaction(scene, flags, points):
+    """Contact forces on the two bodies shall be equal and opposite to 1e-12, their moments to 1e-8."""
+    done = run(scene, *flags, "-points", points)
+    assert done.summary["masterForceZ"] == pytest.approx(done.force, rel=1e-12)
+    for axis in "XY":
+        moment = done.summary[f"contactMoment{axis}"] + done.summary[f"masterMoment{axis}"]
+        assert abs(moment) < 1e-8 * done.force * 20
+
+
+def test_an_upper_body_that_is_too_small(tmp_path):
+    """Points with no master above them shall stay open and be counted."""
+    text = (ROOT / script("patch-test-3d")).read_text()
+    narrow = text.replace(
+        "cube(upperElements, upperElements, upperElements, [width",
+        "cube(upperElements, upperElements, upperElements, [0.5 * width",
+    )
+    assert narrow != text
+    stdout = snippet(tmp_path, narrow, "-lower", 8, "-u0", 1, "-out", tmp_path / "out")
+    done = Run(0, stdout, tmp_path / "out")
+    outside = abs(done.contact["x"]) > 7.5 - 1e-9  # the points whose triangles are all beyond the upper block
+    assert done.summary["unpairedPoints"] == np.count_nonzero(outside) > 0
+    assert (done.contact["pressure"][outside] == 0).all()
+    assert done.force > 0
+
+
+def test_loads_in_space():
+    """The supports shall carry a body force too, to 1e-9, and it shall lower the block; a traction on its sides raises it."""
+    unloaded = run(SCENE, *COARSE)
+    assert run(SCENE, *COARSE, "-bodyForce", 0.1).force < unloaded.force  # the invariants check the balance
+    assert run(SCENE, *COARSE, "-traction", -1).force > unloaded.force

@@ -134,10 +134,11 @@ def paper_run(tmp_path_factory):
 def test_summary_keys(paper_run):
     """summary.json shall have the keys that the README lists, and no other."""
     listed = [key for keys, *_ in rows(section(README, "Files of a run")) for key in quoted(keys)]
-    space = {key for row in rows(section(README, "Files of a run")) for key in quoted(row[0].partition("in space")[2])}
+    cells = [row[0] for row in rows(section(README, "Files of a run"))]
+    others = {key for cell in cells for words in ("in space", "with two") for key in quoted(cell.partition(words)[2])}
     files = {path.name for path in paper_run.folder.iterdir()}
     names = {key for key in listed if not key.endswith(".csv") and not key.startswith("-")}
-    assert names - space == flat(paper_run.summary)
+    assert names - others == flat(paper_run.summary)
     assert {key for key in listed if key.endswith(".csv")} == {name for name in files if name.endswith(".csv")}
     assert paper_run.summary["parameters"].keys() == {flag[1:] for flag in help_table("disc-on-block")}
 
@@ -146,10 +147,21 @@ def test_summary_keys_in_space(tmp_path):
     """The README shall list what a run in space adds."""
     cells = [row[0].partition("in space")[2] for row in rows(section(README, "Files of a run"))]
     result = run_in(ROOT, script("sphere-on-block"), "-h", 2, "-vtu", 0, out=tmp_path / "out")
-    assert {key for cell in cells for key in quoted(cell)} <= result.summary.keys()
+    one = {key for cell in cells for key in quoted(cell) if "master" not in key}
+    assert one <= result.summary.keys()
     listed = [key for keys, *_ in rows(section(README, "Files of a run")) for key in quoted(keys)]
     assert flat(result.summary) <= set(listed)
     assert result.contact.dtype.names[:3] == ("x", "y", "z")
+
+
+@pytest.mark.parametrize("scene, flags", [("patch-test", []), ("patch-test-3d", ["-lower", 2, "-upper", 3])])
+def test_summary_keys_with_two_bodies(scene, flags, tmp_path):
+    """The README shall list what a run with two meshed bodies adds, in the plane and in space."""
+    (cell,) = [row[0] for row in rows(section(README, "Files of a run")) if "with two" in row[0]]
+    plane, _, space = cell.partition("in space")
+    result = run_in(ROOT, script(scene), *flags, "-vtu", 0, out=tmp_path / "out")
+    added = {key for key in result.summary if key.startswith("master")}
+    assert added == set(quoted(space if "3d" in scene else plane))
 
 
 def test_columns(paper_run):
@@ -185,7 +197,9 @@ def test_what_a_scene_loads(scene, tmp_path):
     text = section(README, "What a scene loads")
     common = {name for name in quoted(text.split("\n|")[0]) if "/" in name}
     (row,) = [row for row in rows(text) if quoted(row[0]) == [scene]]
-    result = run_in(ROOT, script(scene), "-h", 2, out=tmp_path / "out")
+    result = run_in(
+        ROOT, script(scene), "-h", 0.5 if "-plane" in scene or "spheres" in scene else 2, out=tmp_path / "out"
+    )
     assert set(result.modules) == common | set(quoted(row[1]))
     assert set(result.plugins) == set(quoted(row[2]))
 
