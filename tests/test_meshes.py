@@ -65,7 +65,7 @@ def test_all_sources_are_here():
 
 
 def test_conforming(mesh):
-    """Each side of an element shall be shared by two elements, or lie on the boundary in a named group: no crack inside."""
+    """Each side of an element shall be shared by two elements, or lie on the boundary in a named group: no cracks."""
     _, _, _, inner, outer, dimension = mesh
     sides = Counter(tuple(sorted(side)) for _, nodes in inner for side in combinations(nodes, dimension))
     boundary = {tuple(sorted(nodes)) for _, nodes in outer}

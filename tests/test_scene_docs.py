@@ -126,11 +126,16 @@ GAPS = {
     "two-cylinders": lambda c, g: circle(c["x"], g["R1"]) + circle(c["x"], g["R2"]),
     "patch-test": lambda c, g: 0 * c["x"],
     "sphere-on-block": lambda c, g: circle(np.hypot(c["x"], c["y"]), g["R"]),
+    "patch-test-3d": lambda c, g: 0 * c["x"],
+    "sphere-on-plane": lambda c, g: circle(np.hypot(c["x"], c["y"]), g["R"]),
+    "two-spheres": lambda c, g: sum(circle(np.hypot(c["x"], c["y"]), g[name]) for name in ("R1", "R2")),
     "rough": lambda c, g: rough_profile(c["x"], g).max() - rough_profile(c["x"], g),
 }
 GAPS["hertz-line"] = GAPS["disc-on-block-ipopt"] = GAPS["disc-on-block"]
 NODAL = ["-points", "nodal"]
 APART = {"hertz-line": ["-force", 0], "two-cylinders": ["-force", 0, *NODAL], "patch-test": NODAL}
+APART |= {"patch-test-3d": NODAL, "sphere-on-plane": ["-force", 0, "-layers", 1]}
+APART |= {"two-spheres": ["-force", 0, "-layers", 1, *NODAL]}
 ENDS = {  # of the contact: the greatest |x| of a point
     **{"disc-on-block": 9.9, "disc-on-block-ipopt": 9.9, "meshed-disc": 9.9, "confined-block": 10, "patch-test": 10},
     **{"wavy": 20, "rough": 20, "flat-punch": 4, "hertz-line": 2, "two-cylinders": 2},
@@ -184,6 +189,11 @@ def patch_test(given):
     modulus = confined_modulus(given["E"], given["nu"])
     soft = given["depth"] / modulus + given["height"] / (modulus * given["Eratio"])
     return {"bisection": uniform(given, soft)}
+
+
+def patch_test_3d(given):
+    values = patch_test(given)["bisection"]
+    return {"bisection": values | {name: values[name] * given["width"] for name in ("force", "energy")}}
 
 
 def plane_modulus(given):
@@ -252,6 +262,16 @@ def sphere_on_block(given):
     return {"Hertz": values, "prescribed": {"force": given["force"]}}
 
 
+def two_spheres(given):
+    modulus = 1 / sum((1 - given[f"nu{i}"] ** 2) / given[f"E{i}"] for i in (1, 2))
+    radius = 1 / (1 / given["R1"] + 1 / given["R2"])
+    a = (3 * given["force"] * radius / (4 * modulus)) ** (1 / 3)
+    values = {"halfWidthMoment": a, "pressureMax": 3 * given["force"] / (2 * np.pi * a**2)}
+    forces = {"force": given["force"], "masterForceZ": given["force"]}
+    facing = {"every slave point faces the master": {"unpairedPoints": 0}}
+    return {"Hertz": values, "prescribed": forces, **facing}
+
+
 def rough(given):
     wavenumber, size, phase = rough_modes(given)
 
@@ -287,6 +307,7 @@ REFERENCES = {
     **{"disc-on-block": independent, "meshed-disc": meshed_disc, "disc-on-block-ipopt": minimum},
     **{"confined-block": confined_block, "patch-test": patch_test, "wavy": wavy, "flat-punch": flat_punch},
     **{"hertz-line": hertz_line, "two-cylinders": two_cylinders, "sphere-on-block": sphere_on_block, "rough": rough},
+    **{"patch-test-3d": patch_test_3d, "sphere-on-plane": sphere_on_block, "two-spheres": two_spheres},
 }
 MEASURED = "measured with this package"
 
