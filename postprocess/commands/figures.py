@@ -21,6 +21,9 @@ NEEDS = {
     "figure2": "a run of the method incremental, and one of another method of the same problem",
     "convergence": "a run",
     "thresholds": "a run of the method paper",
+    "equilibrium": "a run of a confined block",
+    "overshoot": "a run made with -states 1, on a law",
+    "cost": "runs of the lab 5-cost, which are named to `postprocess figure cost`",
 }
 
 
