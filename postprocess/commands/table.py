@@ -1,6 +1,6 @@
 """write many runs as one CSV file, a row a run
 
-Columns: the run's folder, its scene and method, counts, results and seconds, then the parameters in which the runs differ.
+Columns: the run's folder, its scene and method, counts, results and seconds, then the flags in which the runs differ.
 """
 
 import argparse

@@ -15,8 +15,8 @@ SCENES = ("confined-block", "labs/1-law", "labs/2-newton", "labs/4-own-law")
 def draw(runs: list[Run], units: style.Units) -> Figure:
     """Left, pressure over overlap: the laws rise, the block's line falls, a dot a run. Right, over d - d0, logarithmic.
 
-    The line is p = M/depth (u0 - gap - d), M = E (1 - nu)/((1 + nu)(1 - 2 nu)). The dots are computed, the curves are not;
-    but a law that is made of data, or a scene's own, is drawn through the states of its load series, where there is one.
+    The line is p = M/depth (u0 - gap - d), M = E (1 - nu)/((1 + nu)(1 - 2 nu)). The dots are computed, the curves are
+    not; but a law that is made of data, or a scene's own, is drawn through the states of its load series, if any.
     """
     lines = {block_line(run) for run in runs}
     if len(lines) > 1:

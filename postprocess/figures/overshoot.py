@@ -29,7 +29,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         if run.summary["parameters"].get("law") == "power" and is_number(m):
             right.axhline(1 - 1 / m, color=look["color"], linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
             text = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": 8}
-            right.annotate(f"$1 - 1/m$, $m = {style.number(m)}$", (1, 1 - 1 / m), xycoords=("axes fraction", "data"), **text)
+            right.annotate(
+                f"$1 - 1/m$, $m = {style.number(m)}$", (1, 1 - 1 / m), xycoords=("axes fraction", "data"), **text
+            )
     left.set_yscale("log")
     left.set_ylabel("relative error of the overlap $s$")
     right.set_ylim(0, 1.05)
