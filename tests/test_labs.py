@@ -305,3 +305,11 @@ def test_figures_refuse(figure, words, tmp_path, capsys):
     assert main(["figure", figure, "--out", str(tmp_path / "x.pdf"), *folders]) == 2
     assert words in capsys.readouterr().err
     assert not (tmp_path / "x.pdf").exists()
+
+
+def test_figures_of_a_lab(tmp_path, capsys):
+    """`figures` shall draw a lab's figures from a lab's run."""
+    run_in(ROOT, lab_script("2-newton"), "-vtu", 0, out=tmp_path / "run")
+    assert main(["figures", str(tmp_path)]) == 0
+    assert {"equilibrium.png", "overshoot.png"} <= {path.name for path in (tmp_path / "figures").iterdir()}
+    assert "cost: needs runs of the lab 5-cost" in capsys.readouterr().out
