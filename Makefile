@@ -21,7 +21,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures movie report bench stability test lint doctor clean distclean
+.PHONY: help setup system run figures movie report bench stability labs test lint doctor clean distclean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -145,6 +145,17 @@ bench: .venv/run.stamp | system ## error against run time, cost growth, ingredie
 stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
 	@$(PYTHON) tests/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
+
+# ---------------------------------------------------------------- labs
+
+# Line by line as the labs' READMEs have them. Code 20: one of them stops a run early, as it says.
+labs: .venv/run.stamp | system ## run every command of the labs (edp/labs), with their figures, into results/labs/
+	@for readme in edp/labs/*/README.md; do \
+	  sed -n '/^```sh/,/^```/p' $$readme | grep -v '^[`#]' | while read -r command; do \
+	    echo "$$command"; sh -c "$$command" </dev/null; code=$$?; \
+	    case $$code in 0|20) ;; *) exit $$code;; esac; \
+	  done || exit $$?; \
+	done
 
 # ---------------------------------------------------------------- looking
 

@@ -25,6 +25,7 @@ OTHERWISE = {
     "sphere-on-block": "gap u0 h grading law d0 force width depth",
     "two-cylinders": "gap u0 force reach grading law d0 h",
 }
+LABS = "labs/"  # every lab has defaults of its own: all its flags are written out
 # What a method takes from its own defaults.
 BY_METHOD = {
     "xnewton": {
@@ -72,6 +73,8 @@ def script(scene: str, method: str = "") -> str:
     """The file of a scene, relative to the repository's root."""
     if scene == "disc-on-block":
         return "edp/scenes/disc-on-block-ipopt.edp" if method == "ipopt" else "edp/main.edp"
+    if scene.startswith(LABS):
+        return f"edp/{scene}/{scene.partition('-')[2]}.edp"
     return f"edp/scenes/{scene}.edp"
 
 
@@ -80,7 +83,7 @@ def command(run: Run) -> str:
     scene, method = run.summary["scene"], run.summary["method"]
     words = ["FreeFem++", "-nw", "-v", "0", script(scene, method), "-method", method]
     always = OTHERWISE.get(scene, "").split()
-    defaults = {**DEFAULTS, **BY_METHOD.get(method, BY_METHOD[""])}
+    defaults = {} if scene.startswith(LABS) else {**DEFAULTS, **BY_METHOD.get(method, BY_METHOD[""])}
     for name, value in run.summary["parameters"].items():
         if name in ("method", "out") or (name not in always and name in defaults and same(value, defaults[name])):
             continue

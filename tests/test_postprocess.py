@@ -466,6 +466,7 @@ class TestFigures:
     def test_every_figure_is_tested(self):
         of_runs = {name for name, module in figures.modules().items() if not hasattr(module, "READ")}
         drawn_from_real_runs = {"hertz", "series", "sphere"}  # test_hertz_figures.py, test_3d.py
+        drawn_from_real_runs |= {"equilibrium", "overshoot", "cost"}  # test_labs.py
         assert of_runs - drawn_from_real_runs == set(FIGURES)  # those of campaigns: test_campaign.py
 
     @pytest.mark.parametrize(("name", "names"), [(name, names) for name in FIGURES for names in FIGURES[name]])

@@ -10,6 +10,7 @@ import contextlib
 from pathlib import Path
 
 from postprocess import figures, style
+from postprocess.figures import overshoot
 from postprocess.figures.figure2 import SAME_PROBLEM
 from postprocess.output import write_figures
 from postprocess.results import ResultsError, Run
@@ -21,6 +22,9 @@ NEEDS = {
     "figure2": "a run of the method incremental, and one of another method of the same problem",
     "convergence": "a run",
     "thresholds": "a run of the method paper",
+    "equilibrium": "a run of a confined block",
+    "overshoot": "a run of the method newton made with -states 1",
+    "cost": "runs of the lab 5-cost, which are named to `postprocess figure cost`",
 }
 
 
@@ -121,11 +125,18 @@ def choose_thresholds(runs: list[Run]) -> list[Run]:
     return sorted(fit, key=lambda run: run.summary["parameters"].get("T0") != "d0")[:1]
 
 
+def choose_overshoots(runs: list[Run]) -> list[Run]:
+    """Plain Newton on a law, with its steps."""
+    fit = [run for run in runs if run.summary["method"] == "newton" and (run.path / "steps.csv").exists()]
+    return first_that_fits(fit, overshoot)
+
+
 CHOICES = {
     "figure1": choose_states,
     "figure2": choose_pair,
     "convergence": choose_histories,
     "thresholds": choose_thresholds,
+    "overshoot": choose_overshoots,
 }
 
 

@@ -1,0 +1,315 @@
+"""edp/labs/: every command of every lab runs, the instructor's numbers hold, the scripts refuse as scenes do."""
+
+import csv
+import re
+import shlex
+
+import pytest
+from freefem import FREEFEM, ROOT, environment, execute, listing, run_in, script, tree
+from test_readme import fences, is_rule, quoted, section
+
+from postprocess import words
+from postprocess.__main__ import main
+from postprocess.results import read_run
+
+FOLDERS = sorted(path.parent for path in (ROOT / "edp/labs").glob("*/README.md"))
+LABS = [folder.name for folder in FOLDERS]
+INDEX = (ROOT / "edp/labs/README.md").read_text()
+OWN_LAW = "4-own-law"
+BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment
+
+
+def readme(lab):
+    return (ROOT / "edp/labs" / lab / "README.md").read_text()
+
+
+def lab_script(lab):
+    """The lab's script, relative to the repository's root."""
+    return f"edp/labs/{lab}/{lab.partition('-')[2]}.edp"
+
+
+def package_in(folder):
+    """A copy of the package in which the READMEs' commands find everything."""
+    package = tree(folder / "package")
+    for name in ("postprocess", ".venv"):
+        (package / name).symlink_to(ROOT / name)
+    return package
+
+
+# ---------------------------------------------------------------- texts
+
+
+def test_index():
+    """The index shall list every lab, the package's README every lab's folder and script."""
+    assert re.findall(r"^\| \[(.*?)\]\((.*?)/README\.md\)", INDEX, re.M) == [(lab, lab) for lab in LABS]
+    labs = section((ROOT / "README.md").read_text(), "Labs")
+    for lab in LABS:
+        assert f"`edp/labs/{lab}`" in labs
+        assert lab_script(lab) in labs
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_parts_of_a_lab(lab):
+    """A lab shall have all its parts, one script, links that lead somewhere, and lines that fit."""
+    text = readme(lab)
+    assert re.findall(r"^## (.*)", text, re.M) == ["Theory", "Commands", "Questions", "Hand in", "Instructor"]
+    assert text.startswith(f"# Lab {lab[0]}: ")
+    assert "\n**Aim.** " in text
+    assert [path.name for path in (ROOT / "edp/labs" / lab).glob("*.edp")] == [lab_script(lab).split("/")[-1]]
+    for line in text.splitlines():
+        assert len(line) <= 130 or line.startswith("|") or line.startswith(("for ", ".venv"))
+    for target in re.findall(r"\]\(([^)#]+)\)", text + INDEX):
+        assert (ROOT / "edp/labs" / target).exists() or (ROOT / "edp/labs" / lab / target).exists(), target
+
+
+def test_where_includes_are_found():
+    """All labs shall have the same freefem++.pref, the scenes' but for the way up to edp/."""
+    texts = {(folder / "freefem++.pref").read_text() for folder in FOLDERS}
+    scenes = (ROOT / "edp/scenes/freefem++.pref").read_text()
+    assert texts == {scenes.replace('includepath += ".."', 'includepath += "../.."')}
+
+
+# ---------------------------------------------------------------- commands
+
+
+def commands(lab):
+    """(command, exit code) of each line in the README's sh blocks; a comment before it names a code other than 0."""
+    found, code = [], 0
+    for line in "".join(fences(readme(lab), "sh")).splitlines():
+        announced = re.match(r"# exit code (\d+)", line)
+        if announced:
+            code = int(announced[1])
+        elif line and not line.startswith("#"):
+            found.append((line, code))
+            code = 0
+    return found
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_commands(lab, tmp_path):
+    """Every command of a lab shall run as it is written, in this order, and leave what it names."""
+    package = package_in(tmp_path)
+    assert len(commands(lab)) > 3
+    for line, expected in commands(lab):
+        # a loop's exit code is its last command's: stop at the first that fails
+        code, stdout = execute(["sh", "-c", line.replace("; done", " || exit; done")], package)
+        assert code == expected, f"{line}\n{stdout[-2000:]}"
+        for name in re.findall(r"-out (\S+)", line):
+            if name.startswith("results/") and "$" not in name:
+                assert (package / name).exists(), line
+        if "postprocess figure" in line:
+            assert (package / re.search(r"--out (\S+)\.pdf", line)[1]).with_suffix(".png").stat().st_size > 10_000
+    assert {path.name for path in (package / "results").iterdir()} == {"labs"}
+    assert {path.name for path in (package / "results/labs").iterdir()} == {lab}
+
+
+def test_table_of_runs(tmp_path):
+    """`postprocess table` shall write a row a run: the values that all have, and the flags in which they differ."""
+    for h in (5, 10):
+        run_in(ROOT, lab_script("1-law"), "-h", h, "-vtu", 0, out=tmp_path / f"h{h}")
+    out = tmp_path / "new" / "table.csv"
+    assert main(["table", "--out", str(out), str(tmp_path / "h5"), str(tmp_path / "h10")]) == 0
+    first, second = csv.DictReader(out.read_text().splitlines())
+    summary = read_run(tmp_path / "h5").summary
+    assert first["run"] == str(tmp_path / "h5")
+    assert float(first["force"]) == summary["force"]
+    assert float(first["seconds.contact"]) == summary["seconds"]["contact"]
+    assert (int(first["newton"]), first["method"]) == (summary["newton"], "xnewton")
+    assert (float(first["h"]), float(second["h"])) == (5, 10)
+    assert not [name for name in first if name.startswith("-")]
+
+
+# ---------------------------------------------------------------- the instructor's numbers
+
+
+def tables(text):
+    """(head, rows) of each table in the text, cells without blanks around them."""
+    for block in re.findall(r"(?:^\|.*\n)+", text, re.M):
+        cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
+        assert is_rule(cells[1])
+        yield cells[0], cells[2:]
+
+
+def number_printed(stdout, label):
+    """The number after the last place where a run printed this label."""
+    found = re.findall(re.escape(label) + r"\s*[:=]?\s*([-+]?\d[\d.]*(?:e[-+]?\d+)?)", stdout)
+    assert found, f"{label} is not printed:\n{stdout[-2000:]}"
+    return float(found[-1])
+
+
+def agrees(cell, value):
+    """Whether the value, rounded to the cell's digits, is the cell's number."""
+    text = cell.replace("−", "-")
+    digits, _, exponent = text.partition("e")
+    last = 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+    return abs(value - float(text)) <= 0.501 * last
+
+
+def instructor_rows():
+    """A parameter a row of the instructors' tables."""
+    for lab in LABS:
+        for head, rows in tables(section(readme(lab), "Instructor")):
+            assert head[0].startswith("flags")
+            for flags, *cells in rows:
+                name = f"{lab} {quoted(flags)[0]}"
+                yield pytest.param(lab, head, quoted(flags)[0], cells, id=name)
+
+
+@pytest.fixture(scope="module")
+def coating(tmp_path_factory):
+    """A copy of the package whose own law is the instructor's solution."""
+    package = tree(tmp_path_factory.mktemp("labs") / "package")
+    (law,) = fences(section(readme(OWN_LAW), "Instructor"), "freefem")
+    (package / "edp/labs" / OWN_LAW / "mylaw.idp").write_text(law)
+    return package
+
+
+@pytest.mark.parametrize("lab, head, flags, cells", list(instructor_rows()))
+def test_instructor(lab, head, flags, cells, coating, tmp_path):
+    """The numbers of the instructor's tables shall be those of the runs, at the digits written."""
+    folder = coating if "coating" in head[0] else ROOT
+    expected = int(cells[head.index("exit code") - 1]) if "exit code" in head else 0
+    result = run_in(folder, lab_script(lab), *shlex.split(flags), "-vtu", 0, out=tmp_path / "out", expect=expected)
+    assert len(cells) == len(head) - 1
+    for label, cell in zip(head[1:], cells, strict=True):
+        if cell == "–" or label == "exit code":
+            continue
+        value = result.summary[quoted(label)[0]] if quoted(label) else number_printed(result.stdout, label)
+        assert agrees(cell, value), f"{label}: {value} is not {cell}"
+
+
+# ---------------------------------------------------------------- what a lab says
+
+
+def confined_state(law, stiffness, at_rest):
+    """The root s of p(s) = stiffness (at_rest - s)."""
+    low, high = 0.0, at_rest
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if law(middle) < stiffness * (at_rest - middle) else (low, middle)
+    return low
+
+
+@pytest.mark.parametrize("kappa, m, u0", [(1e3, 3, 2.5), (10, 1.5, 0.9), (1e12, 8, 2.5)])
+def test_exact_state(kappa, m, u0, tmp_path):
+    """Lab 1 shall print the exact state, and the run shall have it."""
+    modulus, depth = 100 * 0.7 / (1.3 * 0.4), 20
+    s = confined_state(lambda s: kappa * s**m, modulus / depth, u0 - 0.5 + 0.25)
+    flags = ["-kappa", kappa, "-m", m, "-u0", u0, "-vtu", 0]
+    stdout = run_in(ROOT, lab_script("1-law"), *flags, out=tmp_path / "out").stdout
+    pressure, depression = modulus / depth * (u0 - 0.25 - s), u0 - 0.25 - s
+    for label, value in (("pressure p", pressure), ("s = d - d0", s), ("p depth/M", depression)):
+        found = re.findall(re.escape(label) + r"\s+(\S+)\s+(\S+)\n", stdout)[-1]
+        assert [float(number) for number in found] == pytest.approx([value, value], rel=1e-5)
+
+
+def test_no_contact(tmp_path):
+    """Labs shall take a wall that does not touch as a result."""
+    for lab in ("1-law", "2-newton", OWN_LAW):
+        run_in(ROOT, lab_script(lab), "-u0", 0.1, "-vtu", 0, out=tmp_path / lab)
+
+
+@pytest.mark.parametrize(
+    "function, change, check, steps",
+    [
+        (
+            "slope",
+            ("? soft : stiff)", "? 2 * soft : 2 * stiff)"),
+            "slope, against differences of the pressure",
+            (41, 5, 33),
+        ),
+        ("inverse", ("/ stiff;", "/ stiff / 3;"), "inverse of pressure, against s", None),
+        ("potential", ("W[i] = 0.5", "W[i] = 3 * 0.5"), "pressure, against differences of the potential", (1, 1, 4)),
+    ],
+    ids=["slope", "inverse", "potential"],
+)
+def test_a_law_is_checked(function, change, check, steps, coating, tmp_path):
+    """The lab's check shall tell each spoilt function of a law, converged or not; steps as in the answers."""
+    package = tree(tmp_path / "package")
+    law = (coating / "edp/labs" / OWN_LAW / "mylaw.idp").read_text()
+    assert change[0] in law
+    (package / "edp/labs" / OWN_LAW / "mylaw.idp").write_text(law.replace(*change))
+    methods = (["newton"], ["xnewton"], ["paper", "-T0", "d0"])
+    for method, expected in zip(methods, steps or [None] * 3, strict=True):
+        command = [*FREEFEM, lab_script(OWN_LAW), "-vtu", "0", "-out", tmp_path / method[0], "-method", *method]
+        code, stdout = execute(command, package)
+        assert code in (0, 20)
+        assert number_printed(stdout, check) > 0.3
+        if expected:
+            assert code == 0
+            assert number_printed(stdout, "Newton steps") == expected
+            assert number_printed(stdout, "confined block: pressure") == 14.3811
+
+
+def test_own_law_stays_in_its_lab():
+    """The law of the lab shall be no law of the package's scenes."""
+    assert "mylaw" in run_in(ROOT, lab_script(OWN_LAW), "-help").stdout
+    assert "mylaw" not in run_in(ROOT, script("confined-block"), "-help").stdout
+
+
+# ---------------------------------------------------------------- scripts
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_help_and_refusals(lab, tmp_path):
+    """-help shall print the flags; a bad flag or value shall end with code 10; nothing shall be written."""
+    package = tree(tmp_path / "package")
+    before = listing(package)
+    stdout = run_in(package, lab_script(lab), "-help").stdout
+    for flag in ("-method", "-law", "-kappa", "-h", "-out"):
+        assert re.search(rf"^{flag} ", stdout, re.M)
+    assert f"results/labs/{lab}/" in stdout
+    assert "-kapa" in run_in(package, lab_script(lab), "-kapa", 5, expect=10).stdout
+    assert "-kappa -1" in run_in(package, lab_script(lab), "-kappa", -1, expect=10).stdout
+    assert listing(package) == before
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_started_from_either_folder(lab, tmp_path):
+    """A lab shall start without any environment, from the root and from its own folder; results go to the root's."""
+    package = tree(tmp_path / "a package")
+    flags = ["-h", 2 if lab in ("3-threshold", "5-cost") else 1.6, "-layers", 1][: None if lab == "6-sphere" else 2]
+    for folder, name in ((".", lab_script(lab)), (f"edp/labs/{lab}", lab_script(lab).split("/")[-1])):
+        run_in(package / folder, name, "-vtu", 0, *flags, env=BARE)
+        (summary,) = (package / "results").rglob("summary.json")
+        assert summary.parent.parent == package / "results/labs" / lab
+        summary.unlink()
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_the_command_of_a_run(lab, tmp_path):
+    """The command that a page of runs gives for a lab's run shall make that run again."""
+    result = run_in(
+        ROOT, lab_script(lab), "-h", 1.6, *(["-layers", 1] if lab == "6-sphere" else []), out=tmp_path / "a"
+    )
+    command = shlex.split(words.command(read_run(result.folder)))
+    assert lab_script(lab) in command
+    command[command.index("-out") + 1] = str(tmp_path / "b")
+    code, stdout = execute(command, ROOT, environment())
+    assert code == 0, stdout
+    again = read_run(tmp_path / "b").summary
+    assert again["force"] == result.force
+    assert {**again["parameters"], "out": ""} == {**result.parameters, "out": ""}
+
+
+# ---------------------------------------------------------------- figures
+
+
+@pytest.mark.parametrize(
+    "figure, words", [("equilibrium", "not a confined block"), ("overshoot", "-states 1"), ("cost", "reference")]
+)
+def test_figures_refuse(figure, words, tmp_path, capsys):
+    """A run that does not hold what a figure shows shall be refused in one line."""
+    run_in(ROOT, script("disc-on-block"), "-h", 2, "-vtu", 0, out=tmp_path / "run")
+    folders = [str(tmp_path / "run")] * (2 if figure == "cost" else 1)
+    assert main(["figure", figure, "--out", str(tmp_path / "x.pdf"), *folders]) == 2
+    assert words in capsys.readouterr().err
+    assert not (tmp_path / "x.pdf").exists()
+
+
+def test_figures_of_a_lab(tmp_path, capsys):
+    """`figures` shall draw a lab's figures from a lab's run."""
+    run_in(ROOT, lab_script("2-newton"), "-vtu", 0, out=tmp_path / "run")
+    assert main(["figures", str(tmp_path)]) == 0
+    assert {"equilibrium.png", "overshoot.png"} <= {path.name for path in (tmp_path / "figures").iterdir()}
+    assert "cost: needs runs of the lab 5-cost" in capsys.readouterr().out
