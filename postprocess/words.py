@@ -21,9 +21,12 @@ OTHERWISE = {
     "confined-block": "width",
     "hertz-line": "law d0 force reach h gap grading",
     "patch-test": "width gap u0 h Eratio law d0",
+    "patch-test-3d": "width gap u0 h Eratio law d0",
     "rough": "u0 h",
     "sphere-on-block": "gap u0 h grading law d0 force width depth",
+    "sphere-on-plane": "gap u0 force grading law d0 h",
     "two-cylinders": "gap u0 force reach grading law d0 h",
+    "two-spheres": "gap u0 force grading law d0 h",
 }
 LABS = "labs/"  # every lab has defaults of its own: all its flags are written out
 # What a method takes from its own defaults.
