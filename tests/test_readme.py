@@ -8,6 +8,7 @@ import shlex
 import pytest
 from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
+from test_paraview import Grid
 
 README = (ROOT / "README.md").read_text()
 THEORY = (ROOT / "edp" / "README.md").read_text()
@@ -161,12 +162,27 @@ def test_columns(paper_run):
         assert [head] == quoted(columns), name
 
 
-def test_vtu(paper_run):
-    """solution.vtu shall hold the fields that the README names."""
-    words = (paper_run.folder / "solution.vtu").read_bytes()
-    for name in ("displacement", "vonMises"):
-        assert f"`{name}`" in section(README, "Files of a run")
-        assert f'Name="{name}"'.encode() in words
+def test_paraview(paper_run):
+    """The files for ParaView shall be those of the README, with its fields and no other."""
+    table = rows(section(README, "ParaView"))
+    names = [quoted(row[0])[0] for row in table]
+    of_paraview = {path.name for path in paper_run.folder.iterdir() if path.suffix in (".vtu", ".pvd")}
+    assert {name for name in of_paraview if not name.startswith("state-")} == set(names)
+    for name, (_, _, at_points, in_cells) in zip(names, table, strict=True):
+        grid = Grid(paper_run.folder / ("state-1.vtu" if name == "states.pvd" else name))
+        assert grid.at_points.keys() == set(quoted(at_points)), name
+        assert grid.in_cells.keys() == set(quoted(in_cells)), name
+
+
+def test_picture_from_paraview():
+    """The snippet that draws the picture shall be Python, and name a figure's run and fields that there are."""
+    (code,) = fences(section(README, "ParaView"), "python")
+    compile(code, "README.md", "exec")
+    assert set(re.findall(r'"(\w+\[\w+\])"', code)) <= set(quoted(section(README, "ParaView")))
+    (target,) = re.findall(r'read\("(.*)/solution.vtu"\)', code)
+    assert execute(["make", "-n", *DONE, f"{target}/summary.json"], ROOT)[0] == 0
+    picture = re.search(r'save\("([^"]+)"', code)[1]
+    assert f"]({picture})" in README and (ROOT / picture).stat().st_size < 150_000
 
 
 def test_exit_codes(tmp_path):
