@@ -344,12 +344,18 @@ def test_notation():
             assert re.search(rf"\b{name}\b", code), name
 
 
-@pytest.mark.parametrize("text", [README, THEORY], ids=["README.md", "edp/README.md"])
-def test_links(text):
-    """Relative links and the picture shall exist."""
-    base = ROOT if text is README else ROOT / "edp"
-    for target in re.findall(r"\]\(([^)#]+)\)", text):
-        assert target.startswith("http") or (base / target).exists(), target
+@pytest.mark.parametrize("page", ["README.md", "edp/README.md", "edp/THEORY.md"])
+def test_links(page):
+    """Relative links and the picture shall exist, and the headings that they name."""
+    text = (ROOT / page).read_text()
+    for target, heading in re.findall(r"\]\(([^)#]*)(?:#([^)]*))?\)", text):
+        if not target.startswith("http"):
+            path = (ROOT / page).parent / target if target else ROOT / page
+            assert path.exists(), target
+            titles = re.findall(r"^#+ (.*)$", path.read_text(), re.M) if heading else []
+            assert not heading or heading in [
+                re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles
+            ]
     assert (ROOT / "postprocess/readme-figure.png").stat().st_size < 150_000
 
 
