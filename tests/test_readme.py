@@ -285,6 +285,18 @@ def test_law_example(tmp_path):
         assert abs(result.energy / energy - 1) < 1e-9
 
 
+def test_citation():
+    """CITATION.cff shall have what its format asks for, the paper, and the version that the changelog speaks of."""
+    lines = (ROOT / "CITATION.cff").read_text().splitlines()
+    keys = dict(line.split(": ", 1) for line in lines if re.match(r"[a-z-]+: ", line))
+    assert keys.keys() >= {"cff-version", "message", "title", "type", "version", "license"}
+    assert {"authors:", "references:"} <= set(lines)
+    assert any("An eXtended-Newton Scheme for the Solution of Stiff Normal Contact Problems" in line for line in lines)
+    (heading,) = re.findall(r"^## \[(.*)\]$", (ROOT / "CHANGELOG.md").read_text(), re.M)
+    assert heading in ("Unreleased", keys["version"])
+    assert keys["version"] in section((ROOT / "CHANGELOG.md").read_text(), f"[{heading}]")
+
+
 # ---------------------------------------------------------------- numbers
 
 
