@@ -154,7 +154,6 @@ MOVIE := results/movies/$(SCENE)
 movie: .venv/run.stamp | system ## show the method at work: make movie [SCENE=name] [ARGS="-method paper -h 0.5"], into results/movies/
 	@$(FREEFEM) $(SCRIPT) $(ARGS) -states 1 -out $(MOVIE); code=$$?; \
 	case $$code in 0|20) ;; *) echo "FreeFem++ ended with code $$code: no movie"; exit $$code;; esac; \
-	rm -f $(MOVIE)/movie.html $(MOVIE)/movie.gif; \
 	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE) && exit $$code
 
 report: .venv/run.stamp | system ## one page of everything that has been run: results/report/index.html

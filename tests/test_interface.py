@@ -73,6 +73,28 @@ def test_help_names_every_flag(package, scene, tmp_path):
     assert listing(package) == before
 
 
+def test_commands_are_posix():
+    """What FreeFEM hands to the shell shall not need GNU's options: BSD's sed takes -i's next word for a suffix."""
+    texts = {path: path.read_text() for path in [*(ROOT / "edp").rglob("*.idp"), *(ROOT / "edp").rglob("*.edp")]}
+    assert any("exec(" in text for text in texts.values())
+    for path, text in texts.items():
+        assert not re.search(r"sed -i|readlink -f|grep -P|mktemp --|stat -c|date \+%N", text), path
+
+
+@pytest.mark.parametrize("name", ["freefem++.pref", "edp/freefem++.pref", "edp/scenes/freefem++.pref"])
+def test_other_plugin_folders(tmp_path, name):
+    """Folders in freefem++.pref that do not exist shall do no harm where FreeFEM has the right ones from elsewhere."""
+    package = tree(tmp_path / "package")
+    text = (package / name).read_text()
+    own = "".join(f"{line}\n" for line in text.splitlines() if re.match(r'\w+ \+= "/', line))
+    for pref in package.rglob("freefem++.pref"):
+        pref.write_text(re.sub(r'\+= "/', '+= "/not/here/', pref.read_text()))
+    (tmp_path / ".freefem++.pref").write_text(own)
+    where = (package / name).parent
+    env = {**BARE, "HOME": str(tmp_path)}
+    run_in(where, package / script(BLOCK), "-h", 5, "-vtu", 0, out=tmp_path / "out", env=env)
+
+
 # ---------------------------------------------------------------- progress
 
 
