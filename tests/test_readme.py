@@ -2,11 +2,16 @@
 
 import functools
 import json
+import os
 import re
 import shlex
+import shutil
+import signal
+import subprocess
+import time
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, run, run_in, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
 
@@ -242,6 +247,81 @@ def test_make_commands():
         if "SCENE=name" not in line:
             code, stdout = execute(["make", "-n", *DONE, *shlex.split(line)[1:]], ROOT)
             assert code == 0, f"{line}: {stdout}"
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """A copy of the package with its drawing commands and the set-up's Python."""
+    folder = tree(tmp_path_factory.mktemp("readme-make") / "package")
+    for name in ("postprocess", ".venv"):
+        (folder / name).symlink_to(ROOT / name)
+    shutil.copytree(ROOT / "tests", folder / "tests")  # a campaign's results lie beside its own script
+    return folder
+
+
+def make(folder, *words, timeout=TIMEOUT):
+    done = subprocess.run(
+        ["make", *DONE, *words], cwd=folder, env=environment(), capture_output=True, text=True, timeout=timeout
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("line", [line for line in commands() if line.startswith("make run")])
+def test_make_run_commands(line, package):
+    """The README's runs by make shall end with results in the scene's folder."""
+    code, stdout = make(package, *shlex.split(line)[1:])
+    assert code == 0, stdout
+    scene = re.search(r"SCENE=([\w-]+)", line)
+    assert (package / "results" / (scene[1] if scene else "disc-on-block") / "xnewton" / "summary.json").exists()
+
+
+def test_every_figure_is_listed():
+    """The README's figures shall be those of the Makefile, each with the command that makes it."""
+    listed = {quoted(name)[0]: quoted(line)[0] for name, _, line in rows(section(README, "Figures"))}
+    known = set(re.findall(r"^figure\.([\w-]+) *:=", (ROOT / "Makefile").read_text(), re.M))
+    assert listed == {name: f"make results/figures/{name}.pdf" for name in known}
+
+
+@pytest.mark.long
+def test_make_figures_and_report(package):
+    """`make figures` shall draw every figure of the README, `make report` show all of them."""
+    code, stdout = make(package, "figures")
+    assert code == 0, stdout
+    names = [quoted(row[0])[0] for row in rows(section(README, "Figures"))]
+    for name in names:
+        for kind, start in (("pdf", b"%PDF"), ("png", b"\x89PNG")):
+            assert (package / "results" / "figures" / f"{name}.{kind}").read_bytes().startswith(start)
+    assert make(package, "-q", "figures")[0] == 0, "made once, they are up to date"
+    assert make(package, "report")[0] == 0
+    page = (package / "results" / "report" / "index.html").read_text()
+    assert page.count("data:image/png;base64,") == len(names)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("campaign, table", [("bench", "work_precision.csv"), ("stability", "stability.csv")])
+def test_make_campaigns(package, campaign, table):
+    """`make bench` and `make stability`, stopped by Ctrl-C, shall leave whole rows and no figure, and then go on."""
+    path = package / "results" / campaign / table
+    for wanted in (2, 4):
+        process = subprocess.Popen(
+            ["make", *DONE, campaign],
+            cwd=package,
+            env=environment(),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        try:
+            end = time.monotonic() + 60
+            while not path.exists() or path.read_text().count("\n") <= wanted:
+                assert process.poll() is None and time.monotonic() < end
+                time.sleep(0.1)
+        finally:
+            os.killpg(process.pid, signal.SIGINT)
+            assert process.wait(60) != 0
+        _, *lines = path.read_text().splitlines()
+        assert len(lines) >= wanted and len(set(lines)) == len(lines)
+        assert not list(path.parent.glob("*.pdf"))
 
 
 def test_show(paper_run):
