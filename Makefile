@@ -21,10 +21,10 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures movie report bench stability labs test lint doctor clean distclean
+.PHONY: help setup system run figures movie report bench stability labs test test-all lint doctor clean distclean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 	@echo 'Scenes: $(SCENES)'
 
 # ---------------------------------------------------------------- set-up
@@ -165,7 +165,6 @@ MOVIE := results/movies/$(SCENE)
 movie: .venv/run.stamp | system ## show the method at work: make movie [SCENE=name] [ARGS="-method paper -h 0.5"], into results/movies/
 	@$(FREEFEM) $(SCRIPT) $(ARGS) -states 1 -out $(MOVIE); code=$$?; \
 	case $$code in 0|20) ;; *) echo "FreeFem++ ended with code $$code: no movie"; exit $$code;; esac; \
-	rm -f $(MOVIE)/movie.html $(MOVIE)/movie.gif; \
 	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE) && exit $$code
 
 report: .venv/run.stamp | system ## one page of everything that has been run: results/report/index.html
@@ -178,6 +177,9 @@ doctor: ## say what is installed, what is missing and how to get it
 
 test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
 	@$(PYTHON) -m pytest -q -n 2 $(PYTEST_ARGS) $(TESTS)
+
+test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
+	@$(PYTHON) -m pytest -q -n 2 -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
 lint: .venv/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests

@@ -36,14 +36,14 @@ PACKAGES = {
 # How to get a program where there is no apt-get: {system: {program: words}}.
 ELSEWHERE = {
     "Darwin": {
-        "FreeFem++": f"the official .dmg from {RELEASES}; put FreeFem++.app/Contents/ff-VERSION/bin on the PATH",
+        "FreeFem++": f"the official .dmg from {RELEASES}, in /Applications; its Contents/ff-VERSION/bin on the PATH",
         "gmsh": f"brew install gmsh, or {GMSH}",
         "python": "brew install python, or https://www.python.org",
         "make": "xcode-select --install",
         "chromium": "brew install --cask chromium",
     },
     "Windows": {
-        "FreeFem++": f"the official .exe from {RELEASES}; simplest: Debian or Ubuntu in WSL, then as there",
+        "FreeFem++": f"Debian or Ubuntu in WSL, then as there; the .exe of {RELEASES} has no POSIX shell",
         "gmsh": f"{GMSH}; its folder must be on the PATH",
         "python": "https://www.python.org",
         "make": "the MSYS2 package make; simplest: WSL",
@@ -187,9 +187,10 @@ def find_freefem() -> list:
 
 
 def plugin_hint() -> str:
-    if shutil.which("apt-get"):
+    """How to get a plugin: from Debian's package where FreeFEM is Debian's, otherwise by naming its folder."""
+    if shutil.which("apt-get") and os.path.realpath(shutil.which("FreeFem++") or "/usr/bin/").startswith("/usr/bin/"):
         return "apt-get install libfreefem++; run FreeFem++ in the repository's root, where freefem++.pref is"
-    return 'add the plugins\' folder to freefem++.pref: loadpath += "/path/to/lib/ff++/.../lib"'
+    return 'add the plugins\' folder to ~/.freefem++.pref: loadpath += "/path/to/lib/ff++/.../lib"'
 
 
 def plugin_path(works: bool) -> list:

@@ -168,6 +168,7 @@ class Run:
         """The displacements after every Newton step (runs made with `-states 1`)."""
         path = self.path / "states.csv"
         table = read_table(path, STATES, hint="; run the scene with -states 1")
+        refuse_space(path)
         rows = len(table["state"])
         if rows == 0:
             raise ResultsError(path, "has no rows")
@@ -191,6 +192,7 @@ class Run:
         """The points at every Newton step (runs made with `-states 1`)."""
         path = self.path / "steps.csv"
         table = read_table(path, STEPS, hint="; run the scene with -states 1")
+        refuse_space(path)
         points = self.summary["points"]
         rows = len(table["x"])
         check_count(path, "rows", rows, points * (self.summary["newton"] + 1))
@@ -335,6 +337,13 @@ def check_file(path: Path, hint: str = "") -> None:
         raise ResultsError(path, "is empty")
     if size > SIZE_LIMIT:
         raise ResultsError(path, f"is too large: {size / 1e6:.0f} MB, at most {SIZE_LIMIT / 1e6:.0f} MB are read")
+
+
+def refuse_space(path: Path) -> None:
+    """Refuses a table whose points have a third coordinate; for a file that read_table has taken."""
+    with path.open(encoding="utf-8") as file:
+        if "z" in file.readline().strip().split(","):
+            raise ResultsError(path, "is of a run in space, which is not drawn here; open states.pvd in ParaView")
 
 
 def check_count(path: Path, what: str, found: int, expected: int) -> None:

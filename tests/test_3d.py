@@ -131,7 +131,6 @@ def test_contact_up_to_the_edge_is_said():
     "flags, words",
     [
         (["-order", 2], ["-order 2", "from 1 to 1"]),
-        (["-states", 1], ["-states 1", "two dimensions"]),
         (["-patch", 7.5], ["-patch 7.5", "at most 7"]),
         (["-R", 100, "-patch", 19], ["-patch 19", "at most 18"]),
         (["-patch", 2, "-h", 3], ["-h 3", "at most 2"]),
@@ -153,8 +152,8 @@ def test_solution_for_paraview(tmp_path):
     """solution.vtu shall be written whole, a cell and a point for each of the mesh's."""
     run_in(ROOT, script(SCENE), *COARSE, "-method", "newton", out=tmp_path / "out")
     text = (tmp_path / "out" / "solution.vtu").read_text()
-    assert 'Name="displacement"' in text
-    assert 'Name="vonMises"' in text
+    assert 'Name="displacement[length]"' in text
+    assert 'Name="vonMises[pressure]"' in text
     assert text.rstrip().endswith("</VTKFile>")
 
 

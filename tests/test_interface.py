@@ -15,7 +15,7 @@ FLAGS = (
     "-E -nu -width -depth -u0 -gap -kappa -m -d0 -rho -h -order -T0 -eps -tol -maxNewton -maxAdaptations -steps".split()
 )
 FLAGS += ["-method", "-out"]
-RESULTS = ["adaptations.csv", "contact.csv", "history.csv", "solution.vtu", "summary.json"]
+RESULTS = ["adaptations.csv", "contact.csv", "contact.vtu", "history.csv", "solution.vtu", "summary.json"]
 BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment
 
 # ---------------------------------------------------------------- starting
@@ -71,6 +71,28 @@ def test_help_names_every_flag(package, scene, tmp_path):
     for flag, default in (("-kappa", "1000"), ("-m", "3"), ("-d0", "-0.25"), ("-eps", "0.0001"), ("-tol", "1e-06")):
         assert rows[flag].split()[1] == default
     assert listing(package) == before
+
+
+def test_commands_are_posix():
+    """What FreeFEM hands to the shell shall not need GNU's options: BSD's sed takes -i's next word for a suffix."""
+    texts = {path: path.read_text() for path in [*(ROOT / "edp").rglob("*.idp"), *(ROOT / "edp").rglob("*.edp")]}
+    assert any("exec(" in text for text in texts.values())
+    for path, text in texts.items():
+        assert not re.search(r"sed -i|readlink -f|grep -P|mktemp --|stat -c|date \+%N", text), path
+
+
+@pytest.mark.parametrize("name", ["freefem++.pref", "edp/freefem++.pref", "edp/scenes/freefem++.pref"])
+def test_other_plugin_folders(tmp_path, name):
+    """Folders in freefem++.pref that do not exist shall do no harm where FreeFEM has the right ones from elsewhere."""
+    package = tree(tmp_path / "package")
+    text = (package / name).read_text()
+    own = "".join(f"{line}\n" for line in text.splitlines() if re.match(r'\w+ \+= "/', line))
+    for pref in package.rglob("freefem++.pref"):
+        pref.write_text(re.sub(r'\+= "/', '+= "/not/here/', pref.read_text()))
+    (tmp_path / ".freefem++.pref").write_text(own)
+    where = (package / name).parent
+    env = {**BARE, "HOME": str(tmp_path)}
+    run_in(where, package / script(BLOCK), "-h", 5, "-vtu", 0, out=tmp_path / "out", env=env)
 
 
 # ---------------------------------------------------------------- progress
@@ -171,14 +193,20 @@ def test_second_run_replaces_the_first(tmp_path):
     """A run into the folder of another shall leave its own files only."""
     out = tmp_path / "out"
     run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-states", 1, out=out)
-    assert sorted(path.name for path in out.iterdir()) == sorted([*RESULTS, "states.csv", "steps.csv", "triangles.csv"])
+    states = {path.name for path in out.glob("state-*.vtu")}
+    assert len(states) > 2
+    of_states = {"states.csv", "states.pvd", "steps.csv", "triangles.csv", *states}
+    assert {path.name for path in out.iterdir()} == {*RESULTS, *of_states}
     (out / "mine.txt").touch()
     run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-vtu", 0, out=out)
-    assert sorted(path.name for path in out.iterdir()) == sorted(["mine.txt", *RESULTS[:3], "summary.json"])
+    assert {path.name for path in out.iterdir()} == {"mine.txt", *RESULTS} - {"contact.vtu", "solution.vtu"}
 
 
-@pytest.mark.parametrize("limit", [0, 700, 5000, 20000])
-def test_disk_full(tmp_path, limit):
+@pytest.mark.parametrize(
+    "limit, flags",
+    [(0, []), (700, []), (5000, []), (20000, []), *((limit, ["-states", "1"]) for limit in (1000, 40000, 60000))],
+)
+def test_disk_full(tmp_path, limit, flags):
     """When files cannot be written to their end, the run shall fail, say so, and keep none of them.
 
     The limit on a file's size stands for a full disk: writing beyond it fails.
@@ -190,7 +218,7 @@ def test_disk_full(tmp_path, limit):
 
     out = tmp_path / "out"
     done = subprocess.run(
-        [*FREEFEM, script(BLOCK), "-method", "newton", "-h", "1", "-out", str(out)],
+        [*FREEFEM, script(BLOCK), "-method", "newton", "-h", "1", "-out", str(out), *flags],
         cwd=ROOT,
         env=environment(),
         stdout=subprocess.PIPE,

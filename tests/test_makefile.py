@@ -1,9 +1,13 @@
 """The Makefile as a user meets it. Nothing is installed here: set-up counts as done (-o)."""
 
+import os
 import shutil
+import signal
+import subprocess
+import time
 
 import pytest
-from freefem import ROOT, execute, tree
+from freefem import ROOT, environment, execute, tree
 
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]
 
@@ -64,6 +68,69 @@ def test_results_are_targets(package):
     (package / "edp" / "laws" / "power.idp").touch()
     make(package, target)
     assert (package / target).stat().st_mtime_ns > made
+
+
+LONG = "-method incremental -steps 100000 -h 0.1 -order 2"  # hours
+
+
+def interrupted(package, folder, how, *words):
+    """Start make, wait until the run has opened its folder, and end it: Ctrl-C for the whole group, or a kill."""
+    process = subprocess.Popen(
+        ["make", *DONE, *words],
+        cwd=package,
+        env=environment(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        end = time.monotonic() + 100
+        while not folder.exists() or (folder / "summary.json").exists():
+            assert process.poll() is None and time.monotonic() < end
+            time.sleep(0.01)
+    finally:
+        os.killpg(process.pid, how)
+        code = process.wait()
+    assert code != 0
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_interrupted_figure(package, how):
+    """A run of `make figures` that is ended before its end shall be no target, and be made again."""
+    folder = package / "results" / "figures" / "signorini-start"
+    target = [
+        "case.signorini-start=edp/scenes/confined-block.edp -h 5",
+        "results/figures/signorini-start/summary.json",
+    ]
+    assert make(package, *target)[0] == 0
+    (package / "edp" / "laws" / "power.idp").touch()
+    interrupted(package, folder, how, f"case.signorini-start=edp/main.edp {LONG}", "results/figures/thresholds.pdf")
+    assert not (folder / "summary.json").exists()
+    assert not list(folder.parent.glob("thresholds.*"))
+    code, stdout = make(package, *target)
+    assert code == 0 and "confined-block" in stdout
+    assert not list(folder.glob("*.tmp")) and (folder / "summary.json").exists()
+
+
+def test_interrupted_movie(package):
+    """A run of `make movie` that is ended shall leave neither a summary nor the movie of the run before."""
+    folder = package / "results" / "movies" / "confined-block"
+    folder.mkdir(parents=True)
+    for name in ("movie.html", "movie.gif", "summary.json", "states.pvd", "state-3.vtu"):
+        (folder / name).write_text("of an earlier run")
+    interrupted(package, folder, signal.SIGINT, "movie", "SCENE=confined-block", f"ARGS={LONG} -kappa 1e9")
+    assert not {"movie.html", "movie.gif", "summary.json"} & {path.name for path in folder.iterdir()}
+
+
+def test_refused_movie(package):
+    """Flags that are refused shall leave an earlier run and its movie as they were."""
+    folder = package / "results" / "movies" / "wavy"
+    folder.mkdir(parents=True)
+    for name in ("movie.html", "summary.json"):
+        (folder / name).write_text("of an earlier run")
+    code, stdout = make(package, "movie", "SCENE=wavy", "ARGS=-kappa 0")
+    assert code != 0 and "no movie" in stdout
+    assert sorted(path.name for path in folder.iterdir()) == ["movie.html", "summary.json"]
 
 
 def test_clean(package):

@@ -220,7 +220,7 @@ macro loads(v1, v2) int2d(Th)(-3. * v2) //
 """
 
 SINKING = """
-set(stiffness, solver = "CHOLMOD");
+set(stiffness, solver = "CHOLMOD", sym = 1, positive = 1);
 real[int] sunk = stiffness^-1 * bodyLoad;
 real[int] top = sunk(pointDof);
 tell("top", top);

@@ -268,6 +268,13 @@ class TestMovie:
         code, stdout = execute([*made, "ARGS=-kappa 0"], cwd=package)
         assert code != 0 and "no movie" in stdout
 
+    def test_a_run_in_space(self, tmp_path, capsys):
+        """States in space are for ParaView: the movie is refused in one line that says so."""
+        folder = run("sphere-on-block", "-h", 1.2, "-layers", 2, "-tol", 1e-8, "-states", 1).folder
+        line = refused(capsys, "movie", "--out", tmp_path / "out", folder)
+        assert "in space" in line and "states.pvd" in line
+        assert not (tmp_path / "out").exists()
+
     def test_a_run_without_states(self, brief, tmp_path, capsys):
         folder = tmp_path / "run"
         shutil.copytree(brief, folder, ignore=shutil.ignore_patterns("steps.csv"))

@@ -2,12 +2,18 @@
 
 import functools
 import json
+import os
 import re
 import shlex
+import shutil
+import signal
+import subprocess
+import time
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, run, run_in, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
+from test_paraview import Grid
 
 README = (ROOT / "README.md").read_text()
 THEORY = (ROOT / "edp" / "README.md").read_text()
@@ -173,12 +179,27 @@ def test_columns(paper_run):
         assert [head] == quoted(columns), name
 
 
-def test_vtu(paper_run):
-    """solution.vtu shall hold the fields that the README names."""
-    words = (paper_run.folder / "solution.vtu").read_bytes()
-    for name in ("displacement", "vonMises"):
-        assert f"`{name}`" in section(README, "Files of a run")
-        assert f'Name="{name}"'.encode() in words
+def test_paraview(paper_run):
+    """The files for ParaView shall be those of the README, with its fields and no other."""
+    table = rows(section(README, "ParaView"))
+    names = [quoted(row[0])[0] for row in table]
+    of_paraview = {path.name for path in paper_run.folder.iterdir() if path.suffix in (".vtu", ".pvd")}
+    assert {name for name in of_paraview if not name.startswith("state-")} == set(names)
+    for name, (_, _, at_points, in_cells) in zip(names, table, strict=True):
+        grid = Grid(paper_run.folder / ("state-1.vtu" if name == "states.pvd" else name))
+        assert grid.at_points.keys() == set(quoted(at_points)), name
+        assert grid.in_cells.keys() == set(quoted(in_cells)), name
+
+
+def test_picture_from_paraview():
+    """The snippet that draws the picture shall be Python, and name a figure's run and fields that there are."""
+    (code,) = fences(section(README, "ParaView"), "python")
+    compile(code, "README.md", "exec")
+    assert set(re.findall(r'"(\w+\[\w+\])"', code)) <= set(quoted(section(README, "ParaView")))
+    (target,) = re.findall(r'read\("(.*)/solution.vtu"\)', code)
+    assert execute(["make", "-n", *DONE, f"{target}/summary.json"], ROOT)[0] == 0
+    picture = re.search(r'save\("([^"]+)"', code)[1]
+    assert f"]({picture})" in README and (ROOT / picture).stat().st_size < 150_000
 
 
 def test_exit_codes(tmp_path):
@@ -242,6 +263,81 @@ def test_make_commands():
             assert code == 0, f"{line}: {stdout}"
 
 
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """A copy of the package with its drawing commands and the set-up's Python."""
+    folder = tree(tmp_path_factory.mktemp("readme-make") / "package")
+    for name in ("postprocess", ".venv"):
+        (folder / name).symlink_to(ROOT / name)
+    shutil.copytree(ROOT / "tests", folder / "tests")  # a campaign's results lie beside its own script
+    return folder
+
+
+def make(folder, *words, timeout=TIMEOUT):
+    done = subprocess.run(
+        ["make", *DONE, *words], cwd=folder, env=environment(), capture_output=True, text=True, timeout=timeout
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("line", [line for line in commands() if line.startswith("make run")])
+def test_make_run_commands(line, package):
+    """The README's runs by make shall end with results in the scene's folder."""
+    code, stdout = make(package, *shlex.split(line)[1:])
+    assert code == 0, stdout
+    scene = re.search(r"SCENE=([\w-]+)", line)
+    assert (package / "results" / (scene[1] if scene else "disc-on-block") / "xnewton" / "summary.json").exists()
+
+
+def test_every_figure_is_listed():
+    """The README's figures shall be those of the Makefile, each with the command that makes it."""
+    listed = {quoted(name)[0]: quoted(line)[0] for name, _, line in rows(section(README, "Figures"))}
+    known = set(re.findall(r"^figure\.([\w-]+) *:=", (ROOT / "Makefile").read_text(), re.M))
+    assert listed == {name: f"make results/figures/{name}.pdf" for name in known}
+
+
+@pytest.mark.long
+def test_make_figures_and_report(package):
+    """`make figures` shall draw every figure of the README, `make report` show all of them."""
+    code, stdout = make(package, "figures")
+    assert code == 0, stdout
+    names = [quoted(row[0])[0] for row in rows(section(README, "Figures"))]
+    for name in names:
+        for kind, start in (("pdf", b"%PDF"), ("png", b"\x89PNG")):
+            assert (package / "results" / "figures" / f"{name}.{kind}").read_bytes().startswith(start)
+    assert make(package, "-q", "figures")[0] == 0, "made once, they are up to date"
+    assert make(package, "report")[0] == 0
+    page = (package / "results" / "report" / "index.html").read_text()
+    assert page.count("data:image/png;base64,") == len(names)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("campaign, table", [("bench", "work_precision.csv"), ("stability", "stability.csv")])
+def test_make_campaigns(package, campaign, table):
+    """`make bench` and `make stability`, stopped by Ctrl-C, shall leave whole rows and no figure, and then go on."""
+    path = package / "results" / campaign / table
+    for wanted in (2, 4):
+        process = subprocess.Popen(
+            ["make", *DONE, campaign],
+            cwd=package,
+            env=environment(),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        try:
+            end = time.monotonic() + 60
+            while not path.exists() or path.read_text().count("\n") <= wanted:
+                assert process.poll() is None and time.monotonic() < end
+                time.sleep(0.1)
+        finally:
+            os.killpg(process.pid, signal.SIGINT)
+            assert process.wait(60) != 0
+        _, *lines = path.read_text().splitlines()
+        assert len(lines) >= wanted and len(set(lines)) == len(lines)
+        assert not list(path.parent.glob("*.pdf"))
+
+
 def test_show(paper_run):
     """The command that prints a summary shall do so."""
     (line,) = [line for line in commands() if line.startswith(".venv")]
@@ -281,6 +377,18 @@ def test_law_example(tmp_path):
         result = run_in(package, script("confined-block"), *flags, out=tmp_path / method)
         assert abs(result.force / (width * pressure) - 1) < 1e-9
         assert abs(result.energy / energy - 1) < 1e-9
+
+
+def test_citation():
+    """CITATION.cff shall have what its format asks for, the paper, and the version that the changelog speaks of."""
+    lines = (ROOT / "CITATION.cff").read_text().splitlines()
+    keys = dict(line.split(": ", 1) for line in lines if re.match(r"[a-z-]+: ", line))
+    assert keys.keys() >= {"cff-version", "message", "title", "type", "version", "license"}
+    assert {"authors:", "references:"} <= set(lines)
+    assert any("An eXtended-Newton Scheme for the Solution of Stiff Normal Contact Problems" in line for line in lines)
+    (heading,) = re.findall(r"^## \[(.*)\]$", (ROOT / "CHANGELOG.md").read_text(), re.M)
+    assert heading in ("Unreleased", keys["version"])
+    assert keys["version"] in section((ROOT / "CHANGELOG.md").read_text(), f"[{heading}]")
 
 
 # ---------------------------------------------------------------- numbers
@@ -342,12 +450,18 @@ def test_notation():
             assert re.search(rf"\b{name}\b", code), name
 
 
-@pytest.mark.parametrize("text", [README, THEORY], ids=["README.md", "edp/README.md"])
-def test_links(text):
-    """Relative links and the picture shall exist."""
-    base = ROOT if text is README else ROOT / "edp"
-    for target in re.findall(r"\]\(([^)#]+)\)", text):
-        assert target.startswith("http") or (base / target).exists(), target
+@pytest.mark.parametrize("page", ["README.md", "edp/README.md", "edp/THEORY.md"])
+def test_links(page):
+    """Relative links and the picture shall exist, and the headings that they name."""
+    text = (ROOT / page).read_text()
+    for target, heading in re.findall(r"\]\(([^)#]*)(?:#([^)]*))?\)", text):
+        if not target.startswith("http"):
+            path = (ROOT / page).parent / target if target else ROOT / page
+            assert path.exists(), target
+            titles = re.findall(r"^#+ (.*)$", path.read_text(), re.M) if heading else []
+            assert not heading or heading in [
+                re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles
+            ]
     assert (ROOT / "postprocess/readme-figure.png").stat().st_size < 150_000
 
 

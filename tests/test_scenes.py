@@ -254,7 +254,7 @@ def test_solution_for_paraview(tmp_path, order):
     out = tmp_path / "out"
     result = run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-order", order, "-tol", 1e-12, out=out)
     arrays = arrays_of(out / "solution.vtu")
-    points, displacement, stress = arrays[""], arrays["displacement"], arrays["vonMises"]
+    points, displacement, stress = arrays[""], arrays["displacement[length]"], arrays["vonMises[pressure]"]
     strain = result.pressureMax / CONFINED
     assert len(points) == 25
     np.testing.assert_allclose(displacement[:, 1], -strain * points[:, 1], atol=1e-6)
@@ -267,7 +267,7 @@ def test_solution_of_both_bodies(tmp_path):
     out = tmp_path / "out"
     run_in(ROOT, script(TWO_BODIES), "-method", "newton", "-h", 2, out=out)
     arrays = arrays_of(out / "solution.vtu")
-    y, rise = arrays[""][:, 1], arrays["displacement"][:, 1]
+    y, rise = arrays[""][:, 1], arrays["displacement[length]"][:, 1]
     np.testing.assert_allclose(rise[y == y.max()], -2.5, rtol=1e-6)
     np.testing.assert_allclose(rise[y == 0], 0, atol=1e-12)
     assert y.max() == pytest.approx(30.5, rel=1e-6)

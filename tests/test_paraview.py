@@ -1,0 +1,198 @@
+"""The files for ParaView, read back with an XML parser: fields, points, the series of states, nothing left over."""
+
+import base64
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, environment, run_in, script
+
+DTYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
+DISPLACEMENT, PRESSURE, STRESS = "displacement[length]", "contactPressure[pressure]", "vonMises[pressure]"
+CORNERS = {3: 2, 5: 3, 10: 4}  # of VTK's lines, triangles and tetrahedra
+RUNS = {
+    "plane": ("disc-on-block", "-method", "paper", "-h", 2, "-order", 1),
+    "P2": ("disc-on-block", "-h", 2, "-order", 2),
+    "axis": ("disc-on-block", "-geometry", "axisymmetric", "-h", 1, "-order", 2),
+    "bodies": ("meshed-disc", "-method", "newton", "-h", 2),
+    "space": ("sphere-on-block", "-h", 1.2, "-layers", 2),
+}
+
+
+class Grid:
+    """A .vtu file: points (n, 3), cells (list of index arrays), kinds, point and cell fields by name."""
+
+    def __init__(self, path):
+        root = ElementTree.parse(path).getroot()
+        assert root.tag == "VTKFile" and root.get("type") == "UnstructuredGrid"
+        (piece,) = root.iter("Piece")
+        (points,) = piece.find("Points")
+        self.points = values(points)
+        assert self.points.shape == (int(piece.get("NumberOfPoints")), 3)
+        cells = {array.get("Name"): values(array) for array in piece.find("Cells")}
+        self.cells, self.kinds = np.split(cells["connectivity"], cells["offsets"][:-1]), cells["types"]
+        assert len(self.cells) == len(self.kinds) == int(piece.get("NumberOfCells"))
+        assert [len(cell) for cell in self.cells] == [CORNERS[kind] for kind in self.kinds]
+        assert cells["connectivity"].min() >= 0 and cells["connectivity"].max() < len(self.points)
+        self.at_points, self.in_cells = ({a.get("Name"): values(a) for a in part(piece, k)} for k in ("Point", "Cell"))
+        assert all(len(field) == len(self.points) for field in self.at_points.values())
+        assert all(len(field) == len(self.cells) for field in self.in_cells.values())
+
+    def vertex(self, points):
+        """The vertex at each of the points, the first if several are there."""
+        away = np.abs(self.points[None, :, :] - points[:, None, :]).max(axis=2)
+        assert away.min(axis=1).max() < 1e-5
+        return away.argmin(axis=1)
+
+
+def part(piece, kind):
+    found = piece.find(f"{kind}Data")
+    return [] if found is None else found
+
+
+def values(array):
+    """The numbers of a DataArray, one row a point or cell when there are components."""
+    dtype, components = DTYPES[array.get("type")], int(array.get("NumberOfComponents", "1"))
+    if array.get("format") == "ascii":
+        found = np.array(array.text.split(), dtype)
+    else:
+        raw = base64.b64decode("".join(array.text.split()))
+        found = np.frombuffer(raw[4 : 4 + int.from_bytes(raw[:4], "little")], dtype)
+    assert np.isfinite(found).all()
+    return found.reshape(-1, components) if components > 1 else found
+
+
+@pytest.fixture(scope="module", params=RUNS)
+def made(request, tmp_path_factory):
+    """A run with its states: (name, run)."""
+    scene, *flags = RUNS[request.param]
+    out = tmp_path_factory.mktemp("paraview") / "out"
+    return request.param, run_in(ROOT, script(scene), *flags, "-states", 1, out=out)
+
+
+def coordinates(table):
+    """(points, 3) of a table with x, y and perhaps z."""
+    last = table["z"] if "z" in table.dtype.names else np.zeros(len(table))
+    return np.column_stack([table["x"], table["y"], last])
+
+
+def test_solution(made):
+    """solution.vtu: every vertex with its displacement, the contact pressure at the slave's and 0 elsewhere."""
+    name, run = made
+    grid = Grid(run.folder / "solution.vtu")
+    assert grid.at_points.keys() == {DISPLACEMENT, PRESSURE}
+    assert grid.in_cells.keys() == {"Label", STRESS}
+    assert grid.at_points[DISPLACEMENT].shape == grid.points.shape
+    up = 2 if name == "space" else 1
+    assert (grid.at_points[DISPLACEMENT][grid.points[:, up] == 0] == 0).all()
+    contact, pressure = run.contact, grid.at_points[PRESSURE]
+    assert pressure.max() > 0.9 * run.pressureMax
+    np.testing.assert_allclose(pressure[np.abs(grid.points[:, up] - 20) > 1e-6], 0, atol=0)
+    vertices = np.array([np.abs(grid.points - point).max(axis=1).min() < 1e-5 for point in coordinates(contact)])
+    assert vertices.sum() == (len(contact) if name in ("plane", "bodies", "space") else len(contact) // 2 + vertices[0])
+    for point, expected in zip(coordinates(contact)[vertices], contact["pressure"][vertices], strict=True):
+        here = np.abs(grid.points - point).max(axis=1) < 1e-5  # two where the bodies touch
+        assert pressure[here].max() == pytest.approx(expected, rel=1e-12)
+
+
+def test_contact(made):
+    """contact.vtu: the points of contact.csv in one surface, with their fields, moved as in solution.vtu."""
+    name, run = made
+    grid, contact = Grid(run.folder / "contact.vtu"), run.contact
+    np.testing.assert_allclose(grid.points, coordinates(contact), rtol=1e-8, atol=1e-12)
+    columns = {"overlap[length]": "overlap", PRESSURE: "pressure", "lambda[pressure]": "lambda", "status": "status"}
+    assert grid.at_points.keys() == {DISPLACEMENT, *columns}
+    for field, column in columns.items():
+        np.testing.assert_allclose(grid.at_points[field], contact[column], rtol=1e-8, atol=1e-290)
+    corners = grid.points[np.array(grid.cells)]
+    if name == "space":
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        measure = 0.5 * np.linalg.norm(across, axis=1)
+        assert measure.sum() == pytest.approx(contact["weight"].sum(), rel=1e-8)
+    else:
+        assert (corners[1:, 0] == corners[:-1, 1]).all()
+        assert len(grid.cells) == len(contact) - 1
+    solution = Grid(run.folder / "solution.vtu")
+    if name in ("plane", "space"):  # every point is a vertex, and the only one there
+        there = solution.at_points[DISPLACEMENT][solution.vertex(grid.points)]
+        np.testing.assert_allclose(grid.at_points[DISPLACEMENT], there, rtol=1e-6, atol=1e-7)
+
+
+def test_states(made):
+    """states.pvd: a time for each state of states.csv, each file there, deformed; the last is the solution."""
+    name, run = made
+    sets = list(ElementTree.parse(run.folder / "states.pvd").getroot().iter("DataSet"))
+    files = [each.get("file") for each in sets]
+    assert [float(each.get("timestep")) for each in sets] == list(range(run.newton + 2))
+    assert sorted(files) == sorted(path.name for path in run.folder.glob("state-*"))
+    grids = [Grid(run.folder / file) for file in files]
+    solution = Grid(run.folder / "solution.vtu")
+    inside = solution.kinds == (10 if name == "space" else 5)
+    for grid in grids:
+        assert grid.at_points.keys() == {DISPLACEMENT, PRESSURE} and grid.in_cells.keys() == {STRESS}
+        rest = grid.points - grid.at_points[DISPLACEMENT]
+        np.testing.assert_allclose(rest, solution.points, rtol=1e-6, atol=1e-6)
+        assert (np.array(grid.cells) == np.array([c for c, i in zip(solution.cells, inside, strict=True) if i])).all()
+    first, moved, *_, last = grids
+    assert not first.at_points[DISPLACEMENT].any() and not first.at_points[PRESSURE].any()
+    lowest = moved.at_points[DISPLACEMENT].min()
+    assert lowest == (-2.5 if name == "bodies" else 0)
+    assert not moved.in_cells[STRESS].max() > 1e-9
+    for field in (DISPLACEMENT, PRESSURE):
+        np.testing.assert_allclose(last.at_points[field], solution.at_points[field], rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(last.in_cells[STRESS], solution.in_cells[STRESS][inside], rtol=1e-6, atol=1e-6)
+
+
+def test_states_tables(made):
+    """states.csv and triangles.csv of the same run: the same vertices; in space the triangles close the surface."""
+    name, run = made
+    rows = np.genfromtxt(run.folder / "states.csv", delimiter=",", names=True)
+    grid = Grid(run.folder / f"state-{run.newton + 1}.vtu")
+    last = rows[rows["state"] == run.newton + 1]
+    axes = "xyz" if name == "space" else "xy"
+    for k, axis in enumerate(axes):
+        np.testing.assert_allclose(grid.points[:, k], last[axis] + last[f"u{axis}"], rtol=1e-7, atol=1e-7)
+    triangles = np.loadtxt(run.folder / "triangles.csv", delimiter=",", skiprows=1, dtype=int)
+    if name == "space":
+        sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+        assert (np.unique(sides, axis=0, return_counts=True)[1] == 2).all()
+    else:
+        assert (triangles[:, :3] == np.array(grid.cells)).all()
+
+
+def test_nothing_of_an_earlier_run(tmp_path):
+    """A run with fewer states, or without any, shall leave no state of the run before."""
+    out = tmp_path / "out"
+    flags = ["-method", "newton", "-h", 5]
+    steps = run_in(ROOT, script("confined-block"), *flags, "-states", 1, out=out).newton
+    short = run_in(ROOT, script("confined-block"), *flags, "-states", 1, "-maxNewton", 1, out=out, expect=20)
+    assert short.newton == 1 < steps
+    assert sorted(path.name for path in out.glob("state*")) == sorted(
+        [*(f"state-{state}.vtu" for state in range(3)), "states.csv", "states.pvd"]
+    )
+    run_in(ROOT, script("confined-block"), *flags, out=out)
+    assert not list(out.glob("state*"))
+    run_in(ROOT, script("confined-block"), *flags, "-states", 1, "-vtu", 0, out=out)
+    assert not [*out.glob("*.vtu"), *out.glob("*.pvd")] and (out / "states.csv").exists()
+
+
+def test_killed_while_writing(tmp_path):
+    """A run that is killed while it writes its states shall leave none under its name; the next run clears the rest."""
+    out = tmp_path / "out"
+    command = [*FREEFEM, script("confined-block"), "-method", "newton", "-states", "1", "-out", str(out)]
+    process = subprocess.Popen([*command, "-h", "0.4"], cwd=ROOT, env=environment(), stdout=subprocess.DEVNULL)
+    try:
+        end = time.monotonic() + 100
+        while not list(out.glob("state-*.vtu.tmp")):
+            assert process.poll() is None and time.monotonic() < end
+            time.sleep(0.001)
+    finally:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    left = [path.name for path in out.iterdir()]
+    assert left and all(".tmp" in name for name in left)
+    run_in(ROOT, script("confined-block"), "-method", "newton", "-h", 5, out=out)
+    assert not [path for path in out.iterdir() if ".tmp" in path.name]
