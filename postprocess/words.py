@@ -25,6 +25,7 @@ OTHERWISE = {
     "rough": "u0 h",
     "sphere-on-block": "gap u0 h grading law d0 force width depth",
     "sphere-on-plane": "gap u0 force grading law d0 h",
+    "two-bodies": "gap u0 law d0 h",
     "two-cylinders": "gap u0 force reach grading law d0 h",
     "two-spheres": "gap u0 force grading law d0 h",
 }

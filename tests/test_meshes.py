@@ -17,6 +17,7 @@ MESHES = {
     "block": ([], {"block": BLOCK}),
     "block-and-disc": ([], {"block": BLOCK, "disc": HALF_DISC / 16}),
     "two-discs": ([], {"lower": HALF_DISC, "upper": HALF_DISC}),
+    "two-bodies": ([], {"lower": 111.5867, "upper": 44.4231}),
     "block-3d": (["h", 0.03, "patch", 0.09], {"block": BLOCK}),
     "quarter-spheres": (["h", 0.05, "layers", 2], {"lower": QUARTER, "upper": QUARTER}),
 }
