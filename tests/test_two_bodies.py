@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import run
+from freefem import run, table
 
 TIGHT = ["-tol", 1e-11]
 METHODS = [["-method", "xnewton"], ["-method", "paper", "-eps", 1e-12]]
@@ -59,6 +59,33 @@ def test_exchange_of_slave_and_master():
     other = run("two-cylinders", *flags, "-E1", 300, "-E2", 100, "-R1", 8, "-R2", 10, "-ratio", 0.73)
     finer = run("two-cylinders", *flags[:-1], 0.05, "-E2", 300, "-R2", 8, "-ratio", 1.37)
     assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
+
+
+@pytest.mark.parametrize("ratio", [1, 1.37])
+def test_interface_of_equal_cylinders(ratio):
+    """Two equal cylinders shall meet in a plane half-way: flat to 1e-3 of the height that the arc loses there."""
+    done = run("two-cylinders", "-force", 0, "-u0", 0.4, "-h", 0.05, "-ratio", ratio, "-states", 1)
+    states = table(done.folder / "states.csv")
+    last = states[states["state"] == states["state"].max()]
+    touching = done.contact[done.contact["status"] > 0]
+    vertex = [
+        np.argmin(np.hypot(last["x"] - x, last["y"] - y)) for x, y in zip(touching["x"], touching["y"], strict=True)
+    ]
+    height = last["y"][vertex] + last["uy"][vertex]
+    assert np.ptp(height) < 1e-3 * np.ptp(touching["y"])
+    assert height.mean() == pytest.approx(10 + (0.1 - 0.4) / 2, abs=1e-4)
+
+
+@pytest.mark.parametrize("points", ["nodal", "segment"])
+@pytest.mark.parametrize(
+    "scene, flags", [("patch-test", []), ("two-cylinders", ["-h", 0.2]), ("meshed-disc", ["-h", 0.5])]
+)
+def test_action_is_reaction(scene, flags, points):
+    """Contact forces on the two bodies shall be equal and opposite to 1e-12, their moments to 1e-8."""
+    done = run(scene, *flags, "-points", points)
+    assert done.summary["masterForceY"] == pytest.approx(done.force, rel=1e-12)
+    assert done.summary["masterForceX"] == 0
+    assert abs(done.summary["contactMoment"] + done.summary["masterMoment"]) < 1e-8 * done.force * 20
 
 
 def test_hertz_line_converges():
