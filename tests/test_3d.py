@@ -253,3 +253,11 @@ def test_loads_in_space():
     unloaded = run(SCENE, *COARSE)
     assert run(SCENE, *COARSE, "-bodyForce", 0.1).force < unloaded.force  # the invariants check the balance
     assert run(SCENE, *COARSE, "-traction", -1).force > unloaded.force
+
+
+@pytest.mark.parametrize("scene, flags", [("two-spheres", ["-h", 0.3, "-layers", 1]), ("patch-test-3d", ["-u0", 2.0])])
+def test_bodies_that_almost_touch(scene, flags):
+    """However small the gap, the bodies shall not be joined: the same force, and the supports carry it."""
+    close, apart = (run(scene, *flags, "-gap", gap) for gap in (1e-9, 1e-2))
+    assert close.reactionZ == pytest.approx(close.force, rel=1e-6)
+    assert close.force == pytest.approx(apart.force, rel=0.01)

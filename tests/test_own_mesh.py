@@ -61,16 +61,9 @@ def test_own_mesh(mesh, tmp_path):
 
 def test_own_mesh_in_other_units(mesh, tmp_path):
     """In other lengths the force shall scale: elements of an area of 1e-12 are no reason to fail."""
-
-    def shrink(lines):
-        start = lines.index("$Nodes") + 2
-        for i in range(start, lines.index("$EndNodes")):
-            number, *where = lines[i].split()
-            lines[i] = " ".join([number, *(repr(float(v) * 1e-5) for v in where)])
-
     flags = [
         "-mesh",
-        spoilt(mesh, tmp_path, shrink),
+        spoilt(mesh, tmp_path, lambda lines: shrink(lines, 1e-5)),
         "-u0",
         0.5e-5,
         "-d0",
@@ -107,7 +100,7 @@ def misname(lines):
 
 def exchange(lines):
     for i, line in enumerate(lines[:20]):
-        lines[i] = line.replace('"contact"', '"x"').replace('"pushed"', '"contact"').replace('"x"', '"pushed"')
+        lines[i] = line.replace('"contact"', '"x"').replace('"master"', '"contact"').replace('"x"', '"master"')
 
 
 def cut(lines):
@@ -117,6 +110,43 @@ def cut(lines):
 def no_number(lines):
     i = lines.index("$Nodes") + 5
     lines[i] = " ".join([*lines[i].split()[:2], "nan", "0"])
+
+
+def join(lines):
+    """The last triangle, of the upper body, takes the nodes of the first one, of the lower body."""
+    first, *_, last = triangles(lines)
+    lines[last] = " ".join([*lines[last].split()[:5], *lines[first].split()[5:]])
+
+
+def repeat(lines):
+    """An edge of "master" once more, in "pushed"."""
+    group = {line.split()[2]: line.split()[1] for line in lines[:20] if line.endswith('"')}
+    edges = [line.split() for line in lines if len(line.split()) == 7 and line.split()[1] == "1"]
+    edge = next(words for words in edges if words[3] == group['"master"'])
+    start = lines.index("$Elements")
+    lines[start + 1] = str(int(lines[start + 1]) + 1)
+    lines.insert(start + 2, " ".join(["99999", "1", "2", group['"pushed"'], *edge[4:]]))
+
+
+def blank(lines):
+    i = next(i for i, line in enumerate(lines) if line.endswith('"free"'))
+    lines[i] = lines[i].replace('"free"', '"free sides"')
+
+
+def shrink(lines, size=1e-9):
+    start = lines.index("$Nodes") + 2
+    for i in range(start, lines.index("$EndNodes")):
+        number, *where = lines[i].split()
+        lines[i] = " ".join([number, *(repr(float(v) * size) for v in where)])
+
+
+def release(lines):
+    """The upper body's "pushed" edges become "free" ones."""
+    group = {line.split()[2]: line.split()[1] for line in lines[:20] if line.endswith('"')}
+    for i, line in enumerate(lines):
+        words = line.split()
+        if len(words) == 7 and words[1] == "1" and words[3] == group['"pushed"']:
+            lines[i] = " ".join([*words[:3], group['"free"'], *words[4:]])
 
 
 @pytest.mark.parametrize(
@@ -129,8 +159,13 @@ def no_number(lines):
         (cut, ["cut off"]),
         (no_number, ["no number"]),
         (lambda lines: lines.clear(), ["version 2"]),
+        (join, ["share a node"]),
+        (repeat, ["two physical curves"]),
+        (blank, ["blank"]),
+        (shrink, ["too small"]),
+        (release, ["holds"]),
     ],
-    ids=["turned", "degenerate", "misnamed", "exchanged", "cut", "no number", "empty"],
+    ids="turned degenerate misnamed exchanged cut number empty joined repeated blank tiny free".split(),
 )
 def test_refused_meshes(mesh, tmp_path, how, words):
     """A mesh that cannot be read shall be refused in one line that says why."""
@@ -202,3 +237,11 @@ def test_small_loads_need_no_refreshing():
     linear, exact = (run("two-cylinders", *flags, "-distance", distance).force for distance in ("linear", "exact"))
     assert exact == pytest.approx(linear, rel=0.01)
     assert not np.isclose(exact, linear, rtol=1e-9)
+
+
+@pytest.mark.parametrize("scene, u0", [("two-cylinders", 100), ("two-cylinders", 12), ("disc-on-block", 50)])
+def test_contact_that_gets_lost(scene, u0, tmp_path):
+    """A load too large for the true distance shall end with code 20 and say so, not with a contact that is no more."""
+    flags = ["-h", 0.5, "-distance", "exact", "-force", 0, "-u0", u0]
+    done = run_in(ROOT, script(scene), *flags, out=tmp_path / "out", expect=20)
+    assert "loses the contact" in done.summary["message"]
