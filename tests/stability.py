@@ -1,9 +1,10 @@
 """Counts and failures over laws, stiffness, meshes, loads and thresholds: `make stability`, results/stability/.
 
 `stability.csv` has a row per run, `checks.csv` a row per comparison of a converged xnewton run with something that does
-not depend on it: plain Newton on the full law, the exact state of the confined block, the limits of a rigid layer and
-of a linear one, a twin in other units. `--quick` runs the subset that is part of the tests (`quick.csv`). Interrupted
-and started again, it goes on where it was.
+not depend on it: plain Newton on the full law (or, where that fails, the paper's scheme), the exact state of confined
+blocks, the limits of a rigid layer and of a linear one, a twin in other units; and a row per count that has a limit.
+`--quick` runs the subset that is part of the tests (`quick.csv`), `python tests/stability.py patch-test rough` these
+parts alone (`parts.csv`). Interrupted and started again, it goes on where it was.
 """
 
 import argparse
@@ -17,7 +18,7 @@ import numpy as np
 from campaign import case, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "stability"
-COLUMNS = ("stepsPerModel",)
+COLUMNS = ("stepsPerModel", "rounds", "masterForce", "approach")
 
 KAPPAS = (1e-2, 1.0, 1e3, 1e6, 1e9, 1e12, 1e30)
 EXPONENTS = (1.05, 2, 3, 3.3, 10, 20, 30)
@@ -61,7 +62,7 @@ def weight(h: float = 0.25, order: int = 1, **_) -> float:
 
 def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     """The whole map, for the scenes and methods that `root` has; the extreme cases come first."""
-    found = extreme() + steel() + further()
+    found = extreme() + steel() + further() + bodies()
 
     def add(name, *parts, factor=1.0, **flags):
         merged = {"tol": TOL}
@@ -158,7 +159,7 @@ def extreme() -> list[campaign.Case]:
 
 
 def further() -> list[campaign.Case]:
-    """Scenes and kinds of problem beyond the paper's: rough surface, two curved bodies, 3D, force, exact distance."""
+    """Kinds of problem beyond the paper's: rough surface, prescribed force, the true distance to the disc."""
     found = []
 
     def add(name, **flags):
@@ -168,11 +169,55 @@ def further() -> list[campaign.Case]:
 
     for order in (1, 2):
         add("rough", scene="rough", h=0.1, order=order)
-        add("two cylinders", scene="two-cylinders", d0=-0.01, h=0.05, order=order)
         add("prescribed force", force=100, h=0.25, order=order)
-        add("exact distance", distance="exact", h=0.25, order=order)
-    add("sphere", scene="sphere-on-block", h=0.5)
-    add("sphere", scene="sphere-on-block", h=1.0)
+    exact = [{"law": "power", "kappa": kappa, "m": m} for kappa in KAPPAS for m in (1.05, 3, 20)]
+    for order in (1, 2):
+        for h in (0.25, 0.1):
+            for law in exact + OTHER:
+                merged = {"method": "xnewton", "tol": TOL, **law, "distance": "exact", "h": h, "order": order}
+                found.append(case("exact distance", weight=3 * weight(**merged), **merged))
+    return found
+
+
+# two meshed bodies and space: scene and its flags, every law of BODY_LAWS on each
+BODY_LAWS = [{"law": "power", "kappa": kappa, "m": m} for kappa in KAPPAS[1:] for m in (1.05, 3, 20)]
+BODY_LAWS += [*OTHER, {"law": "signorini"}]
+SPACE = ("two-spheres", "sphere-on-plane", "sphere-on-block", "patch-test-3d")
+RATIOS = (1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9)
+POINTS = ("segment", "nodal")
+CURVED = {"two-cylinders": {"d0": -0.01, "h": 0.1}, "two-spheres": {"d0": -0.01, "h": 0.2, "layers": 2}}
+CURVED |= {"sphere-on-plane": {"d0": -0.01, "h": 0.2, "layers": 2}}
+
+
+def bodies() -> list[campaign.Case]:
+    """Two meshed bodies, curved or flat, and contact in space; each beside another method on the same problem."""
+    found = []
+
+    def add(scene, **flags):
+        for law in BODY_LAWS:
+            common = {"tol": TOL, **law, **flags}
+            found.append(case(scene, scene=scene, weight=0.4, method="xnewton", **common))
+            if law["law"] == "power":
+                found.append(case(scene, scene=scene, weight=1.5, method="newton", **common))
+                if (law["kappa"], law["m"]) == (1.0, 20):  # under a prescribed force plain Newton creeps there
+                    found.append(case(scene, scene=scene, weight=0.6, method="linesearch", **common))
+            elif law["law"] == "signorini":
+                found.append(case(scene, scene=scene, weight=0.8, method="signorini", **common))
+            else:
+                found.append(case(scene, scene=scene, weight=1.5, method="paper", T0="d0", eps=1e-12, **common))
+
+    for scene, flags in CURVED.items():
+        for load in ({}, {"force": 0}):
+            for points in POINTS if scene != "sphere-on-plane" else (None,):
+                add(scene, **flags, **load, **({"points": points} if points else {}))
+    for ratio in RATIOS:
+        add("patch-test", Eratio=ratio)
+        add("patch-test-3d", Eratio=ratio)
+    for ratio in (1.0, 1e3, 1e6, 1e9):
+        for points in POINTS:
+            add("meshed-disc", Eratio=ratio, points=points, h=0.5)
+    add("rough", h=0.25)
+    add("sphere-on-block", h=1.0)
     return found
 
 
@@ -228,8 +273,17 @@ def quick() -> list[campaign.Case]:
 
 
 def measure(*_):
-    """Column stepsPerModel: the linearisations of each model, the first one first."""
-    return lambda item, summary, folder: {"stepsPerModel": " ".join(map(str, summary["newtonPerAdaptation"]))}
+    """COLUMNS: linearisations of each model, solves with the true distance, force on a meshed master, approach."""
+
+    def further_columns(item: campaign.Case, summary: dict, folder: Path) -> dict:
+        return {
+            "stepsPerModel": " ".join(map(str, summary["newtonPerAdaptation"])),
+            "rounds": summary.get("rounds"),
+            "masterForce": summary.get("masterForceZ", summary.get("masterForceY")),
+            "approach": summary["approach"],
+        }
+
+    return further_columns
 
 
 def law_table() -> str:
@@ -242,14 +296,19 @@ def law_table() -> str:
 
 PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
 NOTHING = 1e-150  # a force or pressure below is none: its square underflows
-MORE_PROBLEM = ("-force", "-distance", "-Eratio")  # flags without a column
+PRESCRIBED = {"two-cylinders": 8.631, "two-spheres": 14.652014652, "sphere-on-plane": 14.652014652}  # scenes' -force
+MORE_PROBLEM = ("-force", "-distance", "-Eratio", "-points", "-layers")  # flags without a column
 
 
 def problem(row: dict[str, str]) -> tuple[str, ...]:
     """The problem that a run solves, whatever the method: rows that share it have the same answer."""
-    texts = row["flags"].split()
-    flags = dict(zip(texts[::2], texts[1::2], strict=True))
+    flags = flags_of(row)
     return tuple([*(row[name] for name in PROBLEM), *(flags.get(name, "") for name in MORE_PROBLEM)])
+
+
+def flags_of(row: dict[str, str]) -> dict[str, str]:
+    texts = row["flags"].split()
+    return dict(zip(texts[::2], texts[1::2], strict=True))
 
 
 def checks(rows: list[dict[str, str]]) -> list[dict]:
@@ -261,6 +320,8 @@ def checks(rows: list[dict[str, str]]) -> list[dict]:
         *rigid_layer(good),
         *linear_layer(good),
         *twins(good),
+        *reactions(good),
+        *counts(good),
     ]
 
 
@@ -283,39 +344,51 @@ def check(what: str, row: dict, found: float, expected: float, tolerance: float,
 def against_newton(rows: list[dict]) -> list[dict]:
     """Force and greatest pressure of plain Newton on the same problem; the energy never above any other method's.
 
-    Both stop at a residual of 1e-8; a soft body under a steep law turns that into at most 1e-6 of the force.
+    Both stop at a residual of 1e-8; a soft body under a steep law turns that into at most 1e-6 of the force. Where no
+    run of plain Newton has converged: hard contact by the paper's inner loop, or the paper's scheme to its exact stop.
     """
     groups = defaultdict(list)
     for row in rows:
         groups[problem(row)].append(row)
     found = []
     for group in groups.values():
-        others = [row for row in group if row["method"] in ("newton", "linesearch", "incremental")]
+        exact = [row for row in select(group, method="paper") if value(row, "eps") <= TOL]
+        peers = [row for name in ("newton", "linesearch", "signorini") for row in select(group, method=name)] + exact
+        others = [row for row in group if row["method"] in ("newton", "linesearch", "incremental")] or peers
         for row in select(group, method="xnewton"):
-            for other in select(others, method="newton")[:1]:
-                found.append(check("force, newton", row, value(row, "force"), value(other, "force"), 1e-6))
+            for other in peers[:1]:
+                name = other["method"]
+                found.append(check(f"force, {name}", row, value(row, "force"), value(other, "force"), 1e-6))
                 found.append(
-                    check("pressure, newton", row, value(row, "pressureMax"), value(other, "pressureMax"), 1e-5)
+                    check(f"pressure, {name}", row, value(row, "pressureMax"), value(other, "pressureMax"), 1e-5)
                 )
             if others:
-                lowest = min(value(other, "energy") for other in others)
-                above = (value(row, "energy") - lowest) / max(abs(lowest), 1e-300)
-                found.append(check("energy", row, value(row, "energy"), lowest, 1e-12, max(above, 0.0)))
+                lowest = min(total_energy(other) for other in others)
+                above = (total_energy(row) - lowest) / max(abs(lowest), 1e-300)
+                found.append(check("energy", row, total_energy(row), lowest, 1e-12, max(above, 0.0)))
     return found
 
 
+def total_energy(row: dict) -> float:
+    """What the solution minimises: with a prescribed force the force's work on the approach is part of it."""
+    prescribed = float(flags_of(row).get("-force", PRESCRIBED.get(row["scene"], 0)))
+    return value(row, "energy") - (prescribed * value(row, "approach") if prescribed else 0.0)
+
+
 def against_exact_state(rows: list[dict]) -> list[dict]:
-    """The confined block: one scalar equation for the uniform pressure."""
+    """Confined blocks, one or two of them: one scalar equation for the uniform pressure."""
     found = []
-    for row in select(rows, name="exact"):
+    flat = [*select(rows, name="patch-test"), *select(rows, name="patch-test-3d")]
+    for row in [*select(rows, name="exact"), *select(flat, method="xnewton", law="power")]:
         young, nu, kappa, m, d0, gap, u0 = (value(row, name) for name in "E nu kappa m d0 gap u0".split())
         modulus = young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+        height = 20.0 if row["name"] == "exact" else 20.0 + 10.0 / float(flags_of(row)["-Eratio"])
         push = u0 - gap - d0
-        low, high = -700.0, np.log(modulus * push / 20.0)  # of log p: p = M (push - s)/depth, s = (p/kappa)^(1/m)
+        low, high = -700.0, np.log(modulus * push / height)  # of log p: p = M (push - s)/height, s = (p/kappa)^(1/m)
         for _ in range(200):
             middle = 0.5 * (low + high)
             s = np.exp((middle - np.log(kappa)) / m)
-            low, high = (middle, high) if modulus * (push - s) / 20.0 > np.exp(middle) else (low, middle)
+            low, high = (middle, high) if modulus * (push - s) / height > np.exp(middle) else (low, middle)
         found.append(check("exact state", row, value(row, "pressureMax"), float(np.exp(low)), 1e-7))
     return found
 
@@ -379,6 +452,34 @@ def twins(rows: list[dict]) -> list[dict]:
         found.append(check("twin, counts", row, differing, 0, 0))
         scale = STEEL["E"] * STEEL["R"]
         found.append(check("twin, force", row, value(row, "force") / scale, value(twin[0], "force"), 1e-9))
+    return found
+
+
+def reactions(rows: list[dict]) -> list[dict]:
+    """Two meshed bodies: what the master takes is the contact force."""
+    both = [row for row in rows if row["masterForce"] != "" and value(row, "force") > NOTHING]
+    return [check("force on the master", row, value(row, "masterForce"), value(row, "force"), 1e-12) for row in both]
+
+
+def counts(rows: list[dict]) -> list[dict]:
+    """Counts with a limit: two bodies, rough surface and space; the true distance."""
+    found = []
+
+    def at_most(what, row, name, limit):
+        more = max(value(row, name) - limit, 0.0)
+        found.append(check(f"{what}, at most {limit}", row, value(row, name), limit, 0, more))
+
+    parts = {item.name for item in bodies()}
+    for row in select(rows, method="xnewton"):
+        if row["name"] == "exact distance":
+            at_most("rounds of the true distance", row, "rounds", 6)
+            at_most("linearisations, true distance", row, "newton", 25)
+        elif row["name"] in SPACE:
+            if row["law"] == "power" and 1 <= value(row, "kappa") <= 1e12 and value(row, "m") <= 20:
+                at_most("linearisations in space", row, "newton", 5)
+                at_most("back-substitutions in space", row, "backsolves", 35)
+        elif row["name"] in parts:
+            at_most("linearisations in the plane", row, "newton", 10)
     return found
 
 
@@ -448,19 +549,27 @@ def run(path: Path, chosen: list[campaign.Case], jobs: int, root: Path = campaig
 
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "parts", nargs="*", metavar="PART", help="names of parts of the map to run alone (default: all)"
+    )
     parser.add_argument("--quick", action="store_true", help="the subset that is part of the tests")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time (default 2: they are counted, not timed)")
     parser.add_argument("--out", type=Path, default=FOLDER, help="folder of the CSV files")
     parser.add_argument("--root", type=Path, default=campaign.ROOT, help="the package whose scenes are run")
     arguments = parser.parse_args(argv)
     name, chosen = ("quick", quick()) if arguments.quick else ("stability", cases(arguments.root))
+    if arguments.parts:
+        unknown = set(arguments.parts) - {item.name for item in chosen}
+        if unknown:
+            parser.error(f"no such part: {', '.join(sorted(unknown))}")
+        name, chosen = "parts", [item for item in chosen if item.name in arguments.parts]
     try:
         rows = run(arguments.out / f"{name}.csv", chosen, arguments.jobs, arguments.root)
     except KeyboardInterrupt:
         print("\ninterrupted; started again, it goes on from here", file=sys.stderr)
         return 130
     verified = checks(rows)
-    if not arguments.quick:
+    if name == "stability":
         write_checks(arguments.out / "checks.csv", verified)
     print(report(rows, verified))
     failed = any(row["method"] == "xnewton" and row["status"] != "converged" for row in rows)

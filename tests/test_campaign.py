@@ -220,6 +220,44 @@ def test_markdown():
     assert campaign.markdown(["a", "b"], [[1, 2]]) == "| a | b |\n| --- | --- |\n| 1 | 2 |"
 
 
+def row_of(**cells):
+    """A converged row of the stability map, its other cells empty."""
+    names = [*campaign.COLUMNS, *stability.COLUMNS]
+    common = {"status": "converged", "method": "xnewton", "law": "power", "kappa": "1000", "m": "3"}
+    return dict.fromkeys(names, "") | common | {"force": "1", "pressureMax": "1", "energy": "1"} | cells
+
+
+@pytest.mark.parametrize(
+    "cells, failed",
+    [
+        ({"name": "two-spheres", "newton": "5", "backsolves": "35", "masterForce": "1"}, 0),
+        ({"name": "two-spheres", "newton": "6", "backsolves": "36", "masterForce": "1.00000000001"}, 3),
+        ({"name": "two-spheres", "newton": "6", "backsolves": "36", "kappa": "1e+30"}, 0),
+        ({"name": "rough", "newton": "11"}, 1),
+        ({"name": "exact distance", "newton": "25", "rounds": "6"}, 0),
+        ({"name": "exact distance", "newton": "26", "rounds": "7"}, 2),
+    ],
+)
+def test_checks_find_a_count_above_its_limit(cells, failed):
+    """Counts above their limits and unequal forces on the two bodies shall not pass."""
+    assert sum(not entry["passed"] for entry in stability.checks([row_of(**cells)])) == failed
+
+
+def test_energy_with_a_prescribed_force():
+    """With a prescribed force the energy that is compared shall include the force's work."""
+    mine = row_of(name="prescribed force", flags="-force 2", force="2", approach="1.5", energy="3")
+    newton = row_of(name="rival", flags="-force 2", force="2", approach="1", energy="2", method="newton")
+    (entry,) = [entry for entry in stability.checks([mine, newton]) if entry["check"] == "energy"]
+    assert entry["found"] == entry["expected"] == 0 and entry["passed"]
+
+
+def test_parts_of_the_stability_map(capsys):
+    """A part that there is not shall be refused with its name."""
+    with pytest.raises(SystemExit):
+        stability.main(["nowhere"])
+    assert "no such part: nowhere" in capsys.readouterr().err
+
+
 # ---------------------------------------------------------------- figures
 
 FIGURES = sorted(name for name, module in figures.modules().items() if hasattr(module, "READ"))
