@@ -211,6 +211,13 @@ class Run:
         labels = grid["adaptation"][:, 0], grid["newton"][:, 0]
         return Steps(*labels, grid["x"][0, order], grid["y"][0, order], *fields)
 
+    def value(self, name: str) -> float:
+        """A finite number from the summary itself; ResultsError when it is not there."""
+        value = self.summary.get(name)
+        if not is_number(value):
+            raise ResultsError(self.path / "summary.json", f"has no number {name}")
+        return float(value)
+
     def parameter(self, name: str) -> float:
         """A finite number from the summary's `parameters`; ResultsError when it is not there."""
         value = self.summary["parameters"].get(name)
