@@ -111,6 +111,16 @@ def method(run: Run) -> str:
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 
 
+def interface(run: Run) -> str:
+    """The run's law in words: hard contact, or its name, or kappa and m of a power law."""
+    law = run.summary["parameters"].get("law", "power")
+    if run.summary["method"] == "signorini" or law == "signorini":
+        return "hard contact"
+    if law == "power":
+        return rf"$\kappa = {number(run.parameter('kappa'))}$, $m = {number(run.parameter('m'))}$"
+    return plain(str(law))
+
+
 def price(run: Run, noun: str) -> str:
     """What the run took: adaptations, where there was more than one, and steps; and whether that was enough."""
     words = count(run.summary["newton"], noun)
