@@ -87,11 +87,13 @@ def confined_block(run: Run) -> dict[str, float]:
 
 def confined_modulus(run: Run) -> float:
     """Pressure over strain of the run's material where it cannot bulge."""
-    young, nu = run.parameter("E"), run.parameter("nu")
+    young, nu = run.positive("E"), run.parameter("nu")
+    if not -1 < nu < 0.5:
+        raise ResultsError(run.path / "summary.json", f"parameters has nu = {nu:g}: the block cannot be compressed")
     return young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
 
 
-def in_series(run: Run, softness: float, hard: bool) -> float:
+def in_series(run: Run, soft: float, hard: bool) -> float:
     """The pressure of the run's power law, or of hard contact, on a spring of this softness (length/pressure)."""
     kappa, m, d0 = (run.parameter(name) for name in ("kappa", "m", "d0"))
     end = run.parameter("u0") - run.parameter("gap")
@@ -99,11 +101,11 @@ def in_series(run: Run, softness: float, hard: bool) -> float:
     for _ in range(200):
         middle = 0.5 * (low + high)
         try:
-            below = kappa * (middle - d0) ** m < (end - middle) / softness
+            below = kappa * (middle - d0) ** m < (end - middle) / soft
         except OverflowError:
             below = False
         low, high = (middle, high) if below else (low, middle)
-    return (end - high) / softness
+    return (end - high) / soft
 
 
 def allowed(run: Run, name: str, source: str) -> float:
@@ -128,11 +130,21 @@ def prescribed_force(run: Run) -> float:
     return force
 
 
+def softness(run: Run, body: str = "") -> float:
+    """(1 - nu^2)/E of the run's body, or of the one with this number."""
+    young, nu = run.positive(f"E{body}"), run.parameter(f"nu{body}")
+    if not -1 < nu <= 0.5:
+        raise ResultsError(
+            run.path / "summary.json", f"parameters has nu{body} = {nu:g}, which is not within (-1, 0.5]"
+        )
+    return (1 - nu**2) / young
+
+
 def hertz(run: Run, force: float, round_contact: bool) -> tuple[float, float]:
     """(a, p0): Hertz's contact radius or half-width (length) and greatest pressure for a force on the run's bodies."""
     bodies = ("1", "2") if "E2" in run.summary["parameters"] else ("",)
-    modulus = 1 / sum((1 - run.parameter(f"nu{body}") ** 2) / run.parameter(f"E{body}") for body in bodies)
-    radius = 1 / sum(1 / run.parameter(f"R{body}") for body in bodies)
+    modulus = 1 / sum(softness(run, body) for body in bodies)
+    radius = 1 / sum(1 / run.positive(f"R{body}") for body in bodies)
     if round_contact:
         a = (3 * force * radius / (4 * modulus)) ** (1 / 3)
         return a, 3 * force / (2 * np.pi * a**2)
@@ -150,25 +162,24 @@ def scene_of(run: Run, *names: str) -> str:
 def patch_pressure(run: Run) -> float:
     """The uniform pressure of a patch test: the law and two confined blocks in series."""
     scene_of(run, "patch-test", "patch-test-3d")
-    softness = (run.parameter("depth") + run.parameter("height") / run.parameter("Eratio")) / confined_modulus(run)
-    return in_series(run, softness, run.summary["parameters"].get("law") == "signorini")
+    blocks = (run.positive("depth") + run.positive("height") / run.positive("Eratio")) / confined_modulus(run)
+    return in_series(run, blocks, run.summary["parameters"].get("law") == "signorini")
 
 
 def punch_pressure(run: Run, x: np.ndarray) -> np.ndarray:
     """The pressure of a rigid flat punch in hard contact with a half-plane: P/(pi sqrt(a^2 - x^2))."""
-    return prescribed_force(run) / (np.pi * np.sqrt(run.parameter("a") ** 2 - x**2))
+    return prescribed_force(run) / (np.pi * np.sqrt(run.positive("a") ** 2 - x**2))
 
 
 def merging_pressure(run: Run) -> float:
     """The mean pressure at which the contacts of a rigid wave on a half-plane merge: pi E* A/lambda."""
     scene_of(run, "wavy")
-    modulus = run.parameter("E") / (1 - run.parameter("nu") ** 2)
-    return np.pi * modulus * run.parameter("amplitude") * run.parameter("waves") / run.parameter("width")
+    return np.pi / softness(run) * run.positive("amplitude") * run.positive("waves") / run.positive("width")
 
 
 def wave_pressure(run: Run, x: np.ndarray) -> np.ndarray:
     """Westergaard's pressure of a rigid wave in hard contact with a half-plane, x (wavelengths) from a crest."""
-    full, mean = merging_pressure(run), prescribed_force(run) / run.parameter("width")
+    full, mean = merging_pressure(run), prescribed_force(run) / run.positive("width")
     if mean >= full:
         return mean + full * np.cos(2 * np.pi * x)
     inside = np.maximum(mean / full - np.sin(np.pi * x) ** 2, 0)

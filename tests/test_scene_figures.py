@@ -1,6 +1,7 @@
 """postprocess/figures of single scenes, drawn from real runs: what they show, and what they refuse."""
 
 import base64
+import json
 import re
 import shutil
 from dataclasses import replace
@@ -274,6 +275,41 @@ def test_unfit_runs_are_refused(tmp_path, capsys, name, scene, flags, words):
     assert main(["figure", name, "--out", str(tmp_path / "f.pdf"), str(done.folder)]) == 2
     error = capsys.readouterr().err
     assert words in error and error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "name, scene, flags, change, words",
+    [
+        ("punch", "flat-punch", [*PUNCH, "-kappa", 1e3], {"a": 0}, "parameters has a = 0, which is not above 0"),
+        ("waves", "wavy", [*WAVY, "-force", 31.41592654], {"width": -1}, "width = -1, which is not above 0"),
+        ("waves", "wavy", [*WAVY, "-force", 31.41592654], {"nu": 1}, "nu = 1, which is not within"),
+        ("patch", "patch-test", ["-tol", 1e-11], {"Eratio": 0}, "Eratio = 0, which is not above 0"),
+        ("patch", "patch-test", ["-tol", 1e-11], {"nu": 0.5}, "nu = 0.5: the block cannot be compressed"),
+        ("sphere", "two-spheres", SMALL, {"R1": 0}, "R1 = 0, which is not above 0"),
+        ("sphere", "two-spheres", SMALL, {"R2": None}, "parameters has no number R2"),
+    ],
+)
+def test_spoilt_parameters(tmp_path, capsys, name, scene, flags, change, words):
+    """A summary whose parameters no run can have shall be refused in one line."""
+    folder = tmp_path / "run"
+    shutil.copytree(run(scene, *flags).folder, folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    summary["parameters"].update(change)
+    (folder / "summary.json").write_text(json.dumps(summary))
+    assert main(["figure", name, "--out", str(tmp_path / "f.pdf"), str(folder)]) == 2
+    error = capsys.readouterr().err
+    assert words in error and error.count("\n") == 1
+
+
+def test_points_in_a_row_are_refused(tmp_path, capsys):
+    """So shall points that make no surface."""
+    folder = tmp_path / "run"
+    shutil.copytree(run("two-spheres", *SMALL).folder, folder)
+    head, *rows = (folder / "contact.csv").read_text().splitlines()
+    rows = [",".join([row.split(",")[0], "0", *row.split(",")[2:]]) for row in rows]
+    (folder / "contact.csv").write_text("\n".join([head, *rows, ""]))
+    assert main(["figure", "sphere", "--out", str(tmp_path / "f.pdf"), str(folder)]) == 2
+    assert "its points make no surface" in capsys.readouterr().err
 
 
 def test_other_points_are_refused(tmp_path, capsys):

@@ -50,7 +50,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.axhspan(0.3 * FLOOR, FLOOR, color="0.93", linewidth=0, zorder=0)
     panels[0].set_ylabel("relative error")
     legend = figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    legend.set_title("slopes in (a), (b), (c); × where the error changes its sign", prop={"size": 8})
+    legend.set_title(
+        "slopes in (a), (b), (c), above what Hertz leaves out (shaded); × where the error changes its sign",
+        prop={"size": 8},
+    )
     return figure
 
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.tri import Triangulation
 
 from postprocess import style
 from postprocess.references import patch_pressure
-from postprocess.results import ResultsError, Run
+from postprocess.results import Run
 
 RUNS = (1, 6)
 
@@ -31,12 +30,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
     for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
-        x, y = run.contact["x"], run.contact["y"]
-        if len(x) < 3 or np.ptp(x) == 0 or np.ptp(y) == 0:
-            raise ResultsError(run.path / "contact.csv", "has no surface in space")
         look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
-        colours = axes.tripcolor(Triangulation(x, y), error, shading="gouraud", **look)
-        axes.plot(x, y, ".", color=style.BLACK, markersize=1.5)
+        colours = axes.tripcolor(style.surface(run), error, shading="gouraud", **look)
+        axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
         axes.set_aspect("equal")
         axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}")
         axes.set_ylabel(f"$y$ [{units.length}]")

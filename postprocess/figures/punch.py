@@ -22,7 +22,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     across = 1 - np.geomspace(1e-4, 1, 300)
     for index, run in enumerate(runs):
         scene_of(run, "flat-punch")
-        a = run.parameter("a")
+        a = run.positive("a")
         mean = prescribed_force(run) / (2 * a)
         closed = punch_pressure(run, a * across) / mean
         x, pressure = run.contact["x"] / a, run.contact["pressure"] / mean

@@ -24,8 +24,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         check_comparable(run, rigid)
         if not np.array_equal(run.contact["x"], rigid.contact["x"]):
             raise ResultsError(run.path / "contact.csv", f"has other points than {rigid.path / 'contact.csv'}")
-    meshed.sort(key=lambda run: run.parameter("Eratio"))
-    ratio = np.array([run.parameter("Eratio") for run in meshed])
+    meshed.sort(key=lambda run: run.positive("Eratio"))
+    ratio = np.array([run.positive("Eratio") for run in meshed])
     figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
     left, right = figure.subplots(1, 2)
     shown = np.abs(rigid.contact["x"]) <= 0.7 * rigid.parameter("R")

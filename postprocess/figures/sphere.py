@@ -37,10 +37,11 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     figure = Figure(figsize=(style.PAGE, (0.88 if whole else 0.42) * style.PAGE), layout="constrained")
     top, *bottom = figure.subfigures(2, 1, height_ratios=[1, 1.05]) if whole else [figure]
     left, right = top.subplots(1, 2)
+    triangles = style.surface(run).triangles
     look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
     for across in signs:
         for along in signs:
-            mesh = Triangulation(across * x, along * y)
+            mesh = Triangulation(across * x, along * y, triangles)
             colours = left.tripcolor(mesh, pressure, shading="gouraud", vmax=pressure.max(), **look)
     turn = np.linspace(0, 2 * np.pi, 200)
     circle = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}

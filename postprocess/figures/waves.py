@@ -25,12 +25,12 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         waves = run.parameter("waves")
         if waves < 5:
             raise ResultsError(run.path / "summary.json", "has fewer than five waves: none is far from the sides")
-        x = run.contact["x"] * waves / run.parameter("width")
+        x = run.contact["x"] * waves / run.positive("width")
         inner = np.abs(x) <= waves / 2 - 2 + 1e-9
         crests = x[inner] - 0.5  # the wave is farthest from the block at x = 0
         x, pressure = crests - np.round(crests), run.contact["pressure"][inner]
         look = {**style.curve(index), **dots}
-        share = style.number(float(f"{prescribed_force(run) / run.parameter('width') / full:.3g}"))
+        share = style.number(float(f"{prescribed_force(run) / run.positive('width') / full:.3g}"))
         left.plot(line, wave_pressure(run, line) / full, color=style.BLACK, linewidth=0.8, zorder=3)
         left.plot(x, pressure / full, label=rf"$\bar p/p^* = {share}$", **look)
         right.plot(x, 100 * (pressure - wave_pressure(run, x)) / full, **look)
