@@ -94,8 +94,40 @@ case.xnewton          := edp/main.edp -method xnewton -h 0.25 -order 2
 case.hertz-line       := edp/scenes/hertz-line.edp -width 160 -depth 80 -grading 160 -order 2 -axis 1
 case.two-cylinders    := edp/scenes/two-cylinders.edp -R1 40 -R2 40 -force 2.158 -grading 80 -order 2 -axis 1
 case.hertz-sphere     := edp/main.edp -geometry axisymmetric -law signorini -force 10 -reach 2 -h 0.044 -grading 40 -order 2 -axis 1
-case.sphere           := edp/scenes/sphere-on-block.edp -law signorini -force 14.652014652 -patch 1.6 -layers 4 -h 0.1 -grading 80
+case.sphere           := edp/scenes/sphere-on-block.edp -law signorini -force 14.652014652 -patch 1.6 -layers 4 -h 0.1 -grading 80 -d0 0 -gap 0
+case.sphere-on-plane  := edp/scenes/sphere-on-plane.edp -h 0.07 -layers 6
+case.two-spheres      := edp/scenes/two-spheres.edp -h 0.07 -layers 6
 case.rough-series     := edp/scenes/rough.edp -kappa 1e9 -history 1 -steps 20
+case.patch-nodal      := edp/scenes/patch-test.edp -tol 1e-11 -points nodal
+case.patch-segment    := edp/scenes/patch-test.edp -tol 1e-11
+case.patch-3d-nodal   := edp/scenes/patch-test-3d.edp -tol 1e-11 -points nodal
+case.patch-3d-segment := edp/scenes/patch-test-3d.edp -tol 1e-11
+PUNCH                 := edp/scenes/flat-punch.edp -a 1 -force 20 -order 2 -h 0.0125 -grading 160
+case.punch-hard       := $(PUNCH) -law signorini
+case.punch-1e6        := $(PUNCH) -kappa 1e6
+case.punch-1e3        := $(PUNCH) -kappa 1e3
+WAVY                  := edp/scenes/wavy.edp -law signorini -nu 0 -width 20 -depth 5 -waves 10 -amplitude 0.02 -order 2 -h 0.05
+case.wavy-0.1         := $(WAVY) -force 6.283185307
+case.wavy-0.5         := $(WAVY) -force 31.41592654
+case.wavy-1.5         := $(WAVY) -force 94.24777961
+case.disc-rigid       := edp/main.edp -order 2 -h 0.5 -tol 1e-11
+$(foreach ratio,1 1e2 1e4 1e6,$(eval case.disc-$(ratio) := edp/scenes/meshed-disc.edp -order 2 -h 0.5 -tol 1e-11 -Eratio $(ratio)))
+
+# Hertz with a = 1 in bodies that are large beside it; h = 1/5 ... 1/20: a node stands at the edge of a line or axisymmetric
+# contact, for where the edge lies between the nodes changes the error as much as h does. In space, h and the grid's layers.
+ERROR.hertz-line      := edp/scenes/hertz-line.edp -R 100 -force 0.8630749048 -width 640 -depth 320 -grading 640
+ERROR.two-cylinders   := edp/scenes/two-cylinders.edp -R1 400 -R2 400 -force 0.2157687262 -grading 800
+ERROR.axisymmetric    := edp/main.edp -geometry axisymmetric -law signorini -R 100 -force 1.4652014652 -reach 2 -grading 80
+ERROR.sphere-on-block := edp/scenes/sphere-on-block.edp -law signorini -R 100 -force 1.4652014652 -patch 1.3 -grading 80
+ERROR.sphere-on-plane := edp/scenes/sphere-on-plane.edp -R 40 -force 3.663003663 -grading 80
+ERROR.two-spheres     := edp/scenes/two-spheres.edp -R1 40 -R2 40 -force 3.663003663 -grading 80
+error_case = $(eval case.error-$(1)-$(2) := $(ERROR.$(1)) -vtu 0 $(3))error-$(1)-$(2)
+part       = $(word $(2),$(subst -, ,$(1)))
+ERRORS := \
+  $(foreach scene,hertz-line two-cylinders axisymmetric,$(foreach order,1 2,$(foreach h,0.2 0.1428572 0.1 0.0714286 0.05,\
+    $(call error_case,$(scene),p$(order)-$(h),-order $(order) -h $(h))))) \
+  $(foreach scene,sphere-on-block sphere-on-plane two-spheres,$(foreach size,0.2-2 0.14-3 0.1-4 0.07-6,\
+    $(call error_case,$(scene),$(size),-h $(call part,$(size),1) -layers $(call part,$(size),2))))
 
 # figure.<name>: the cases that it draws.
 figure.figure1     := paper-two-bodies
@@ -107,11 +139,25 @@ figure.two-cylinders := two-cylinders
 figure.hertz-sphere  := hertz-sphere
 figure.rough-series  := rough-series
 figure.sphere        := sphere
+figure.sphere-on-plane := sphere-on-plane
+figure.two-spheres   := two-spheres
+figure.hertz-error   := $(ERRORS)
+figure.patch-test    := patch-nodal patch-segment patch-3d-nodal patch-3d-segment
+figure.flat-punch    := punch-hard punch-1e6 punch-1e3
+figure.wavy          := wavy-0.1 wavy-0.5 wavy-1.5
+figure.meshed-disc   := disc-rigid disc-1 disc-1e2 disc-1e4 disc-1e6
 # draw.<figure>: its kind, where that is not its name
 draw.hertz-line    := hertz
 draw.two-cylinders := hertz
 draw.hertz-sphere  := hertz
 draw.rough-series  := series
+draw.sphere-on-plane := sphere
+draw.two-spheres   := sphere
+draw.hertz-error   := hertz_error
+draw.patch-test    := patch
+draw.flat-punch    := punch
+draw.wavy          := waves
+draw.meshed-disc   := rigid
 
 CASES   := $(sort $(patsubst case.%,%,$(filter case.%,$(.VARIABLES))))
 FIGURES := $(sort $(patsubst figure.%,%,$(filter figure.%,$(.VARIABLES))))

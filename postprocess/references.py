@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
-from postprocess.results import Run, is_number
+import numpy as np
+
+from postprocess.results import ResultsError, Run, is_number
 
 # The paper's test by (kappa, m): NGSolve 6.2, P4, refined to h = 0.0125 (tests/data/README.md).
 PAPER = {
@@ -76,22 +78,34 @@ def confined_block(run: Run) -> dict[str, float]:
     if summary["scene"] != "confined-block" or not all(is_number(parameters.get(name)) for name in names):
         return {}
     law = "signorini" if summary["method"] == "signorini" else parameters.get("law", "power")
-    young, nu, width, depth, gap, u0, d0, kappa, m = (float(parameters[name]) for name in names)
+    u0, gap, d0, nu, depth, width = (float(parameters[name]) for name in ("u0", "gap", "d0", "nu", "depth", "width"))
     if law not in ("power", "signorini") or u0 - gap <= d0 or not -1 < nu < 0.5 or not depth > 0:
         return {}
-    modulus = young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
-    low, high = d0, u0 - gap
-    if law == "signorini":
-        high = d0
+    pressure = in_series(run, depth / confined_modulus(run), law == "signorini")
+    return {"force": pressure * width, "pressureMax": pressure}
+
+
+def confined_modulus(run: Run) -> float:
+    """Pressure over strain of the run's material where it cannot bulge."""
+    young, nu = run.positive("E"), run.parameter("nu")
+    if not -1 < nu < 0.5:
+        raise ResultsError(run.path / "summary.json", f"parameters has nu = {nu:g}: the block cannot be compressed")
+    return young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+
+
+def in_series(run: Run, soft: float, hard: bool) -> float:
+    """The pressure of the run's power law, or of hard contact, on a spring of this softness (length/pressure)."""
+    kappa, m, d0 = (run.parameter(name) for name in ("kappa", "m", "d0"))
+    end = run.parameter("u0") - run.parameter("gap")
+    low, high = d0, d0 if hard else end
     for _ in range(200):
         middle = 0.5 * (low + high)
         try:
-            below = kappa * (middle - d0) ** m < modulus * (u0 - gap - middle) / depth
+            below = kappa * (middle - d0) ** m < (end - middle) / soft
         except OverflowError:
             below = False
         low, high = (middle, high) if below else (low, middle)
-    pressure = modulus * (u0 - gap - high) / depth
-    return {"force": pressure * width, "pressureMax": pressure}
+    return (end - high) / soft
 
 
 def allowed(run: Run, name: str, source: str) -> float:
@@ -106,6 +120,70 @@ def allowed(run: Run, name: str, source: str) -> float:
     h = float(run.summary["h"])
     by_mesh = 0.05 * h if name == "halfWidth" else (0.1 * h**1.5 if run.summary["order"] == 1 else 0.0025 * h)
     return by_mesh + tolerance
+
+
+def prescribed_force(run: Run) -> float:
+    """The force that the run was given; ResultsError where its approach was."""
+    force = run.parameter("force")
+    if force <= 0:
+        raise ResultsError(run.path / "summary.json", "a run without -force cannot be compared with its closed form")
+    return force
+
+
+def softness(run: Run, body: str = "") -> float:
+    """(1 - nu^2)/E of the run's body, or of the one with this number."""
+    young, nu = run.positive(f"E{body}"), run.parameter(f"nu{body}")
+    if not -1 < nu <= 0.5:
+        raise ResultsError(
+            run.path / "summary.json", f"parameters has nu{body} = {nu:g}, which is not within (-1, 0.5]"
+        )
+    return (1 - nu**2) / young
+
+
+def hertz(run: Run, force: float, round_contact: bool) -> tuple[float, float]:
+    """(a, p0): Hertz's contact radius or half-width (length) and greatest pressure for a force on the run's bodies."""
+    bodies = ("1", "2") if "E2" in run.summary["parameters"] else ("",)
+    modulus = 1 / sum(softness(run, body) for body in bodies)
+    radius = 1 / sum(1 / run.positive(f"R{body}") for body in bodies)
+    if round_contact:
+        a = (3 * force * radius / (4 * modulus)) ** (1 / 3)
+        return a, 3 * force / (2 * np.pi * a**2)
+    a = np.sqrt(4 * force * radius / (np.pi * modulus))
+    return a, 2 * force / (np.pi * a)
+
+
+def scene_of(run: Run, *names: str) -> str:
+    """The run's scene; ResultsError unless it is one of these."""
+    if run.summary["scene"] not in names:
+        raise ResultsError(run.path / "summary.json", f"scene {run.summary['scene']!r:.60} is not {' or '.join(names)}")
+    return run.summary["scene"]
+
+
+def patch_pressure(run: Run) -> float:
+    """The uniform pressure of a patch test: the law and two confined blocks in series."""
+    scene_of(run, "patch-test", "patch-test-3d")
+    blocks = (run.positive("depth") + run.positive("height") / run.positive("Eratio")) / confined_modulus(run)
+    return in_series(run, blocks, run.summary["parameters"].get("law") == "signorini")
+
+
+def punch_pressure(run: Run, x: np.ndarray) -> np.ndarray:
+    """The pressure of a rigid flat punch in hard contact with a half-plane: P/(pi sqrt(a^2 - x^2))."""
+    return prescribed_force(run) / (np.pi * np.sqrt(run.positive("a") ** 2 - x**2))
+
+
+def merging_pressure(run: Run) -> float:
+    """The mean pressure at which the contacts of a rigid wave on a half-plane merge: pi E* A/lambda."""
+    scene_of(run, "wavy")
+    return np.pi / softness(run) * run.positive("amplitude") * run.positive("waves") / run.positive("width")
+
+
+def wave_pressure(run: Run, x: np.ndarray) -> np.ndarray:
+    """Westergaard's pressure of a rigid wave in hard contact with a half-plane, x (wavelengths) from a crest."""
+    full, mean = merging_pressure(run), prescribed_force(run) / run.positive("width")
+    if mean >= full:
+        return mean + full * np.cos(2 * np.pi * x)
+    inside = np.maximum(mean / full - np.sin(np.pi * x) ** 2, 0)
+    return 2 * full * np.abs(np.cos(np.pi * x)) * np.sqrt(inside)
 
 
 def equal(value: object, wanted: object) -> bool:

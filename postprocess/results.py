@@ -211,12 +211,25 @@ class Run:
         labels = grid["adaptation"][:, 0], grid["newton"][:, 0]
         return Steps(*labels, grid["x"][0, order], grid["y"][0, order], *fields)
 
+    def value(self, name: str) -> float:
+        """A finite number from the summary; ResultsError when it is not there."""
+        return finite(self, self.summary.get(name), f"has no number {name}")
+
     def parameter(self, name: str) -> float:
         """A finite number from the summary's `parameters`; ResultsError when it is not there."""
-        value = self.summary["parameters"].get(name)
-        if not is_number(value):
-            raise ResultsError(self.path / "summary.json", f"parameters has no number {name}")
-        return float(value)
+        return finite(self, self.summary["parameters"].get(name), f"parameters has no number {name}")
+
+    def positive(self, name: str) -> float:
+        """The same, for one that has to be above 0."""
+        value = self.parameter(name)
+        return finite(self, value if value > 0 else None, f"parameters has {name} = {value:g}, which is not above 0")
+
+
+def finite(run: Run, value: object, fault: str) -> float:
+    """The value where it is a finite number; otherwise the fault of the run's summary."""
+    if not is_number(value):
+        raise ResultsError(run.path / "summary.json", fault)
+    return float(value)
 
 
 def read_run(folder: Path | str) -> Run:

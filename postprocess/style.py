@@ -8,8 +8,9 @@ import matplotlib as mpl
 import matplotlib.style
 import numpy as np
 from matplotlib.ticker import NullFormatter
+from matplotlib.tri import Triangulation
 
-from postprocess.results import Run, is_number
+from postprocess.results import ResultsError, Run, is_number
 
 COLUMN = 88 / 25.4  # inches: one column of a journal page
 PAGE = 180 / 25.4  # inches: two columns
@@ -111,6 +112,16 @@ def method(run: Run) -> str:
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 
 
+def interface(run: Run) -> str:
+    """The run's law in words: hard contact, or its name, or kappa and m of a power law."""
+    law = run.summary["parameters"].get("law", "power")
+    if run.summary["method"] == "signorini" or law == "signorini":
+        return "hard contact"
+    if law == "power":
+        return rf"$\kappa = {number(run.parameter('kappa'))}$, $m = {number(run.parameter('m'))}$"
+    return plain(str(law))
+
+
 def price(run: Run, noun: str) -> str:
     """What the run took: adaptations, where there was more than one, and steps; and whether that was enough."""
     words = count(run.summary["newton"], noun)
@@ -174,6 +185,14 @@ def decades(axes, values: np.ndarray, most: int = 9) -> None:
     axes.set_yscale("log")
     axes.set_ylim(10**bottom, 10**top)
     axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def surface(run: Run) -> Triangulation:
+    """The contact points of a run in space, joined by triangles as they are seen along z."""
+    try:
+        return Triangulation(run.contact["x"], run.contact["y"])
+    except (ValueError, RuntimeError):
+        raise ResultsError(run.path / "contact.csv", "its points make no surface") from None
 
 
 def panel(index: int) -> str:

@@ -24,6 +24,11 @@ NEEDS = {
     "thresholds": "a run of the method paper",
     "equilibrium": "a run of a confined block",
     "overshoot": "a run of the method newton made with -states 1",
+    "hertz_error": "Hertz's contacts on two or more meshes, which are named to `postprocess figure hertz_error`",
+    "rigid": "a run of disc-on-block and two of meshed-disc, which are named to `postprocess figure rigid`",
+    "patch": "a run of a patch test",
+    "punch": "a run of flat-punch made with -force",
+    "waves": "a run of wavy made with -force, five waves or more",
     "cost": "runs of the lab 5-cost, which are named to `postprocess figure cost`",
 }
 

@@ -47,7 +47,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             left.plot([d0, *reached], [0, *carried], color=look["color"], linewidth=0.9)
             right.plot(reached - d0, carried, color=look["color"], linewidth=0.9)
         dot = {**look, "linestyle": "none", "markersize": 5, "zorder": 4}
-        left.plot(overlap, pressure, label=name(run), clip_on=False, **dot)
+        left.plot(overlap, pressure, label=style.interface(run), clip_on=False, **dot)
         if overlap - d0 >= s[0]:
             right.plot(overlap - d0, pressure, **dot)
     left.set_xlim(d0 - 0.05 * (end - d0), end)
@@ -62,17 +62,6 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_xlabel(f"overlap of the asperities $s = d - d_0$ [{units.length}]")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=5)
     return figure
-
-
-def name(run: Run) -> str:
-    """The run's law."""
-    values = run.summary["parameters"]
-    law = values.get("law", "power")
-    if run.summary["method"] == "signorini" or law == "signorini":
-        return "hard contact"
-    if law == "power":
-        return rf"$\kappa = {style.number(run.parameter('kappa'))}$, $m = {style.number(run.parameter('m'))}$"
-    return style.plain(str(law))
 
 
 def block_line(run: Run) -> tuple[float, float, float]:

@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.results import ResultsError, Run, read_table
+from postprocess.references import hertz, prescribed_force
+from postprocess.results import Run, read_table
 
 RUNS = (1, 1)
 
@@ -17,7 +18,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     """
     (run,) = runs
     round_contact = run.summary["parameters"].get("geometry") == "axisymmetric"
-    a, greatest = hertz(run, round_contact)
+    a, greatest = hertz(run, prescribed_force(run), round_contact)
     axis = read_table(run.path / "axis.csv", ["depth", "s11", "s22", "s12"], "the run needs -axis 1")
     depth = np.linspace(1e-3, 3, 400)
     shear, expected = np.abs(axis["s11"] - axis["s22"]) / 2 / greatest, shear_below(depth, run, round_contact)
@@ -48,25 +49,6 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_ylabel("depth $z/a$")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
-
-
-def hertz(run: Run, round_contact: bool) -> tuple[float, float]:
-    """(a, p0): contact radius or half-width (length) and greatest pressure of Hertz for the run's force and bodies."""
-    values = run.summary["parameters"]
-    force = values.get("force", 0)
-    if force <= 0:
-        raise ResultsError(run.path / "summary.json", "a run without -force cannot be compared with Hertz")
-    if "E2" in values:
-        modulus = 1 / ((1 - values["nu1"] ** 2) / values["E1"] + (1 - values["nu2"] ** 2) / values["E2"])
-        radius = 1 / (1 / values["R1"] + 1 / values["R2"])
-    else:
-        modulus = values["E"] / (1 - values["nu"] ** 2)
-        radius = values["R"]
-    if round_contact:
-        a = (3 * force * radius / (4 * modulus)) ** (1 / 3)
-        return a, 3 * force / (2 * np.pi * a**2)
-    a = np.sqrt(4 * force * radius / (np.pi * modulus))
-    return a, 2 * force / (np.pi * a)
 
 
 def shear_below(z: np.ndarray, run: Run, round_contact: bool) -> np.ndarray:

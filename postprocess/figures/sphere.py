@@ -1,45 +1,59 @@
-"""contact in space: pressure map on the surface, and pressure over the distance from the middle against Hertz"""
+"""contact in space: pressure map, pressure over the distance from the middle against Hertz, deformed cut"""
 
 import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from postprocess import style
+from postprocess.references import hertz
 from postprocess.results import ResultsError, Run, read_table
+from postprocess.vtu import cut, read_grid
 
 RUNS = (1, 1)
 
+WIDE, DEEP = 2.9, 1.3  # of the cut's window, half its width and what is shown of a body, in units of a
+
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """Left, the pressure at the points, with Hertz's circle; right, p/p0 over r/a, one dot a point, and Hertz's curve.
+    """(a) the pressure at the points, with Hertz's circle; (b) p/p0 over r/a, one dot a point, and Hertz's curve.
 
-    a and p0 are those of hard contact on a half-space under the run's total force; the middle is the pressure's centre.
+    (c), for runs with -vtu 1: the section by y = 0 in its deformed place, coloured by von Mises' stress, constant in
+    each element. a and p0 are those of hard contact on a half-space under the run's total force; the middle is the
+    pressure's centre. Of a quarter model the other three quarters are its mirror images.
     """
     (run,) = runs
-    read_table(run.path / "contact.csv", ["z"], "; the run is not one in space")
+    height = read_table(run.path / "contact.csv", ["z"], "; the run is not one in space")["z"].max()
     x, y, pressure = (run.contact[name] for name in ("x", "y", "pressure"))
     nodal = run.contact["weight"] * pressure
     if not nodal.sum() > 0:
         raise ResultsError(run.path / "contact.csv", "no point is in contact")
-    a, greatest = hertz(run)
-    middle = np.sum(nodal * x) / nodal.sum(), np.sum(nodal * y) / nodal.sum()
-    distance = np.hypot(x - middle[0], y - middle[1])
+    a, greatest = hertz(run, run.value("force"), round_contact=True)
+    signs = (1, -1) if x.min() > -1e-6 * a and y.min() > -1e-6 * a else (1,)
+    middle = (0, 0) if len(signs) == 2 else (np.sum(nodal * x) / nodal.sum(), np.sum(nodal * y) / nodal.sum())
 
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    colours = left.tripcolor(
-        Triangulation(x, y), pressure, shading="gouraud", cmap="viridis", vmin=0, vmax=pressure.max(), rasterized=True
-    )
+    used = run.summary.get("used")
+    whole = not isinstance(used, dict) or used.get("vtu", True)
+    figure = Figure(figsize=(style.PAGE, (0.88 if whole else 0.42) * style.PAGE), layout="constrained")
+    top, *bottom = figure.subfigures(2, 1, height_ratios=[1, 1.05]) if whole else [figure]
+    left, right = top.subplots(1, 2)
+    triangles = style.surface(run).triangles
+    look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
+    for across in signs:
+        for along in signs:
+            mesh = Triangulation(across * x, along * y, triangles)
+            colours = left.tripcolor(mesh, pressure, shading="gouraud", vmax=pressure.max(), **look)
     turn = np.linspace(0, 2 * np.pi, 200)
     circle = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
     left.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), **circle)
     left.set_aspect("equal")
     left.set_xlabel(f"$x$ [{units.length}]")
     left.set_ylabel(f"$y$ [{units.length}]")
-    figure.colorbar(colours, ax=left, label=f"pressure $p$ [{units.stress}]", shrink=0.85)
+    top.colorbar(colours, ax=left, label=f"pressure $p$ [{units.stress}]", shrink=0.85)
 
     line = np.linspace(0, 1, 300)
     right.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz, half-space", zorder=3)
+    distance = np.hypot(x - middle[0], y - middle[1])
     shown = distance <= 1.5 * a
     label = f"{style.method(run)}, {style.count(run.summary['contactPoints'], 'point')} in contact"
     dots = {"linestyle": "none", "marker": "o", "markersize": 2.2, "markeredgewidth": 0, "color": style.BLUE}
@@ -48,21 +62,64 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_ylabel("pressure $p/p_0$")
     right.set_xlim(0, None)
     right.set_ylim(0, None)
-    found = run.summary["halfWidthMoment"], run.summary["pressureMax"]
+    found = run.value("halfWidthMoment"), run.value("pressureMax")
     right.annotate(
-        f"radius {100 * (found[0] / a - 1):+.1f} %\ngreatest pressure {100 * (found[1] / greatest - 1):+.1f} %",
+        f"radius {percent(found[0], a)}\ngreatest pressure {percent(found[1], greatest)}",
         (0.97, 0.78),
         xycoords="axes fraction",
         ha="right",
         fontsize=8,
     )
-    figure.legend(*right.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    top.legend(*right.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    for part in bottom:
+        below = part.subplots()
+        colours = draw_cut(below, run, middle, height, a)
+        below.set_xlabel(f"$x$ [{units.length}]")
+        below.set_ylabel(f"$z$ [{units.length}]")
+        part.colorbar(colours, ax=below, label=f"von Mises stress [{units.stress}]", shrink=0.85, pad=0.01)
+        for axes, index in ((left, 0), (right, 1), (below, 2)):
+            axes.set_title(style.panel(index), loc="left")
+        below.set_title("section $y = 0$, displacements at true scale")
     return figure
 
 
-def hertz(run: Run) -> tuple[float, float]:
-    """(a, p0): Hertz's radius and greatest pressure for a rigid sphere under the run's total force."""
-    force = run.summary["force"]
-    modulus = run.parameter("E") / (1 - run.parameter("nu") ** 2)
-    a = (3 * force * run.parameter("R") / (4 * modulus)) ** (1 / 3)
-    return a, 3 * force / (2 * np.pi * a**2)
+def percent(value: float, reference: float) -> str:
+    """The difference of a value from its reference, for readers."""
+    return f"{100 * (value / reference - 1):+.1f} %".replace("-", "−")
+
+
+def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> PolyCollection:
+    """The deformed section through the middle, with its outline, and the rigid obstacle where there is no second body.
+
+    The bodies' mean planes are d0 apart where hard contact is: they touch only in runs with -d0 0.
+    """
+    path = run.path / "solution.vtu"
+    pieces, stress, outline = cut(read_grid(path), middle[1] + 1e-3 * run.value("h"))
+    near = np.hypot(*(pieces.mean(axis=1) - (middle[0], height)).T) < 4 * a
+    if not near.any():
+        raise ResultsError(path, "has no element at the middle of the contact")
+    pieces, stress = pieces[near], stress[near]
+    if pieces[..., 0].min() > -1e-6 * a:
+        mirror = np.array([-1, 1])
+        outline = outline[np.any(outline[..., 0] > 1e-6 * a, axis=1)]  # not the plane of symmetry
+        pieces, outline = np.concatenate([pieces, pieces * mirror]), np.concatenate([outline, outline * mirror])
+        stress = np.tile(stress, 2)
+    colours = PolyCollection(
+        pieces, array=stress, cmap="viridis", edgecolor="face", linewidth=0.1, rasterized=True, clim=(0, stress.max())
+    )
+    axes.add_collection(colours)
+    axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.6))
+    window = middle[0] - WIDE * a, middle[0] + WIDE * a
+    two = "R2" in run.summary["parameters"]
+    if not two:
+        x = np.linspace(*window, 200)
+        radius = run.parameter("R")
+        flat = run.summary["scene"] == "sphere-on-plane"
+        rounded = 0 * x if flat else radius - np.sqrt(np.maximum(radius**2 - (x - middle[0]) ** 2, 0))
+        lowest = height + run.parameter("gap") - run.value("approach")
+        axes.fill_between(x, lowest + rounded, height + DEEP * a, color="#E9E6E1", linewidth=0)
+        axes.plot(x, lowest + rounded, color=style.BLACK, linewidth=0.6)
+    axes.set_aspect("equal")
+    axes.set_xlim(*window)
+    axes.set_ylim(height - (DEEP if two else 1.5 * DEEP) * a, height + (DEEP if two else 0.5 * DEEP) * a)
+    return colours

@@ -1,0 +1,49 @@
+"""patch tests: pressure between two meshes that do not match over its exact value, in the plane and in space"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from postprocess import style
+from postprocess.references import patch_pressure
+from postprocess.results import Run
+
+RUNS = (1, 6)
+
+
+def draw(runs: list[Run], units: style.Units) -> Figure:
+    """p/p exact - 1 in per cent: (a) the plane runs over x, then a map of the surface for each run in space.
+
+    The exact pressure is uniform: the law in series with two confined blocks. The maps share their colours.
+    """
+    plane = [run for run in runs if run.summary["scene"] == "patch-test"]
+    space = [run for run in runs if run not in plane]
+    off = [100 * (run.contact["pressure"] / patch_pressure(run) - 1) for run in plane + space]
+    widths = [1.5] * bool(plane) + [1] * len(space)
+    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
+    panels = list(figure.subplots(1, len(widths), width_ratios=widths, squeeze=False)[0])
+    maps = panels[1:] if plane else panels
+    for index, (run, error) in enumerate(zip(plane, off[: len(plane)], strict=True)):
+        panels[0].plot(run.contact["x"], error, label=words(run, error), **style.curve(index) | {"linewidth": 0.9})
+    if plane:
+        panels[0].set_xlabel(f"$x$ [{units.length}]")
+        panels[0].set_ylabel(r"$p/p_{\mathrm{exact}} - 1$ [%]")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
+    for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
+        look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
+        colours = axes.tripcolor(style.surface(run), error, shading="gouraud", **look)
+        axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
+        axes.set_aspect("equal")
+        axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}")
+        axes.set_ylabel(f"$y$ [{units.length}]")
+    if space:
+        figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.7)
+    for index, axes in enumerate(panels):
+        axes.set_title(style.panel(index), loc="left")
+    return figure
+
+
+def words(run: Run, error: np.ndarray) -> str:
+    """How the overlaps are taken, and the greatest error (per cent)."""
+    points = style.plain(str(run.summary["parameters"].get("points", "")))
+    return f"{points}: at most ${style.number(float(f'{np.abs(error).max():.2g}'))}$ %"

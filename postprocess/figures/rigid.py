@@ -1,0 +1,64 @@
+"""a meshed disc as it stiffens: pressure against the rigid disc's, and the differences over the ratio of the moduli"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from postprocess import style
+from postprocess.figures.figure2 import check_comparable
+from postprocess.references import scene_of
+from postprocess.results import ResultsError, Run
+
+RUNS = (3, 9)
+
+
+def draw(runs: list[Run], units: style.Units) -> Figure:
+    """(a) p over x: the first run, of the rigid disc, a line, the others dots; (b) the differences over E disc/E block.
+
+    Force, and greatest difference of pressure over the rigid disc's greatest pressure; with the slope of each, least
+    squares over the runs where the disc is at least ten times stiffer.
+    """
+    rigid, *meshed = runs
+    scene_of(rigid, "disc-on-block")
+    for run in meshed:
+        scene_of(run, "meshed-disc")
+        check_comparable(run, rigid)
+        if not np.array_equal(run.contact["x"], rigid.contact["x"]):
+            raise ResultsError(run.path / "contact.csv", f"has other points than {rigid.path / 'contact.csv'}")
+    meshed.sort(key=lambda run: run.positive("Eratio"))
+    ratio = np.array([run.positive("Eratio") for run in meshed])
+    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    shown = np.abs(rigid.contact["x"]) <= 0.7 * rigid.parameter("R")
+    x = rigid.contact["x"][shown]
+    for index, run in enumerate(meshed):
+        look = style.curve(index) | {"linestyle": "none", "markersize": 3.5, "markerfacecolor": "white"}
+        name = rf"$E_{{\mathrm{{disc}}}}/E = {style.number(ratio[index])}$"
+        left.plot(x, run.contact["pressure"][shown], label=name, **look)
+    left.plot(x, rigid.contact["pressure"][shown], color=style.BLACK, linewidth=0.9, label="rigid disc", zorder=1)
+    left.set_xlabel(f"$x$ [{units.length}]")
+    left.set_ylabel(f"pressure $p$ [{units.stress}]")
+    left.set_ylim(0, None)
+    for index, (what, difference) in enumerate(differences(rigid, meshed).items()):
+        stiff = (ratio >= 10) & (difference > 0)
+        label = what
+        if np.count_nonzero(stiff) > 1:
+            slope = np.polyfit(np.log(ratio[stiff]), np.log(difference[stiff]), 1)[0]
+            label = f"{what}, slope ${slope:.2f}$"
+        right.plot(ratio, difference, label=label, **style.curve(index))
+    right.set_xscale("log")
+    right.set_yscale("log")
+    right.set_xlabel(r"$E_{\mathrm{disc}}/E$")
+    right.set_ylabel("difference from the rigid disc")
+    for index, axes in enumerate((left, right)):
+        axes.set_title(style.panel(index), loc="left")
+        axes.legend()
+    return figure
+
+
+def differences(rigid: Run, meshed: list[Run]) -> dict[str, np.ndarray]:
+    """(runs,) relative differences from the rigid disc's run: of the force, of the pressure at its worst point."""
+    pressure = rigid.contact["pressure"]
+    return {
+        "pressure": np.array([np.abs(run.contact["pressure"] - pressure).max() for run in meshed]) / pressure.max(),
+        "force": np.array([abs(run.value("force") / rigid.value("force") - 1) for run in meshed]),
+    }
