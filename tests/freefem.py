@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import shutil
+import signal
 import subprocess
 from functools import cached_property
 from itertools import pairwise
@@ -107,6 +108,11 @@ def flag_text(value):
 def named(value):
     """A parametrised test's name: its flags as they are typed."""
     return " ".join(map(flag_text, value)) if isinstance(value, list) else None
+
+
+def interruptible():
+    """A preexec_fn: Ctrl-C works as in a terminal; a job in the background is started with it ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def execute(command, cwd=ROOT, env=None):

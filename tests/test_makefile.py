@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import pytest
-from freefem import ROOT, environment, execute, tree
+from freefem import ROOT, environment, execute, interruptible, tree
 
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]
 
@@ -82,6 +82,7 @@ def interrupted(package, folder, how, *words):
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
+        preexec_fn=interruptible,
     )
     try:
         end = time.monotonic() + 100
@@ -90,7 +91,7 @@ def interrupted(package, folder, how, *words):
             time.sleep(0.01)
     finally:
         os.killpg(process.pid, how)
-        code = process.wait()
+        code = process.wait(60)
     assert code != 0
 
 

@@ -11,7 +11,7 @@ import subprocess
 import time
 
 import pytest
-from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
 
@@ -328,6 +328,7 @@ def test_make_campaigns(package, campaign, table):
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             start_new_session=True,
+            preexec_fn=interruptible,
         )
         try:
             end = time.monotonic() + 60
