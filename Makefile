@@ -184,12 +184,12 @@ for figure in $(CAMPAIGN_FIGURES); do \
 endef
 
 bench: .venv/run.stamp | system ## error against run time, cost growth, ingredients, timed one run at a time, into results/bench/
-	@$(PYTHON) tests/bench.py
+	@$(PYTHON) tests/campaigns/bench.py
 	@$(DRAW_CAMPAIGN)
 
 # Code 1: a run failed or a check did not pass; the figures show it.
 stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
-	@$(PYTHON) tests/stability.py; code=$$?; \
+	@$(PYTHON) tests/campaigns/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
 
 # ---------------------------------------------------------------- labs

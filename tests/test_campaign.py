@@ -158,7 +158,7 @@ def test_interrupted_it_leaves_a_valid_table(runner, tmp_path, how):
 import signal
 import sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background is started with it ignored
-sys.path.insert(0, {str(campaign.ROOT / "tests")!r})
+sys.path.insert(0, {str(campaign.ROOT / "tests" / "campaigns")!r})
 import campaign
 from pathlib import Path
 cases = [campaign.Case("part", "edp/main.edp", ("-sleep", seconds, "-count", {str(runner.count)!r}))

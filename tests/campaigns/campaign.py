@@ -33,7 +33,7 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 FREEFEM = ("FreeFem++", "-nw", "-v", "0")
 THREADS = 1  # of BLAS, in every run
 REPEATS_END = 20.0  # wall seconds of a case after which it is not repeated once more

@@ -6,7 +6,7 @@ growth.csv: seconds, memory and cost ratio over the number of degrees of freedom
 ingredients.csv: the default method with each of its ingredients exchanged in turn, scene by scene.
 
 Timed runs are repeated five times, one at a time. Failed runs are kept. Interrupted and started again, it goes on where
-it was. A part can be run alone: `python tests/bench.py growth`.
+it was. A part can be run alone: `python tests/campaigns/bench.py growth`.
 """
 
 import argparse
