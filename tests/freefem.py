@@ -218,6 +218,16 @@ def listing(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
 
 
+def files(folder):
+    """The files that a run has put into its folder, not what it keeps for the next run in .run."""
+    return sorted(path.name for path in Path(folder).iterdir() if path.name != ".run")
+
+
+def being_written(folder):
+    """What a run is writing at present, or was when it was killed."""
+    return [path.name for path in (Path(folder) / ".run").glob("*") if not path.name.startswith(".")]
+
+
 # ---------------------------------------------------------------- invariants
 
 
