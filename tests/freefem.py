@@ -214,8 +214,8 @@ def tree(folder):
 
 
 def listing(folder):
-    """Every file and folder below, to see what a run has left behind."""
-    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+    """Every file and folder below, to see what a run has left behind; a folder's lock has another number each time."""
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if not path.name.startswith(".lock-"))
 
 
 def files(folder):
