@@ -16,10 +16,11 @@ test -s "$mesh" && test -z "$(find "$meshes" -maxdepth 1 -name '*.geo' -newer "$
 command -v gmsh > /dev/null || exit 3
 place=$meshes
 test ! -e "$generated" || place=$generated
-for left in "$place"/.making-*; do          # of a run that was killed
+work=$place/.making-$(uname -n)
+for left in "$work"-*; do                   # of a run that was killed
     test ! -e "$left" || test -n "$(started "${left##*-}")" || rm -rf "$left"
 done
-work=$place/.making-$run
+work=$work-$run
 gmsh=
 trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; rm -rf "$work"; exit 130' HUP INT TERM
 mkdir "$work" 2> /dev/null || exit 4

@@ -51,7 +51,8 @@ check)
     test -d "$there" || exit 4
     new=${folder#"$there"}
     case /$new/ in */../*) new=;; esac
-    try=$there/.try-$run
+    try=$there/.try-$(uname -n)-$run
+    rm -rf "$try"
     mkdir "$try" 2> /dev/null || exit 4
     mkdir -p "$try/$new" 2> /dev/null
     code=$?
