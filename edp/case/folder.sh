@@ -66,15 +66,14 @@ open)
         last=$(newest)
         free "$last" || exit
         mine=$((last + 1))
-        if (set -C; owner "$run" > ".lock-$mine") 2> /dev/null; then
-            test "$(newest)" != $mine || break
-            rm -f ".lock-$mine"     # one made meanwhile by a run that had seen an older one
-        elif ! test -e ".lock-$mine"; then exit 4
-        elif test "$(newest)" = $mine && ! test -s ".lock-$mine"; then
-            sleep 1
+        if (set -C; : > ".lock-$mine") 2> /dev/null; then
+            owner "$run" > ".lock-$mine"
             test -s ".lock-$mine" || { rm -f ".lock-$mine"; exit 7; }
+            test "$(newest)" != $mine || break
+            rm -f ".lock-$mine"     # there is a higher one, of a run that removed the ones seen here
+        else test -e ".lock-$mine" || exit 4
         fi
-    done
+    done 2> /dev/null
     while test "$last" -gt 0 && test -e ".lock-$last"; do
         rm -f ".lock-$last"
         last=$((last - 1))
