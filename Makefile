@@ -7,11 +7,13 @@ PYTEST_ARGS ?=
 
 # One thread: runs are compared by CPU seconds, and the tests already use every core.
 export OPENBLAS_NUM_THREADS := 1
+# Numbers with a point, whatever the user's language.
+export LC_ALL := C
 
 FREEFEM := FreeFem++ -nw -v 0
 PYTHON  := .venv/bin/python
 SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
-SOURCES := $(shell find edp -name '*.idp' 2>/dev/null) $(wildcard meshes/*.geo)
+SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
 
 ifeq ($(filter $(SCENES),$(SCENE)),)

@@ -38,6 +38,14 @@ def write_files(contents: dict[Path, bytes]) -> list[Path]:
     return write_whole({path: (lambda part, data=data: part.write_bytes(data)) for path, data in contents.items()})
 
 
+def enter(folder: Path, names: list[str]) -> None:
+    """Names files drawn from the run in a folder as the run's own: the next run into it removes them with the rest."""
+    listed = folder / ".run" / ".written"
+    if listed.exists():
+        with contextlib.suppress(OSError), listed.open("a") as file:
+            file.writelines(f"{name}\n" for name in names)
+
+
 def write_whole(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
     """Calls each path's writer with a temporary name in the same folder, then renames them all; returns the paths.
 

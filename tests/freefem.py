@@ -214,8 +214,18 @@ def tree(folder):
 
 
 def listing(folder):
-    """Every file and folder below, to see what a run has left behind."""
-    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+    """Every file and folder below, to see what a run has left behind; a folder's lock has another number each time."""
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if not path.name.startswith(".lock-"))
+
+
+def files(folder):
+    """The files that a run has put into its folder, not what it keeps for the next run in .run."""
+    return sorted(path.name for path in Path(folder).iterdir() if path.name != ".run")
+
+
+def being_written(folder):
+    """What a run is writing at present, or was when it was killed."""
+    return [path.name for path in (Path(folder) / ".run").glob("*") if not path.name.startswith(".")]
 
 
 # ---------------------------------------------------------------- invariants

@@ -7,7 +7,7 @@ import signal
 import subprocess
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, listing, run_in, script, tree
+from freefem import FREEFEM, ROOT, being_written, environment, files, listing, run_in, script, tree
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 SCENES = [DISC, TWO_BODIES, BLOCK]
@@ -45,7 +45,7 @@ def test_started_from_either_folder(package, folder, name, scene, method):
     before = set(listing(package))
     run_in(package / folder, name, "-method", method, "-h", 2, env=BARE)
     out = package / "results" / scene / method
-    assert sorted(path.name for path in out.iterdir()) == RESULTS
+    assert files(out) == RESULTS
     new = {path for path in set(listing(package)) - before if not path.startswith(("results", "meshes/generated"))}
     assert not new
 
@@ -55,7 +55,7 @@ def test_started_with_a_whole_path(package, tmp_path):
     run_in(
         package / "edp", package / "edp/main.edp", "-method", "newton", "-h", 2, "-out", "../my results/a b", env=BARE
     )
-    assert sorted(path.name for path in (package / "my results" / "a b").iterdir()) == RESULTS
+    assert files(package / "my results" / "a b") == RESULTS
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -75,7 +75,7 @@ def test_help_names_every_flag(package, scene, tmp_path):
 
 def test_commands_are_posix():
     """What FreeFEM hands to the shell shall not need GNU's options: BSD's sed takes -i's next word for a suffix."""
-    texts = {path: path.read_text() for path in [*(ROOT / "edp").rglob("*.idp"), *(ROOT / "edp").rglob("*.edp")]}
+    texts = {path: path.read_text() for kind in ("idp", "edp", "sh") for path in (ROOT / "edp").rglob(f"*.{kind}")}
     assert any("exec(" in text for text in texts.values())
     for path, text in texts.items():
         assert not re.search(r"sed -i|readlink -f|grep -P|mktemp --|stat -c|date \+%N", text), path
@@ -127,7 +127,7 @@ def test_progress_appears_as_it_happens(tmp_path):
         process.wait()
         process.stdout.close()
     assert out.is_dir()
-    assert not [path for path in out.iterdir() if not path.name.endswith(".tmp")]
+    assert files(out) == []
 
 
 def test_output_has_its_parts(tmp_path):
@@ -196,10 +196,10 @@ def test_second_run_replaces_the_first(tmp_path):
     states = {path.name for path in out.glob("state-*.vtu")}
     assert len(states) > 2
     of_states = {"states.csv", "states.pvd", "steps.csv", "triangles.csv", *states}
-    assert {path.name for path in out.iterdir()} == {*RESULTS, *of_states}
+    assert set(files(out)) == {*RESULTS, *of_states}
     (out / "mine.txt").touch()
     run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-vtu", 0, out=out)
-    assert {path.name for path in out.iterdir()} == {"mine.txt", *RESULTS} - {"contact.vtu", "solution.vtu"}
+    assert set(files(out)) == {"mine.txt", *RESULTS} - {"contact.vtu", "solution.vtu"}
 
 
 @pytest.mark.parametrize(
@@ -229,4 +229,4 @@ def test_disk_full(tmp_path, limit, flags):
     )
     assert done.returncode not in (0, 10, 20), done.stdout
     assert "could not be written whole" in done.stdout
-    assert list(out.iterdir()) == []
+    assert files(out) == being_written(out) == []

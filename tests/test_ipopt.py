@@ -126,4 +126,4 @@ def test_runs_from_other_folders(tmp_path, folder, name):
     before = sorted((ROOT / folder).iterdir())
     run_in(ROOT / folder, name, "-h", 1, "-vtu", 0, out=tmp_path / "out")
     assert sorted((ROOT / folder).iterdir()) == before
-    assert not (tmp_path / "out" / "ipopt.opt.tmp").exists()
+    assert not (tmp_path / "out" / ".run" / "ipopt.opt").exists()

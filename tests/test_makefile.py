@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import pytest
-from freefem import ROOT, environment, execute, interruptible, tree
+from freefem import ROOT, being_written, environment, execute, files, interruptible, tree
 
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]
 
@@ -110,17 +110,19 @@ def test_interrupted_figure(package, how):
     assert not list(folder.parent.glob("thresholds.*"))
     code, stdout = make(package, *target)
     assert code == 0 and "confined-block" in stdout
-    assert not list(folder.glob("*.tmp")) and (folder / "summary.json").exists()
+    assert not being_written(folder) and (folder / "summary.json").exists()
 
 
 def test_interrupted_movie(package):
     """A run of `make movie` that is ended shall leave neither a summary nor the movie of the run before."""
     folder = package / "results" / "movies" / "confined-block"
-    folder.mkdir(parents=True)
-    for name in ("movie.html", "movie.gif", "summary.json", "states.pvd", "state-3.vtu"):
+    (folder / ".run").mkdir(parents=True)
+    names = ["movie.html", "movie.gif", "summary.json", "states.pvd", "state-3.vtu"]
+    (folder / ".run" / ".written").write_text("\n".join([*names, ""]))
+    for name in names:
         (folder / name).write_text("of an earlier run")
     interrupted(package, folder, signal.SIGINT, "movie", "SCENE=confined-block", f"ARGS={LONG} -kappa 1e9")
-    assert not {"movie.html", "movie.gif", "summary.json"} & {path.name for path in folder.iterdir()}
+    assert not set(names) & set(files(folder))
 
 
 def test_refused_movie(package):

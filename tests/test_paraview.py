@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, environment, run_in, script
+from freefem import FREEFEM, ROOT, being_written, environment, files, run_in, script
 
 DTYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
 DISPLACEMENT, PRESSURE, STRESS = "displacement[length]", "contactPressure[pressure]", "vonMises[pressure]"
@@ -186,13 +186,12 @@ def test_killed_while_writing(tmp_path):
     process = subprocess.Popen([*command, "-h", "0.4"], cwd=ROOT, env=environment(), stdout=subprocess.DEVNULL)
     try:
         end = time.monotonic() + 100
-        while not list(out.glob("state-*.vtu.tmp")):
+        while not list(out.glob(".run/state-*.vtu")):
             assert process.poll() is None and time.monotonic() < end
             time.sleep(0.001)
     finally:
         process.send_signal(signal.SIGKILL)
         process.wait()
-    left = [path.name for path in out.iterdir()]
-    assert left and all(".tmp" in name for name in left)
+    assert being_written(out) and not files(out)
     run_in(ROOT, script("confined-block"), "-method", "newton", "-h", 5, out=out)
-    assert not [path for path in out.iterdir() if ".tmp" in path.name]
+    assert not being_written(out) and not list(out.glob("state*"))

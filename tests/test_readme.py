@@ -475,3 +475,15 @@ def test_parameters_are_what_was_used(paper_run):
     parameters = json.loads((paper_run.folder / "summary.json").read_text())["parameters"]
     assert parameters["method"] == "paper"
     assert parameters["h"] == 2
+
+
+def test_every_shell_program_is_in_the_map():
+    """The shell programs shall be listed, and each say at its head what it needs, gives and ends with."""
+    programs = {str(path.relative_to(ROOT / "edp")): path.read_text() for path in (ROOT / "edp").rglob("*.sh")}
+    listed = {quoted(row[0])[0] for row in rows(section(THEORY, "Modules")) if ".sh" in row[0]}
+    assert listed == programs.keys()
+    for name, text in programs.items():
+        head = text.split("\n.", 1)[0]
+        assert head.startswith(f"# {name.split('/')[1]}: ") and "# Needs: " in head and "# Gives: " in head, name
+        assert "# Exit code" in head or name == "case/process.sh"
+        assert execute(["sh", "-n", f"edp/{name}"]) == (0, "")

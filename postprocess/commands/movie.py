@@ -11,7 +11,7 @@ from pathlib import Path
 from postprocess import page, style
 from postprocess.commands.show import cell
 from postprocess.frames import Movie
-from postprocess.output import write_files
+from postprocess.output import enter, write_files
 from postprocess.player import render
 from postprocess.results import ResultsError, Run, brief, read_run
 from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
@@ -34,6 +34,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise ResultsError(chosen.path, f"cannot be drawn: {brief(str(error))}") from None
     folder = Path(arguments.out)
     contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
+    enter(folder, [path.name for path in contents])
     for path in write_files(contents):
         print(path)
 

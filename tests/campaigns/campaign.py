@@ -113,7 +113,12 @@ def sources_digest(root: Path) -> str:
 
 
 def source_files(root: Path) -> list[Path]:
-    found = [*root.glob("edp/**/*.edp"), *root.glob("edp/**/*.idp"), *root.glob("meshes/*.geo")]
+    found = [
+        *root.glob("edp/**/*.edp"),
+        *root.glob("edp/**/*.idp"),
+        *root.glob("edp/**/*.sh"),
+        *root.glob("meshes/*.geo"),
+    ]
     return sorted(path for path in found if path.is_file())
 
 

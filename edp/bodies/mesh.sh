@@ -1,0 +1,49 @@
+# mesh.sh: a mesh made by gmsh, unless it is there already: sh mesh.sh RUN MESH GEO OPTIONS-OF-GMSH...
+# Needs: RUN, the number of the run's process; GEO, the geometry, with all others in its folder; MESH, a file to be in a folder
+#        that is made if it is missing, beside GEO.
+# Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile.
+# Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 130 interrupted.
+# gmsh's own exit code means little: what it wrote is looked at, then moved into place. It ends with its run, however that ends.
+. "${0%/*}/../case/process.sh"
+run=$1
+mesh=$2
+geo=$3
+shift 3
+meshes=${geo%/*}
+generated=${mesh%/*}
+
+test -s "$mesh" && test -z "$(find "$meshes" -maxdepth 1 -name '*.geo' -newer "$mesh")" && exit 0
+command -v gmsh > /dev/null || exit 3
+place=$meshes
+test ! -e "$generated" || place=$generated
+work=$place/.making-$(uname -n)
+for left in "$work"-*; do                   # of a run that was killed
+    test ! -e "$left" || test -n "$(started "${left##*-}")" || rm -rf "$left"
+done
+work=$work-$run
+gmsh=
+trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; rm -rf "$work"; exit 130' HUP INT TERM
+mkdir "$work" 2> /dev/null || exit 4
+gmsh "$@" "$geo" -o "$work/new.msh" > "$work/log" 2>&1 &
+gmsh=$!
+(
+    while sleep 1; do
+        test -n "$(started "$run")" || break
+    done
+    kill "$gmsh"
+) > /dev/null 2>&1 &
+watch=$!
+wait "$gmsh"
+kill "$watch" 2> /dev/null
+gmsh=
+if grep -q '^2.2 0 8' "$work/new.msh" 2> /dev/null && grep -q PhysicalNames "$work/new.msh" && ! grep -q ^Error "$work/log" \
+    && tail -n 1 "$work/new.msh" | grep -q EndElements; then
+    mkdir -p "$generated" 2> /dev/null && mv -f "$work/new.msh" "$mesh" 2> /dev/null
+    code=$?
+    test $code = 0 || code=4
+else
+    code=5
+    dd if=/dev/zero of="$work/room" bs=1024 count=1024 2> /dev/null || code=4
+fi
+rm -rf "$work"
+exit $code

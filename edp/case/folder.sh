@@ -1,0 +1,114 @@
+# folder.sh: a run's result folder: sh folder.sh RUN check|open|publish FOLDER [KEPT...]
+# Needs: RUN, the number of the run's process; FOLDER, any name without control characters.
+# Gives: check: can it be written? Tried out, and left as it was.
+#        open: FOLDER is there and this run's alone, without the files of an earlier run, but for those named KEPT.
+#        publish: the files in FOLDER/.run, if each was written to its end, go into FOLDER, summary.json last; if not, none.
+# Exit codes: 0 done, 1 files not whole, 3 a control character in the name, 4 cannot be made or written, 5 another run is using
+#        it, 6 one on another computer has not finished there and cannot be looked after, 7 no room for even a line.
+# FOLDER/.run holds what is being written, the list .written of what a run has put into FOLDER, and the lock .lock-N. The lock
+# with the highest N counts, until it says "done" or the process that it names has ended: nothing needs to take it away after a
+# kill. The next run adds .lock-<N + 1>, which only one can make, and removes the older ones after that.
+. "${0%/*}/process.sh"
+run=$1
+task=$2
+folder=$3
+shift 3
+case $folder in *[[:cntrl:]]*) exit 3;; -*) folder=./$folder;; esac
+
+newest()
+{
+    n=0
+    for lock in .lock-*; do
+        k=${lock#.lock-}
+        case $k in '' | *[!0-9]*) ;; *) test "$k" -le "$n" || n=$k;; esac
+    done
+    echo "$n"
+}
+
+owner()
+{
+    echo "$1 $(started "$1") $(uname -n)"
+}
+
+# whose folder is it? In .run: returns 0 if nobody's (or this run's)
+free()
+{
+    test "$1" -gt 0 || return 0
+    line=$(cat ".lock-$1" 2> /dev/null)
+    if test -z "$line"; then        # its run is just writing it, or was killed there
+        sleep 1
+        line=$(cat ".lock-$1" 2> /dev/null)
+    fi
+    case $line in '' | done | "$run "*) return 0;; esac
+    test "${line##* }" = "$(uname -n)" || return 6
+    test "$line" != "$(owner "${line%% *}")" || return 5
+}
+
+case $task in
+check)
+    there=$folder
+    while ! test -e "$there"; do there=$(dirname "$there"); done
+    test -d "$there" || exit 4
+    new=${folder#"$there"}
+    case /$new/ in */../*) new=;; esac
+    try=$there/.try-$(uname -n)-$run
+    rm -rf "$try"
+    mkdir "$try" 2> /dev/null || exit 4
+    mkdir -p "$try/$new" 2> /dev/null
+    code=$?
+    rm -rf "$try"
+    test $code = 0 || exit 4
+    cd "$folder/.run" 2> /dev/null || exit 0
+    free "$(newest)";;
+open)
+    mkdir -p "$folder/.run" 2> /dev/null && cd "$folder/.run" || exit 4
+    while :; do
+        last=$(newest)
+        free "$last" || exit
+        mine=$((last + 1))
+        if (set -C; : > ".lock-$mine") 2> /dev/null; then
+            owner "$run" > ".lock-$mine"
+            test -s ".lock-$mine" || { rm -f ".lock-$mine"; exit 7; }
+            test "$(newest)" != $mine || break
+            rm -f ".lock-$mine"     # there is a higher one, of a run that removed the ones seen here
+        else test -e ".lock-$mine" || exit 4
+        fi
+    done 2> /dev/null
+    while test "$last" -gt 0 && test -e ".lock-$last"; do
+        rm -f ".lock-$last"
+        last=$((last - 1))
+    done
+    rm -rf ./*
+    if test -e .written; then
+        while read -r name; do
+            case " $* " in *" $name "*) continue;; esac
+            case $name in */*) ;; *) rm -f "../$name";; esac
+        done < .written
+    fi
+    rm -f ../summary.json
+    for name; do
+        test ! -e "../$name" || echo "$name"
+    done > .written || exit 7;;
+publish)
+    cd "$folder/.run" 2> /dev/null || exit 4
+    fail()
+    {
+        rm -rf ./* .whole
+        exit 1
+    }
+    # a full disk cuts a file off silently: its last line tells
+    for file in *; do
+        test -e "$file" || continue
+        if test "$(tail -c 5 "$file")" = '#end'; then
+            sed '$d' "$file" > .whole && mv -f .whole "$file" || fail
+        else tail -c 100 "$file" | grep -q '</VTKFile>' || fail
+        fi
+    done
+    { ls && cat .written; } | sort -u > .whole && mv -f .whole .written || fail
+    for file in *; do
+        test ! -e "$file" || test "$file" = summary.json || mv -f "$file" .. || fail
+    done
+    test -e summary.json || exit 0
+    mv -f summary.json .. || fail
+    echo done > ".lock-$(newest)";;
+esac

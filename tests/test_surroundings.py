@@ -1,0 +1,539 @@
+"""Runs in their surroundings: languages, folders shared with other runs and other files, kills, disks without room."""
+
+import json
+import os
+import platform
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from freefem import (
+    FREEFEM,
+    ROOT,
+    being_written,
+    environment,
+    execute,
+    files,
+    interruptible,
+    listing,
+    run_in,
+    table,
+    tree,
+)
+from freefem import script as scene_script
+
+DISC, BLOCK, BODIES = map(scene_script, ("disc-on-block", "confined-block", "two-bodies"))
+TINY = ["-h", "10", "-vtu", "0"]  # a tenth of a second of the confined block
+
+
+def start(*words, cwd=ROOT, env=None):
+    """A run that goes on beside the test."""
+    return subprocess.Popen(
+        [*FREEFEM, *map(str, words)],
+        cwd=cwd,
+        env=env or environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+        preexec_fn=interruptible,
+    )
+
+
+def ended(process):
+    """(exit code, output) of such a run."""
+    stdout = process.communicate(timeout=100)[0]
+    return process.returncode, stdout
+
+
+def wait_for(what, seconds=60):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.005)
+
+
+def started(pid):
+    """What the package's shell programs call the time when a process began; nothing for one that has ended."""
+    done = subprocess.run(
+        ["sh", "-c", f". edp/case/process.sh; started {pid}"], cwd=ROOT, capture_output=True, text=True
+    )
+    return done.stdout.strip()
+
+
+def refused_in_one_line(stdout):
+    """The line that says why; nothing but it."""
+    (line,) = stdout.splitlines()
+    assert "allowed" in line
+    return line
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    """The example's two bodies on larger elements, as a mesh of the user's: FILE.msh of a size."""
+    folder = tmp_path_factory.mktemp("mesh")
+
+    def make(size):
+        text = (ROOT / "meshes/two-bodies.geo").read_text()
+        assert "\nsize = 0.1;" in text
+        (folder / "bodies.geo").write_text(text.replace("\nsize = 0.1;", f"\nsize = {size};"))
+        command = ["gmsh", "-2", "-v", "0", "-format", "msh22", folder / "bodies.geo", "-o", folder / f"{size}.msh"]
+        assert execute(command)[0] == 0
+        return folder / f"{size}.msh"
+
+    return make
+
+
+# ---------------------------------------------------------------- languages
+
+
+@pytest.fixture(scope="module")
+def comma(tmp_path_factory):
+    """An environment whose numbers have a comma."""
+    if not shutil.which("localedef"):
+        pytest.skip("localedef is not there")
+    folder = tmp_path_factory.mktemp("locales")
+    code, stdout = execute(["localedef", "-i", "de_DE", "-f", "UTF-8", folder / "de_DE.UTF-8"])
+    assert (folder / "de_DE.UTF-8" / "LC_NUMERIC").exists(), (code, stdout)
+    kept = {name: value for name, value in environment().items() if not name.startswith("LC_")}
+    env = {**kept, "LANG": "de_DE.UTF-8", "LOCPATH": str(folder)}
+    assert execute(["printf", "%.1f", "0"], env=env)[1] == "0,0"
+    return env
+
+
+@pytest.mark.parametrize("name", ["LANG", "LC_ALL"])
+def test_comma_locale(mesh, comma, tmp_path, name):
+    """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
+    env = {**comma, name: "de_DE.UTF-8"}
+    package = tree(tmp_path / "package")  # its meshes are made in that language
+    (tmp_path / "table.csv").write_text("".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6)))
+    flags = {
+        BODIES: ["-mesh", mesh(0.3)],
+        DISC: ["-h", 2, "-law", "table", "-table", tmp_path / "table.csv"],
+    }
+    for script, own in flags.items():
+        here = run_in(ROOT, script, *own, "-vtu", 0, out=tmp_path / "here")
+        there = run_in(package, script, *own, "-vtu", 0, out=tmp_path / "there", env=env)
+        assert there.force == here.force > 0
+        assert (there.folder / "contact.csv").read_bytes() == (here.folder / "contact.csv").read_bytes()
+
+
+# ---------------------------------------------------------------- side by side
+
+
+def four_at_once(trials, folder):
+    """Runs that begin together in folders of one parent that is not there yet: those that failed."""
+    failed = []
+    for trial in range(trials):
+        parent = folder / f"new {trial}" / "below"
+        runs = [start(BLOCK, *TINY, "-out", parent / name) for name in "abcd"]
+        for name, process in zip("abcd", runs, strict=True):
+            code, stdout = ended(process)
+            if code != 0 or "summary.json" not in files(parent / name) or being_written(parent / name):
+                failed.append(stdout[-300:])
+        assert sorted(path.name for path in parent.iterdir()) == list("abcd")
+        shutil.rmtree(parent.parent)
+    return failed
+
+
+@pytest.mark.parametrize("trials", [5, pytest.param(200, marks=pytest.mark.long)])
+def test_four_runs_in_one_new_folder(tmp_path, trials):
+    """Runs shall not disturb each other when they make their folders."""
+    assert four_at_once(trials, tmp_path) == []
+
+
+@pytest.mark.parametrize("trials", [5, pytest.param(100, marks=pytest.mark.long)])
+def test_two_runs_into_one_folder(tmp_path, trials):
+    """Of two runs into one folder both shall be done, one after the other, or one refused; its files are one run's."""
+    out, refusals = tmp_path / "out", 0
+    for trial in range(trials):
+        if trial % 3 == 0:
+            shutil.rmtree(out, ignore_errors=True)
+        runs = [ended(process) for process in [start(BLOCK, "-h", h, "-vtu", 0, "-out", out) for h in (10, 5)]]
+        codes = sorted(code for code, _ in runs)
+        assert codes in ([0, 0], [0, 10]), runs
+        for code, stdout in runs:
+            if code == 10:
+                line = stdout.splitlines()[-1]
+                assert f"-out {out}: in use by another run" in line and "allowed" in line
+                refusals += 1
+        summary = json.loads((out / "summary.json").read_text())
+        assert summary["points"] == len(table(out / "contact.csv")) == {10: 3, 5: 5}[summary["h"]]
+        assert summary["newton"] == len(table(out / "history.csv"))
+        assert files(out) == ["adaptations.csv", "contact.csv", "history.csv", "summary.json"]
+        assert len([name for name in os.listdir(out / ".run") if name.startswith(".lock")]) == 1
+    assert refusals > 0 or trials < 10
+
+
+def test_folder_in_use(tmp_path):
+    """A folder shall be refused while a run is in it, untouched, and be free as soon as that is killed."""
+    out = tmp_path / "out"
+    process = start(DISC, "-method", "incremental", "-steps", 100000, "-h", 0.5, "-out", out)
+    try:
+        wait_for(lambda: (out / ".run" / ".written").exists())
+        before = listing(tmp_path)
+        done = run_in(ROOT, BLOCK, *TINY, out=out, expect=10)
+        assert "in use" in refused_in_one_line(done.stdout)
+        assert listing(tmp_path) == before
+    finally:
+        process.kill()
+    assert run_in(ROOT, BLOCK, *TINY, out=out).converged  # not even waited for
+    process.wait()
+    process.stdout.close()
+
+
+@pytest.mark.parametrize(
+    "owner, free",
+    [
+        ("{pid} {began} {host}", False),
+        ("{pid} 0 {host}", True),  # another process had that number, before a reboot say
+        ("{dead} 1234 {host}", True),
+        ("{pid} {began} elsewhere", False),
+        ("done", True),
+        ("", True),  # killed before it could say who it was
+    ],
+)
+def test_lock(tmp_path, owner, free):
+    """The lock of a run that is no more shall hold nobody up; that of a live one, or of another computer's, shall."""
+    (tmp_path / ".run").mkdir()
+    dead = subprocess.Popen(["true"])
+    dead.wait()
+    who = {"pid": os.getpid(), "began": started(os.getpid()), "host": platform.node(), "dead": dead.pid}
+    text = owner.format(**who)
+    (tmp_path / ".run" / ".lock-7").write_text(f"{text}\n" if text else "")
+    done = run_in(ROOT, BLOCK, *TINY, out=tmp_path, expect=0 if free else 10)
+    assert sorted(os.listdir(tmp_path / ".run")) == ([".lock-8", ".written"] if free else [".lock-7"])
+    if not free:
+        assert ("another computer" if "elsewhere" in owner else "another run") in refused_in_one_line(done.stdout)
+
+
+@pytest.mark.parametrize("trials", [2, pytest.param(30, marks=pytest.mark.long)])
+def test_one_mesh_made_by_four_runs(tmp_path, trials):
+    """Runs that need the same mesh at the same time shall each get it, whole."""
+    for trial in range(trials):
+        package = tree(tmp_path / f"package{trial}")
+        runs = [start(DISC, "-h", 2, "-vtu", 0, "-out", tmp_path / name, cwd=package) for name in "abcd"]
+        assert [ended(process)[0] for process in runs] == [0, 0, 0, 0]
+        (path,) = (package / "meshes" / "generated").iterdir()
+        assert path.suffix == ".msh"
+
+
+def figures(package, seconds):
+    """`make -j2 figures`, killed with all that it has started after some seconds; its output until then."""
+    command = ["make", "-j2", "-o", ".venv/run.stamp", "-o", "system", f"PYTHON={sys.executable}", "figures"]
+    with open(package / "log", "w+") as log:
+        process = subprocess.Popen(
+            command, cwd=package, env=environment(), stdout=log, stderr=log, start_new_session=True
+        )
+        try:
+            process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        log.seek(0)
+        return process.returncode, log.read()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("trial", range(30))
+def test_figures_begun_on_a_fresh_tree(tmp_path, trial):
+    """`make -j2 figures` shall get on in a fresh clone, and again after a kill, without a failed run."""
+    package = tree(tmp_path / "package")
+    shutil.copytree(ROOT / "postprocess", package / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
+    done = set()
+    for _ in range(2):
+        code, said = figures(package, 20)
+        assert code in (0, -signal.SIGKILL) and "Error" not in said and "refused" not in said, said[-2000:]
+        summaries = set((package / "results" / "figures").glob("*/summary.json"))
+        assert summaries and summaries >= done
+        done = summaries
+        for path in summaries:
+            assert json.loads(path.read_text())["converged"]
+
+
+# ---------------------------------------------------------------- the user's own files, odd names
+
+
+def test_files_of_the_user_stay(tmp_path):
+    """A run shall remove what a run has written into the folder, with the movie drawn from it, and nothing else."""
+    own = ["notes.vtu", "notes.tmp", "state-99.vtu", "mine.gif", "axis.csv"]
+    for name in own:
+        (tmp_path / name).write_text("mine")
+    run_in(ROOT, BLOCK, "-method", "newton", "-h", 5, "-states", 1, out=tmp_path)
+    states = [name for name in files(tmp_path) if name.startswith("state-") and name not in own]
+    assert len(states) > 2
+    code, stdout = execute([sys.executable, "-m", "postprocess", "movie", "--out", tmp_path, tmp_path])
+    assert code == 0 and {"movie.html", "movie.gif"} <= set(files(tmp_path)), stdout
+    run_in(ROOT, BLOCK, *TINY, out=tmp_path)
+    assert files(tmp_path) == sorted([*own, "adaptations.csv", "contact.csv", "history.csv", "summary.json"])
+    for name in ("movie.html", "movie.gif"):
+        (tmp_path / name).write_text("mine")
+    run_in(ROOT, BLOCK, *TINY, out=tmp_path)
+    assert all((tmp_path / name).read_text() == "mine" for name in [*own, "movie.html", "movie.gif"])
+
+
+@pytest.mark.parametrize(
+    "name", ["it's", 'say "this"', "back\\slash", "a  blank", "$HOME", "`date`", "Größe", "a*b", "-x"]
+)
+def test_odd_folder(tmp_path, name):
+    """Any printable name of a folder shall do, and be told rightly in summary.json."""
+    out = tmp_path / "in" / name
+    run_in(ROOT, BLOCK, *TINY, out=out)
+    assert os.listdir(tmp_path / "in") == [name]
+    assert files(out) == ["adaptations.csv", "contact.csv", "history.csv", "summary.json"]
+    assert json.loads((out / "summary.json").read_text())["parameters"]["out"] == str(out)
+
+
+@pytest.mark.parametrize("name, told", [("a\nb", "a\\nb"), ("a\tb", "a\\tb"), ("a\x1bb", "a")])
+def test_control_characters(tmp_path, name, told):
+    """A control character in the folder's name shall be refused in one line."""
+    package = tree(tmp_path / "package")
+    before = listing(package)
+    line = refused_in_one_line(run_in(package, BLOCK, *TINY, "-out", name, expect=10).stdout)
+    assert f"-out {told}" in line and "control character" in line
+    assert listing(package) == before
+
+
+@pytest.mark.parametrize("out", ["x" * 300, "a/" + "y" * 300])
+def test_folder_that_cannot_be_made(tmp_path, out):
+    """A name that is too long shall be refused before anything is made."""
+    package = tree(tmp_path / "package")
+    before = listing(package)
+    assert "not writable" in refused_in_one_line(run_in(package, BLOCK, *TINY, "-out", out, expect=10).stdout)
+    assert listing(package) == before
+
+
+# ---------------------------------------------------------------- kills
+
+
+@pytest.fixture
+def slow_gmsh(tmp_path):
+    """A gmsh that takes its time and notes its process: (environment, file with its number)."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    (folder / "gmsh").write_text(f"#!/bin/sh\necho $$ > '{folder}/began'\nexec sleep 100\n")
+    (folder / "gmsh").chmod(0o755)
+    return environment(PATH=f"{folder}:{os.environ['PATH']}"), folder / "began"
+
+
+@pytest.mark.parametrize("how", ["kill", "kill all", "interrupt"])
+def test_gmsh_ends_with_its_run(tmp_path, slow_gmsh, how):
+    """gmsh shall end with the run that needs the mesh, and nothing of either be left, or be gone with the next run."""
+    env, began = slow_gmsh
+    package = tree(tmp_path / "package")
+    before = listing(package)
+    process = start(DISC, "-h", 2, "-vtu", 0, "-out", tmp_path / "out", cwd=package, env=env)
+    wait_for(lambda: began.exists() and began.read_text().endswith("\n"))
+    gmsh = int(began.read_text())
+    assert started(gmsh)
+    if how == "kill":
+        process.kill()
+    else:
+        os.killpg(process.pid, signal.SIGKILL if how == "kill all" else signal.SIGINT)
+    wait_for(lambda: not started(gmsh), 10)
+    code, stdout = ended(process)
+    assert code == (130 if how == "interrupt" else -signal.SIGKILL)
+    if how == "interrupt":
+        assert stdout.splitlines()[-1] == "interrupted"
+    if how != "kill all":
+        wait_for(lambda: listing(package) == before, 10)
+    run_in(package, DISC, "-h", 2, "-vtu", 0, out=tmp_path / "out")
+    left = set(listing(package)) - set(before) - {"meshes/generated"}
+    assert len(left) == 1 and left.pop().endswith(".msh")
+
+
+def test_larger_copy_goes_with_its_run(mesh, tmp_path):
+    """The copy of a mesh that FreeFEM reads shall go when its run is killed, or at the latest with the next copy."""
+    path = mesh(0.3)
+    for kind in ("freefem-mesh-1-2.msh.{}", "freefem-mesh-3-4.msh"):
+        dead = subprocess.Popen(["true"])
+        dead.wait()
+        (tmp_path / kind.format(dead.pid)).write_text(f"$Run\n{dead.pid}\n$EndRun\n")
+    (tmp_path / "freefem-mesh-of-mine.msh").write_text("mine\n")
+    run = subprocess.Popen(["sleep", "100"])
+    try:
+        copy = tmp_path / "freefem-mesh-5-6.msh"
+        assert execute(["sh", "edp/bodies/larger.sh", run.pid, path, copy])[0] == 0
+        assert sorted(os.listdir(tmp_path)) == ["freefem-mesh-5-6.msh", "freefem-mesh-of-mine.msh"]
+    finally:
+        run.kill()
+    wait_for(lambda: not copy.exists(), 5)
+    run.wait()
+    assert execute(["sh", "edp/bodies/larger.sh", os.getpid(), path, tmp_path / "none" / copy.name])[0] == 4
+
+
+def test_nothing_left_in_tmp(mesh, tmp_path):
+    """A run of a mesh of the user's shall leave no copy of it."""
+
+    def copies():
+        return {name for name in os.listdir("/tmp") if name.startswith("freefem-mesh-")}
+
+    before = copies()
+    run_in(ROOT, BODIES, "-mesh", mesh(0.3), "-vtu", 0, out=tmp_path / "out")
+    wait_for(lambda: not copies() - before, 10)  # those of other runs come and go
+
+
+# ---------------------------------------------------------------- no room
+
+
+def no_room(limit):
+    """A preexec_fn: writing a file beyond the limit fails, as on a full disk."""
+
+    def limited():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    return limited
+
+
+def limited_run(package, script, limit, *flags):
+    done = subprocess.run(
+        [*FREEFEM, script, *map(str, flags)],
+        cwd=package,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        preexec_fn=no_room(limit),
+        timeout=100,
+    )
+    return done.returncode, done.stdout
+
+
+def test_no_place_for_a_mesh(tmp_path):
+    """Where meshes/generated cannot be made or has no room, the run shall say so in one line and leave nothing."""
+    package = tree(tmp_path / "package")
+    before = listing(package)
+    code, stdout = limited_run(package, DISC, 2000, "-h", 2, "-out", tmp_path / "out")
+    assert code == 10 and "meshes/generated cannot be written" in refused_in_one_line(stdout)
+    assert listing(package) == before
+    (package / "meshes" / "generated").touch()
+    before = listing(package)
+    done = run_in(package, DISC, "-h", 2, out=tmp_path / "out", expect=10)
+    assert "meshes/generated cannot be written" in refused_in_one_line(done.stdout)
+    assert listing(package) == before and not (tmp_path / "out").exists()
+
+
+def test_no_room_for_the_larger_copy(mesh, tmp_path):
+    """Where /tmp has no room for the copy of a mesh, the run shall say so in one line and leave nothing."""
+    code, stdout = limited_run(ROOT, BODIES, 5000, "-mesh", mesh(0.3), "-out", tmp_path / "out")
+    assert code == 10 and "/tmp" in refused_in_one_line(stdout)
+    assert not (tmp_path / "out").exists()
+
+
+# ---------------------------------------------------------------- load series
+
+
+def interrupted_series(*words, cwd=ROOT, rows=4):
+    """Kill a load series once it has written some rows."""
+    out = words[words.index("-out") + 1]
+    process = start(*words, cwd=cwd)
+    try:
+        wait_for(
+            lambda: (
+                process.poll() is not None or ((out / "series.csv").exists() and len(table(out / "series.csv")) >= rows)
+            )
+        )
+        assert process.poll() is None, ended(process)
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+    time.sleep(0.3)  # a table that was just being moved into place still is
+
+
+@pytest.mark.parametrize("method", ["xnewton", "paper"])
+def test_series_counts_go_on(tmp_path, method):
+    """An interrupted series shall end with the forces and counts of one that was not."""
+    flags = ["-method", method, "-h", 0.5, "-history", 1, "-steps", 20, "-vtu", 0]
+    whole = run_in(ROOT, DISC, *flags, out=tmp_path / "whole")
+    out = tmp_path / "halved"
+    interrupted_series(DISC, *flags, "-out", out)
+    resumed = run_in(ROOT, DISC, *flags, out=out)
+    assert "goes on after step" in resumed.stdout
+    rows, expected = (table(folder / "series.csv") for folder in (out, whole.folder))
+    np.testing.assert_array_equal(rows["step"], expected["step"])
+    np.testing.assert_allclose(rows["force"], expected["force"], rtol=1e-9)
+    np.testing.assert_array_equal(rows["newton"], expected["newton"])
+    extra = rows["backsolves"] - expected["backsolves"]
+    assert (np.diff(extra) >= 0).all() and extra[0] == 0
+    assert extra[-1] <= (method == "xnewton")  # the kernel is fitted once more
+    assert whole.newton > resumed.newton == len(resumed.history)
+
+
+CHANGED = ["table", "finer mesh", "coarser mesh", "sources", "flag"]
+
+
+@pytest.mark.parametrize("what", CHANGED)
+def test_series_of_another_problem(mesh, tmp_path, what):
+    """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
+    package = tree(tmp_path / "package")
+    out, file = tmp_path / "out", tmp_path / "given"
+    script, flags = DISC, ["-h", 1]
+    if what == "table":
+        file.write_text("".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6)))
+        flags += ["-law", "table", "-table", file]
+    elif "mesh" in what:
+        script, flags = BODIES, ["-mesh", file]
+        shutil.copy(mesh(0.3), file)
+    flags += ["-history", 1, "-steps", 30, "-vtu", 0]
+    interrupted_series(script, *flags, "-out", out, cwd=package, rows=3)
+    if what == "table":
+        file.write_text(file.read_text().replace("0.5,0.25", "0.5,0.2501"))
+    elif "mesh" in what:
+        shutil.copy(mesh(0.2 if what == "finer mesh" else 0.5), file)
+    elif what == "sources":
+        with open(package / "edp" / "laws" / "power.idp", "a") as source:
+            source.write("// changed\n")
+    else:
+        flags += ["-E", 101]
+    again = run_in(package, script, *flags, out=out)
+    assert "begun anew" in again.stdout and "goes on" not in again.stdout
+    fresh = run_in(package, script, *flags, out=tmp_path / "fresh")
+    assert (out / "series.csv").read_bytes() == (fresh.folder / "series.csv").read_bytes()
+    assert "begun anew" not in fresh.stdout
+
+
+def test_series_that_is_complete(tmp_path):
+    """A complete series shall be begun anew; a run without one, or one that fails at once, shall keep none of it."""
+    flags = ["-method", "newton", "-h", 5, "-history", 1, "-steps", 3, "-vtu", 0]
+    out = tmp_path / "out"
+    run_in(ROOT, BLOCK, *flags, out=out)
+    assert "complete" in run_in(ROOT, BLOCK, *flags, out=out).stdout
+    assert {"series.csv", "series.state"} <= set(files(out))
+    run_in(ROOT, BLOCK, *flags, "-maxNewton", 1, out=out, expect=20)
+    assert not {"series.csv", "series.state"} & set(files(out))
+    run_in(ROOT, BLOCK, *flags, out=out)
+    run_in(ROOT, BLOCK, *TINY, out=out)
+    assert files(out) == ["adaptations.csv", "contact.csv", "history.csv", "summary.json"]
+
+
+@pytest.mark.parametrize("scene", ["disc-on-block", "hertz-line", "meshed-disc", "two-cylinders", "two-bodies"])
+def test_series_of_the_exact_distance(tmp_path, scene):
+    """A load series with the true distance shall be refused: its table would be the linear problem's."""
+    flags = ["-distance", "exact", "-history", 1, *([] if scene == "two-bodies" else ["-h", 2])]
+    flags += ["-force", 0] if scene in ("hertz-line", "two-cylinders") else []
+    (line,) = run_in(ROOT, scene_script(scene), *flags, out=tmp_path / "out", expect=10).stdout.splitlines()
+    assert "-distance exact" in line and "-history" in line
+    assert not (tmp_path / "out").exists()
+
+
+# ---------------------------------------------------------------- stresses below the contact
+
+
+@pytest.mark.parametrize("scene, flags", [("disc-on-block", ["-depth", 2]), ("meshed-disc", ["-u0", 4, "-order", 2])])
+def test_axis_ends_with_the_body(tmp_path, scene, flags):
+    """axis.csv shall end at the body's bottom: no rows of zeros from beside the body."""
+    done = run_in(ROOT, scene_script(scene), *flags, "-h", 0.5, "-axis", 1, "-vtu", 0, out=tmp_path / "out")
+    rows = table(tmp_path / "out" / "axis.csv")
+    assert len(rows) == 200 and (np.diff(rows["depth"]) > 0).all()
+    assert (rows["s22"] != 0).all()
+    depth = done.summary["parameters"]["depth"]
+    assert rows["depth"][-1] <= depth * (1 + 1e-6)
+    if scene == "disc-on-block":
+        assert rows["depth"][-1] == pytest.approx(depth, rel=1e-6)
