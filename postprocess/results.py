@@ -276,6 +276,11 @@ def read_summary(path: Path) -> dict:
                 raise ResultsError(path, f"key {key} is not a {kind}: {summary[key]!r}"[:200])
     if not isinstance(summary["converged"], bool):
         raise ResultsError(path, f"key converged is not true or false: {summary['converged']!r}"[:200])
+    said = summary.setdefault("warnings", [])
+    if not isinstance(said, list) or not all(isinstance(text, str) for text in said):
+        raise ResultsError(path, f"key warnings is not a list of texts: {said!r}"[:200])
+    if not isinstance(summary.setdefault("message", ""), str):
+        raise ResultsError(path, f"key message is not a text: {summary['message']!r}"[:200])
     steps = summary["newtonPerAdaptation"]
     if not isinstance(steps, list) or not all(map(kinds["count"], steps)):
         raise ResultsError(path, f"key newtonPerAdaptation is not a list of counts: {steps!r}"[:200])

@@ -498,7 +498,7 @@ class TestInABrowser:
         ("disc-on-block", ["-h", 1, "-method", "paper", "-T0", "d0", "-kappa", 1e6, "-nu", 0.25]),
         ("disc-on-block", ["-h", 1, "-inner", "newton", "-start", "none", "-tol", 1e-8]),
         ("confined-block", ["-h", 5, "-method", "incremental", "-steps", 3]),
-        ("rough", ["-h", 0.5, "-u0", 2.5, "-law", "exponential"]),
+        ("rough", ["-h", 0.5, "-modes", 20, "-u0", 2.5, "-law", "exponential"]),
     ],
 )
 def test_the_command_makes_the_run_again(tmp_path, scene, flags):
