@@ -1,4 +1,4 @@
-"""The frames of a movie: points on the law's curve, pressure profile, deformed bodies; one frame per Newton step."""
+"""The frames of a movie: points on the law's curve over s = d - d0, pressure profile, deformed bodies; one frame per Newton step."""
 
 from dataclasses import dataclass
 
@@ -29,13 +29,13 @@ LOOKS = {
 
 @dataclass(frozen=True)
 class Plane:
-    """Limits of the (overlap, pressure) plane, the law's curve in it, and its end of contact."""
+    """Limits of the plane of s = d - d0 and pressure, the law's curve in it, and its end of contact."""
 
     left: float
     right: float
     top: float
     curve: tuple[np.ndarray, np.ndarray] | None
-    at: object  # overlap -> pressure, or None
+    at: object  # s -> pressure, or None
 
 
 class Movie:
@@ -74,13 +74,13 @@ class Movie:
         axes, plane, steps = self.left, self.plane, self.steps
         if plane.curve is not None:
             axes.plot(*plane.curve, color=style.BLACK, linewidth=1.0, zorder=2)
-        walls = np.unique(steps.threshold[index][np.isfinite(steps.threshold[index])])
+        walls = np.unique(steps.tau[index][np.isfinite(steps.tau[index])])
         walls = walls[(walls > plane.left) & (walls < plane.right)]
         foot = plane.at(walls) if plane.at is not None else np.zeros(len(walls))
         seen = foot < plane.top
         segments = [[(wall, low), (wall, plane.top)] for wall, low in zip(walls[seen], foot[seen], strict=True)]
         axes.add_collection(LineCollection(segments, color=style.VERMILION, linewidth=0.9, alpha=0.7, zorder=1))
-        overlap, pressure = steps.overlap[index], steps.pressure[index]
+        overlap, pressure = steps.s[index], steps.pressure[index]
         bottom = -0.06 * plane.top
         at = np.clip(overlap, plane.left, plane.right), np.clip(pressure, bottom, plane.top)
         outside = (overlap > plane.right) | (pressure > plane.top) | (pressure < bottom)
@@ -97,9 +97,9 @@ class Movie:
             axes.scatter(at[0][chosen], at[1][chosen], c=colors, marker=marker, s=28, clip_on=False, zorder=5)
         axes.set_xlim(plane.left, plane.right)
         axes.set_ylim(bottom, plane.top)
-        axes.set_xlabel(f"overlap $d$ [{self.units.length}]")
+        axes.set_xlabel(f"overlap of the asperities $s = d - d_0$ [{self.units.length}]")
         axes.set_ylabel(f"pressure $p$ [{self.units.stress}]")
-        axes.set_title(wall_words(walls, steps.threshold[index], plane), fontsize=9, loc="left")
+        axes.set_title(wall_words(walls, steps.tau[index], plane), fontsize=9, loc="left")
 
     def draw_profile(self, index: int) -> None:
         """Pressure along the contact; the last step's as a line to compare with."""
@@ -155,14 +155,14 @@ def title(run: Run, index: int) -> str:
     return f"load step {history['step'][row]} of {last}, {words}" if last > 1 else words
 
 
-def wall_words(walls: np.ndarray, threshold: np.ndarray, plane: Plane) -> str:
+def wall_words(walls: np.ndarray, tau: np.ndarray, plane: Plane) -> str:
     """What the vertical lines are."""
-    if not np.isfinite(threshold).any():
+    if not np.isfinite(tau).any():
         return "law; no wall"
     name = "law" if plane.curve is not None else "points"
     if len(walls) == 0:
         return f"{name}; wall beyond the picture"
-    return f"{name}; wall at $T = {style.number(walls[0])}$" if len(walls) == 1 else f"{name}; walls: $T$ of the points"
+    return f"{name}; wall at $T - d_0 = {style.number(walls[0])}$" if len(walls) == 1 else f"{name}; walls: the points' $T - d_0$"
 
 
 def states_of_steps(run: Run) -> np.ndarray:
@@ -177,28 +177,27 @@ def states_of_steps(run: Run) -> np.ndarray:
 def plane_of(run: Run) -> Plane:
     """Limits that show the last step well and most of the others; a few far points are left outside."""
     steps, law = run.steps, law_of(run)
-    start = finite(run, "d0", float(steps.overlap[-1].min()))
-    if max(abs(start), np.abs(steps.overlap).max(), np.abs(steps.pressure).max()) > HUGE:
+    if max(np.abs(steps.s).max(), np.abs(steps.pressure).max()) > HUGE:
         raise ResultsError(run.path, f"holds overlaps or pressures beyond {HUGE:g}, too large to be drawn")
     after = slice(1, None) if len(steps.newton) > 1 else slice(None)
-    greatest, pressures = steps.overlap[after].max(axis=1), steps.pressure[after].max(axis=1)
+    greatest, pressures = steps.s[after].max(axis=1), steps.pressure[after].max(axis=1)
     top = 1.12 * max(pressures[-1], np.quantile(pressures, 0.8))
-    walls = steps.threshold[after][steps.status[after] == WALL]
+    walls = steps.tau[after][steps.status[after] == WALL]
     ends = [greatest[-1], np.quantile(greatest, 0.85), *walls[:1], *walls[-1:]]
-    span = max(max(ends) - start, 0.0)
+    span = max(*ends, 0.0)
     if span == 0 or not np.isfinite(span):
-        span = abs(start) or float(np.ptp(steps.overlap[-1])) or 1.0
-    left, right = start - 0.45 * span, start + 1.12 * span
+        span = abs(finite(run, "d0", 0.0)) or float(np.ptp(steps.s[-1])) or 1.0
+    left, right = -0.45 * span, 1.12 * span
     if not top > 0:
         top = 1.0 if law is None else max(float(law(np.array([right]))[0]), 1e-300)
         top = top if np.isfinite(top) and top > 0 else 1.0
     if law is None:
         return Plane(left, right, float(top), None, None)
-    end = overlap_at(law, 1.05 * top, start, right)
-    overlap = np.concatenate([[left], start + (end - start) * np.linspace(0, 1, 400)])
+    end = overlap_at(law, 1.05 * top, 0.0, right)
+    overlap = np.concatenate([[left], end * np.linspace(0, 1, 400)])
     pressure = np.minimum(law(overlap), 1.05 * top)
     if run.summary["parameters"].get("law") == "signorini":
-        overlap, pressure = np.array([left, start]), np.zeros(2)
+        overlap, pressure = np.array([left, 0.0]), np.zeros(2)
     return Plane(left, right, float(top), (overlap, pressure), law)
 
 

@@ -1,4 +1,4 @@
-"""The law of a run as a curve: pressure against overlap, from the parameters in its summary."""
+"""The law of a run as a curve: pressure against overlap of the asperities, from the parameters in its summary."""
 
 from collections.abc import Callable
 
@@ -10,13 +10,13 @@ Law = Callable[[np.ndarray], np.ndarray]
 
 
 def law_of(run: Run) -> Law | None:
-    """overlap (n,) -> pressure (n,) of the run's law, 0 below d0; inf where the law is; None for a law made of data."""
+    """s = d - d0 (n,) -> pressure (n,) of the run's law, 0 below 0; inf where the law is; None for a law made of data."""
     name = run.summary["parameters"].get("law", "power")
     if name not in ("power", "exponential", "barrier", "signorini"):
         return None
     d0 = run.parameter("d0")
     if name == "signorini":
-        return lambda overlap: np.zeros(len(overlap))
+        return lambda s: np.zeros(len(s))
     if name == "power":
         kappa, exponent = run.parameter("kappa"), run.parameter("m")
         of_asperities = lambda s: kappa * s**exponent  # noqa: E731
@@ -27,9 +27,9 @@ def law_of(run: Run) -> Law | None:
         scale = run.parameter("p0")
         of_asperities = lambda s: np.where(s < -d0, scale * s / np.maximum(-d0 - s, 1e-300), np.inf)  # noqa: E731
 
-    def pressure(overlap: np.ndarray) -> np.ndarray:
+    def pressure(s: np.ndarray) -> np.ndarray:
         with np.errstate(over="ignore", invalid="ignore"):
-            return of_asperities(np.maximum(np.asarray(overlap, float) - d0, 0))
+            return of_asperities(np.maximum(np.asarray(s, float), 0))
 
     return pressure
 

@@ -105,7 +105,7 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
 def overview(tree: Tree) -> list[Markup]:
     """A row per run."""
     columns = (
-        "run,converged,scene,method,element,h,dofs,adaptations,Newton steps,factorisations,back-substitutions,"
+        "run,converged,warnings,scene,method,element,h,dofs,adaptations,Newton steps,factorisations,back-substitutions,"
         "force,greatest pressure,half-width,CPU s"
     ).split(",")
     rows = []
@@ -116,13 +116,14 @@ def overview(tree: Tree) -> list[Markup]:
             [
                 element("a", tree.name(run.path), href=f"#run-{index}"),
                 verdict(summary["converged"], "yes", "NO"),
+                verdict(not summary["warnings"], "0", str(len(summary["warnings"]))),
                 *(summary["scene"], summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
                 *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
                 *(short(summary[name]) for name in "force pressureMax halfWidth".split()),
                 f"{seconds:.2f}" if is_number(seconds) else "–",
             ]
         )
-    return [table("All runs", columns, rows, [5, 6, *range(7, 15)])]
+    return [table("All runs", columns, rows, [2, 6, 7, *range(8, 16)])]
 
 
 def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
@@ -303,7 +304,8 @@ def details(tree: Tree, run: Run, index: int) -> Markup:
         element("pre", command(run)),
     ]
     if not summary["converged"]:
-        parts.append(element("p", f"Not converged. {summary.get('message', '')}", class_="fail"))
+        parts.append(element("p", f"Not converged. {summary['message']}", class_="fail"))
+    parts += [element("p", f"Warning: {text}", class_="fail") for text in summary["warnings"]]
     parts.append(folded(style.count(count, "Newton step"), steps))
     parts.append(folded("Results and parameters", element("div", joined(tables), class_="columns")))
     return element("article", joined(parts), aria_labelledby=f"run-{index}")

@@ -25,16 +25,16 @@ HISTORY = (
     "step adaptation iteration newton residual contactPoints statusChanges wallPoints overlapMax force "
     "factorisations backsolves seconds"
 ).split()
-CONTACT = "x y weight overlap pressure lambda status threshold".split()
-ADAPTATIONS = "adaptation x y overlap pressure lambda status threshold".split()
-STEPS = "adaptation newton x y overlap pressure lambda status threshold".split()
+CONTACT = "x y weight overlap pressure lambda status threshold s tau".split()
+ADAPTATIONS = "adaptation x y overlap pressure lambda status threshold s tau".split()
+STEPS = "adaptation newton x y overlap pressure lambda status threshold s tau".split()
 TRIANGLES = "a b c region".split()
 STATES = "state adaptation newton vertex x y ux uy".split()
 WHOLE = frozenset(
     "step adaptation iteration newton contactPoints statusChanges wallPoints factorisations backsolves status "
     "a b c region state vertex".split()
 )
-MAY_BE_INFINITE = frozenset({"threshold"})  # +inf: a model without a wall
+MAY_BE_INFINITE = frozenset({"threshold", "tau"})  # +inf: a model without a wall
 
 SUMMARY = {
     "text": "scene method".split(),
@@ -86,6 +86,7 @@ class Steps:
     adaptation, newton: (S,) int, the step that led to each state; both 0 before the first one.
     x, y:   (P,) undeformed coordinates [length].
     overlap, pressure, multiplier, status, threshold: (S, P); threshold may be inf (no wall).
+    s, tau: (S, P) overlap and threshold from d0 on, with the digits that d0 swallows.
     """
 
     adaptation: np.ndarray
@@ -97,6 +98,8 @@ class Steps:
     multiplier: np.ndarray
     status: np.ndarray
     threshold: np.ndarray
+    s: np.ndarray
+    tau: np.ndarray
 
 
 @dataclass
@@ -130,7 +133,7 @@ class Run:
 
     @cached_property
     def adaptations(self) -> list[Table]:
-        """A table per model solved, columns ADAPTATIONS, points sorted by x; threshold is the T^N of that model.
+        """A table per model solved, columns ADAPTATIONS, points sorted by x; threshold is the T^N of that model, tau T^N - d0.
 
         With load steps the models of all steps follow one another, as in the summary's newtonPerAdaptation.
         """
@@ -207,7 +210,7 @@ class Run:
             if np.any(grid[name] != reference):
                 raise ResultsError(path, f"column {name} differs from row to row of a step, or from step to step")
         order = np.lexsort((grid["y"][0], grid["x"][0]))
-        fields = [grid[name][:, order] for name in "overlap pressure lambda status threshold".split()]
+        fields = [grid[name][:, order] for name in "overlap pressure lambda status threshold s tau".split()]
         labels = grid["adaptation"][:, 0], grid["newton"][:, 0]
         return Steps(*labels, grid["x"][0, order], grid["y"][0, order], *fields)
 
@@ -273,6 +276,11 @@ def read_summary(path: Path) -> dict:
                 raise ResultsError(path, f"key {key} is not a {kind}: {summary[key]!r}"[:200])
     if not isinstance(summary["converged"], bool):
         raise ResultsError(path, f"key converged is not true or false: {summary['converged']!r}"[:200])
+    said = summary.setdefault("warnings", [])
+    if not isinstance(said, list) or not all(isinstance(text, str) for text in said):
+        raise ResultsError(path, f"key warnings is not a list of texts: {said!r}"[:200])
+    if not isinstance(summary.setdefault("message", ""), str):
+        raise ResultsError(path, f"key message is not a text: {summary['message']!r}"[:200])
     steps = summary["newtonPerAdaptation"]
     if not isinstance(steps, list) or not all(map(kinds["count"], steps)):
         raise ResultsError(path, f"key newtonPerAdaptation is not a list of counts: {steps!r}"[:200])

@@ -30,7 +30,7 @@ SUMMARY_KEYS = set(
     "parameters".split()
 )
 SECONDS_KEYS = set("mesh assembly factorisation contact total".split())
-CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold".split())
+CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold s tau".split())
 SPACE_COLUMNS = ("x", "y", "z", *CONTACT_COLUMNS[2:])
 TIMEOUT = 280  # seconds; a run that hangs is a failure, not a hanging suite
 
@@ -251,12 +251,12 @@ def check_invariants(run):
 
 
 def check_numbers(run):
-    """No NaN in any file; infinity is the threshold of a point without a wall, and nothing else."""
+    """No NaN in any file; infinity is the threshold, T or tau, of a point without a wall, and nothing else."""
     assert "nan" not in run.stdout.lower()
     for rows in (run.contact, run.history, run.models):
         for name in rows.dtype.names:
             assert not np.isnan(rows[name]).any(), name
-            assert name == "threshold" or np.isfinite(rows[name]).all(), name
+            assert name in ("threshold", "tau") or np.isfinite(rows[name]).all(), name
 
 
 def check_fields(run):
@@ -275,6 +275,9 @@ def check_fields(run):
     assert (share >= -max(slack, 1e-12) * max(pressure.max(), 0)).all()
     assert (share[status != WALL] == 0).all()
     wall = status == WALL
+    d0 = summary["parameters"]["d0"]
+    assert (contact["overlap"] == contact["s"] + d0).all()
+    assert (contact["threshold"] == contact["tau"] + d0).all()
     off = abs(contact["overlap"] - contact["threshold"])[wall]
     assert (off <= 10 * slack * abs(summary["approach"])).all()
     assert summary["wallPoints"] == wall.sum()
@@ -287,7 +290,7 @@ def check_fields(run):
 
 def check_thresholds(run):
     """Proposition 4.1: from one model of a load step to the next no threshold decreases, at any point."""
-    threshold, step = run.models["threshold"], run.load_step
+    threshold, step = run.models["tau"], run.load_step
     assert len(step) == len(threshold)
     for (before, after), same in zip(pairwise(threshold), np.diff(step) == 0, strict=True):
         assert not same or (after >= before).all()
@@ -295,7 +298,7 @@ def check_thresholds(run):
 
 def check_last_model(run):
     """The contact table is that of the last model that was solved."""
-    for name in ("overlap", "pressure", "lambda", "threshold"):
+    for name in ("overlap", "pressure", "lambda", "threshold", "s", "tau"):
         assert (run.models[name][-1] == run.contact[name]).all(), name
 
 

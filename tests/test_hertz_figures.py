@@ -41,7 +41,7 @@ def test_hertz_needs_a_force(tmp_path, capsys):
 
 def test_series(tmp_path):
     """Force against approach of a load series shall be drawn."""
-    done = run("rough", "-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 4)
+    done = run("rough", "-method", "xnewton", "-h", 0.5, "-modes", 20, "-history", 1, "-steps", 4)
     out = tmp_path / "series.pdf"
     assert main(["figure", "series", "--out", str(out), str(done.folder)]) == 0
     assert out.stat().st_size > 5_000

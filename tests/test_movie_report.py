@@ -150,17 +150,17 @@ class TestFrames:
         assert np.all(np.diff(steps.x) > 0) and not steps.pressure[0].any()
 
     @pytest.mark.parametrize(
-        "law, overlap, pressure",
+        "law, s, pressure",
         [
-            ({"law": "power", "kappa": 1000, "m": 3, "d0": -0.25}, [-0.3, -0.25, 0.0], [0, 0, 15.625]),
-            ({"law": "exponential", "p0": 0.02, "beta": 60, "d0": -0.25}, [-0.3, -0.15], [0, 0.02 * math.expm1(6)]),
-            ({"law": "barrier", "p0": 1, "d0": -0.25}, [-0.3, -0.125, -0.05, 0], [0, 1, 4, math.inf]),
-            ({"law": "signorini", "d0": -0.25}, [-0.3, 1], [0, 0]),
+            ({"law": "power", "kappa": 1000, "m": 3, "d0": -0.25}, [-0.05, 0.0, 0.25], [0, 0, 15.625]),
+            ({"law": "exponential", "p0": 0.02, "beta": 60, "d0": -0.25}, [-0.05, 0.1], [0, 0.02 * math.expm1(6)]),
+            ({"law": "barrier", "p0": 1, "d0": -0.25}, [-0.05, 0.125, 0.2, 0.25], [0, 1, 4, math.inf]),
+            ({"law": "signorini", "d0": -0.25}, [-0.05, 1.25], [0, 0]),
         ],
     )
-    def test_the_laws_curves(self, brief, law, overlap, pressure):
+    def test_the_laws_curves(self, brief, law, s, pressure):
         """The curve shall be that of the run's parameters."""
-        assert law_of(loaded(brief, parameters=law))(np.array(overlap)) == pytest.approx(pressure)
+        assert law_of(loaded(brief, parameters=law))(np.array(s)) == pytest.approx(pressure)
 
     def test_no_curve_of_a_table(self, brief):
         """A law made of data has no curve; the points stand for it."""
@@ -182,13 +182,13 @@ class TestFrames:
         assert movie.count == found.summary["newton"] + 1
         dots = np.concatenate([line.get_xydata() for line in movie.left.lines[1:]])
         contact = found.contact
-        inside = contact["overlap"] >= movie.plane.left
-        expected = np.column_stack([contact["overlap"], contact["pressure"]])[inside]
+        inside = contact["s"] >= movie.plane.left
+        expected = np.column_stack([contact["s"], contact["pressure"]])[inside]
         assert sorted(map(tuple, dots)) == sorted(map(tuple, expected))
         (disc,) = movie.below.patches
         p = found.summary["parameters"]
         assert disc.get_xy()[:, 1].min() == pytest.approx(p["depth"] + p["gap"] - p["u0"], abs=1e-6)
-        assert movie.left.get_xlabel() == "overlap $d$ [mm]" and movie.below.get_aspect() == 1
+        assert movie.left.get_xlabel() == "overlap of the asperities $s = d - d_0$ [mm]" and movie.below.get_aspect() == 1
         assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1399$"
         assert title(found, 0) == "before the first of 12 Newton steps"
 
@@ -200,8 +200,8 @@ class TestFrames:
         steps = movie.steps
         shown = sum(len(line.get_xdata()) for line in movie.left.lines[1:])
         arrows = sum(len(each.get_offsets()) for each in movie.left.collections[1:])
-        assert arrows == np.sum(steps.overlap[0] > movie.plane.right) > 0
-        assert shown + arrows == np.sum(steps.overlap[0] >= movie.plane.left)
+        assert arrows == np.sum(steps.s[0] > movie.plane.right) > 0
+        assert shown + arrows == np.sum(steps.s[0] >= movie.plane.left)
 
     def test_two_meshed_bodies(self, bodies):
         """Where both bodies are meshed no obstacle is drawn beside them."""
@@ -498,7 +498,7 @@ class TestInABrowser:
         ("disc-on-block", ["-h", 1, "-method", "paper", "-T0", "d0", "-kappa", 1e6, "-nu", 0.25]),
         ("disc-on-block", ["-h", 1, "-inner", "newton", "-start", "none", "-tol", 1e-8]),
         ("confined-block", ["-h", 5, "-method", "incremental", "-steps", 3]),
-        ("rough", ["-h", 0.5, "-u0", 2.5, "-law", "exponential"]),
+        ("rough", ["-h", 0.5, "-modes", 20, "-u0", 2.5, "-law", "exponential"]),
     ],
 )
 def test_the_command_makes_the_run_again(tmp_path, scene, flags):

@@ -96,6 +96,7 @@ def winkler(method, x, first, steps, push):
                 row += (np.sum(status == 2), overlap.max(), weight @ pressure, count, count, 0.01 * count)
                 history.append(row)
             models.append((x, 0 * x + DEPTH, overlap, pressure, multiplier, status, threshold))
+            models[-1] += (overlap - D0, threshold - D0)
             wall = status == 2
             if method != "paper" or not wall.any():
                 break
@@ -397,7 +398,7 @@ class TestRefusals:
     def test_unknown_status(self, broken):
         folder = broken()
         path = folder / "contact.csv"
-        path.write_text(re.sub(r",[012],([^,]+)\n$", r",3,\1\n", path.read_text()))
+        path.write_text(re.sub(r",[012](,[^,]+,[^,]+,[^,]+)\n$", r",3\1\n", path.read_text()))
         assert "column status has 3" in refusal(folder, "contact")
 
     def test_fraction_where_a_count_belongs(self, broken):

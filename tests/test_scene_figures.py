@@ -265,7 +265,7 @@ def test_other_scenes_are_refused(tmp_path, capsys, name, runs, words):
     "name, scene, flags, words",
     [
         ("punch", "flat-punch", ["-h", 1], "a run without -force"),
-        ("waves", "wavy", ["-h", 1], "a run without -force"),
+        ("waves", "wavy", ["-h", 0.5], "a run without -force"),
         ("waves", "wavy", ["-h", 0.5, "-waves", 4, "-force", 10], "fewer than five waves"),
     ],
 )

@@ -50,6 +50,8 @@ def table(first: Run, second: Run) -> list[str]:
         for run in (first, second)
     ]
     seconds = [name for name in both[0] if name.startswith("seconds.") and name in both[1]]
+    said = [cell(len(run.summary.get("warnings", []))) for run in (first, second)]
+    rows.append(["warnings", *said, "" if said[0] == said[1] else "differs", ""])
     for name in [*VALUES, *seconds]:
         if name in both[0] and name in both[1]:
             rows.append(row(name, both[0][name], both[1][name]))
@@ -68,6 +70,10 @@ def table(first: Run, second: Run) -> list[str]:
             *(text.rjust(width) for text, width in zip(line[1:], widths[1:], strict=True)),
         ]
         aligned.append("  ".join(cells).rstrip())
+    for run in (first, second):
+        aligned += [f"warning of {run.path}: {text}" for text in run.summary.get("warnings", [])]
+        if run.summary.get("message"):
+            aligned.append(f"not converged, {run.path}: {run.summary['message']}")
     return aligned
 
 

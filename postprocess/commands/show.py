@@ -8,7 +8,7 @@ import argparse
 from postprocess.results import read_run
 
 GROUPS = {
-    "run": "scene method converged".split(),
+    "run": "scene method converged message warnings".split(),
     "cost": "adaptations newton newtonPerAdaptation kernelNewton factorisations backsolves costRatio".split(),
     "contact": "force approach pressureMax overlapMax halfWidth halfWidthMoment contactPoints wallPoints".split(),
     "balance": "reactionX reactionY reactionMoment contactMoment".split(),
@@ -38,8 +38,12 @@ def table(summary: dict) -> list[str]:
     name_width = max(len(name) for group in groups.values() for name in group) + 2
     lines = []
     for title, group in groups.items():
-        for row, (name, value) in enumerate(group.items()):
-            lines.append(f"{title if row == 0 else '':<{title_width}}{name:<{name_width}}{cell(value)}")
+        row = 0
+        for name, value in group.items():
+            # a warning a line: each is a sentence
+            for text in map(cell, value) if name == "warnings" and value else [cell(value)]:
+                lines.append(f"{title if row == 0 else '':<{title_width}}{name:<{name_width}}{text}")
+                row += 1
         lines.append("")
     return lines[:-1]
 

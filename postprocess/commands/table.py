@@ -44,4 +44,5 @@ def values(run: Run) -> dict:
     summary = run.summary
     found = {"run": str(run.path), **{name: summary[name] for name in ("scene", "method", "converged")}}
     found |= {name: summary[name] for name in VALUES if name in summary}
+    found |= {"message": summary.get("message", ""), "warnings": "; ".join(summary.get("warnings", []))}
     return found | {f"seconds.{name}": value for name, value in summary["seconds"].items()}

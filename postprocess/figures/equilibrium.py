@@ -32,24 +32,24 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.plot(s, stiffness * (end - d0 - s), color=style.BLACK)
     for index, run in enumerate(runs):
         look = style.curve(index)
-        overlap, pressure = state(run)
+        overlap, pressure, reached = state(run)
         law = law_of(run)
         if run.summary["parameters"].get("law") == "signorini" or run.summary["method"] == "signorini":
             left.plot([d0, d0], [0, 1.2 * hard], color=look["color"], linestyle=(0, (4, 1.5)))
         elif law is not None:
-            curve = law(d0 + s)
+            curve = law(s)
             left.plot([d0, *(d0 + s)], [0, *curve], color=look["color"], linewidth=0.9)
             right.plot(s, curve, color=look["color"], linewidth=0.9)
         elif (run.path / "series.csv").exists():
             rows = read_table(run.path / "series.csv", ["overlapMax", "pressureMax"])
             touched = rows["pressureMax"] > 0
-            reached, carried = rows["overlapMax"][touched], rows["pressureMax"][touched]
-            left.plot([d0, *reached], [0, *carried], color=look["color"], linewidth=0.9)
-            right.plot(reached - d0, carried, color=look["color"], linewidth=0.9)
+            steps, carried = rows["overlapMax"][touched], rows["pressureMax"][touched]
+            left.plot([d0, *steps], [0, *carried], color=look["color"], linewidth=0.9)
+            right.plot(steps - d0, carried, color=look["color"], linewidth=0.9)
         dot = {**look, "linestyle": "none", "markersize": 5, "zorder": 4}
         left.plot(overlap, pressure, label=style.interface(run), clip_on=False, **dot)
-        if overlap - d0 >= s[0]:
-            right.plot(overlap - d0, pressure, **dot)
+        if reached >= s[0]:
+            right.plot(reached, pressure, **dot)
     left.set_xlim(d0 - 0.05 * (end - d0), end)
     left.set_ylim(0, 1.2 * hard)
     left.set_xlabel(f"overlap $d$ [{units.length}]")
@@ -73,6 +73,6 @@ def block_line(run: Run) -> tuple[float, float, float]:
     return modulus / depth, run.parameter("u0") - run.parameter("gap"), run.parameter("d0")
 
 
-def state(run: Run) -> tuple[float, float]:
-    """(overlap, pressure) of the points, which are all alike."""
-    return tuple(float(np.mean(run.contact[column])) for column in ("overlap", "pressure"))
+def state(run: Run) -> tuple[float, float, float]:
+    """(overlap, pressure, s) of the points, which are all alike."""
+    return tuple(float(np.mean(run.contact[column])) for column in ("overlap", "pressure", "s"))

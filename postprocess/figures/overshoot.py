@@ -47,8 +47,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
 def errors(run: Run) -> np.ndarray:
     """(steps,) relative errors before the first Newton step and after each, up to the first that is rounding."""
-    overlap = run.steps.overlap
-    s = overlap[:, np.argmax(overlap[-1])] - run.parameter("d0")
+    s = run.steps.s[:, np.argmax(run.steps.s[-1])]
     if len(s) < 3 or not s[-1] > 0:
         raise ResultsError(run.path / "steps.csv", "no law in contact whose error could be followed over two steps")
     error = np.abs(s / s[-1] - 1)

@@ -20,14 +20,13 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     """
     (run,) = runs
     tables = last_load_step(run)
-    d0 = run.parameter("d0")
     x = tables[0]["x"]
     for table in tables:
         if not np.array_equal(table["x"], x):
             raise ResultsError(run.path / "adaptations.csv", "the points differ from adaptation to adaptation")
-    heights = np.array([table["threshold"] for table in tables]) - d0
+    heights = np.array([table["tau"] for table in tables])
     walls = np.array([table["status"] == WALL for table in tables])
-    penetration = run.contact["overlap"] - d0
+    penetration = run.contact["s"]
     moves = np.diff(heights, axis=0) if np.isfinite(heights).all() else np.zeros((0, len(x)))
     moved = bool((moves > 0).any())
 
@@ -116,7 +115,7 @@ def last_load_step(run: Run) -> list:
 
 def title(run: Run) -> str:
     """The method and its count of models."""
-    if not any(np.isfinite(table["threshold"]).any() for table in run.adaptations):
+    if not any(np.isfinite(table["tau"]).any() for table in run.adaptations):
         return f"{style.method(run)}: no wall, $T = \\infty$"
     return f"{style.method(run)}: {style.count(run.summary['adaptations'], 'adaptation')}"
 
