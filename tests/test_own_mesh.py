@@ -245,3 +245,34 @@ def test_contact_that_gets_lost(scene, u0, tmp_path):
     flags = ["-h", 0.5, "-distance", "exact", "-force", 0, "-u0", u0]
     done = run_in(ROOT, script(scene), *flags, out=tmp_path / "out", expect=20)
     assert "loses the contact" in done.summary["message"]
+
+
+# ---------------------------------------------------------------- points without a master
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [[], ["-method", "paper"], ["-method", "newton"], ["-law", "exponential"], ["-points", "nodal"], ["-start", "none"]],
+    ids=lambda flags: " ".join(flags) or "default",
+)
+def test_points_without_a_master_stay_open(flags):
+    """However far the bodies move, points with no master above them shall carry nothing, and the force grow as the load."""
+    less, more = (run(SCENE, *flags, "-u0", u0) for u0 in (1e5, 1e6))  # 1e4 and 1e5 lengths of the contact
+    assert less.summary["unpairedPoints"] > 0
+    for done in (less, more):
+        unpaired = done.contact["overlap"] < -10
+        assert np.count_nonzero(unpaired) == done.summary["unpairedPoints"]
+        assert np.all(done.contact["pressure"][unpaired] == 0)
+        assert np.all(done.contact["status"][unpaired] == 0)
+        assert done.summary["contactPoints"] == np.count_nonzero(~unpaired)
+    # all that face each other touch: the bodies are two springs in series, the law next to nothing
+    assert more.force == pytest.approx(10 * less.force, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["xnewton", "paper", "newton", "incremental"])
+def test_points_without_a_master_under_a_force(method):
+    """The same for a force whose approach is unknown: that of the prescribed approach comes back."""
+    pushed = run(SCENE, "-u0", 1e6, "-tol", 1e-8)
+    done = run(SCENE, "-force", pushed.force, "-method", method, "-tol", 1e-8)
+    assert done.summary["approach"] == pytest.approx(1e6, rel=1e-4)
+    assert done.summary["contactPoints"] == pushed.summary["contactPoints"]
