@@ -317,6 +317,34 @@ def test_master_map(tmp_path, order, element, h):
         np.testing.assert_allclose(values["quadratic"], -(2 - 3 * x + 0.5 * x**2), **near)
 
 
+COVERED = """
+fespace Uh(Th, ELEMENT);
+tell("weight", weight);
+real[int] seen(points);
+for (int i = 0; i < points; i++) seen[i] = paired[i];
+tell("paired", seen);
+Uh [c1, c2] = [0, (region == upper) * (2 - 3 * x)];
+seen = overlapMap * c1[];
+tell("linear", seen);
+"""
+
+
+@pytest.mark.parametrize("share", [0.35, 0.56, 0.62, 0.68, 0.7, 0.74, 0.75, 0.8, 0.95, 1])
+@pytest.mark.parametrize("order, element", [(1, "[P1, P1]"), (2, "[P2, P2]")])
+def test_partly_covered(tmp_path, share, order, element):
+    """Whatever part the master covers, no weight shall be negative, and together they give the integrals."""
+    text = scene_text("patch-test")
+    whole = "upperElements, [width * (x - 0.5)"
+    assert text.count(whole) == 1
+    text = text.replace(whole, f"upperElements, [width * ({share} * x - 0.5)") + COVERED.replace("ELEMENT", element)
+    values = told(snippet(tmp_path, text, "-method", "newton", "-order", order, "-width", 2, "-lower", 4, "-upper", 3))
+    weight, paired = values["weight"], values["paired"] == 1
+    assert (weight > 0).all()
+    end = 2 * share - 1
+    assert weight[paired].sum() == pytest.approx(2 * share, abs=1e-9)
+    assert weight @ values["linear"] == pytest.approx(-(2 * end - 1.5 * end**2 + 3.5), abs=1e-9)
+
+
 # ---------------------------------------------------------------- solve/full-system.idp
 
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.

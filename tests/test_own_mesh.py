@@ -245,3 +245,109 @@ def test_contact_that_gets_lost(scene, u0, tmp_path):
     flags = ["-h", 0.5, "-distance", "exact", "-force", 0, "-u0", u0]
     done = run_in(ROOT, script(scene), *flags, out=tmp_path / "out", expect=20)
     assert "loses the contact" in done.summary["message"]
+
+
+# ---------------------------------------------------------------- points without a master
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [
+        [],
+        ["-method", "paper"],
+        ["-method", "newton"],
+        ["-law", "exponential"],
+        ["-points", "nodal"],
+        ["-start", "none"],
+    ],
+    ids=lambda flags: " ".join(flags) or "default",
+)
+def test_points_without_a_master_stay_open(flags, tmp_path):
+    """However far the bodies move, points without a master carry nothing, and the force grows as the load."""
+    force = []
+    for u0 in (1e5, 1e6):  # 1e4 and 1e5 lengths of the contact
+        done = run_in(ROOT, script(SCENE), *flags, "-u0", u0, "-vtu", 0, out=tmp_path / f"{u0:g}")
+        unpaired = done.contact["overlap"] < -100
+        assert np.count_nonzero(unpaired) == done.summary["unpairedPoints"] > 0
+        assert np.all(done.contact["pressure"][unpaired] == 0)
+        assert np.all(done.contact["status"][unpaired] == 0)
+        assert done.summary["contactPoints"] == np.count_nonzero(~unpaired)
+        assert done.summary["reactionY"] == pytest.approx(done.force, rel=1e-9)
+        force.append(done.force)
+    # all that face each other touch, and the layer gives next to nothing
+    assert force[1] == pytest.approx(10 * force[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["xnewton", "paper", "newton", "incremental"])
+def test_points_without_a_master_under_a_force(method, tmp_path):
+    """The same for a force whose approach is unknown: that of the prescribed approach comes back."""
+    flags = ["-tol", 1e-8, "-vtu", 0]
+    pushed = run_in(ROOT, script(SCENE), "-u0", 1e6, *flags, out=tmp_path / "pushed")
+    done = run_in(ROOT, script(SCENE), "-force", pushed.force, "-method", method, *flags, out=tmp_path / "out")
+    assert done.summary["approach"] == pytest.approx(1e6, rel=1e-4)
+    assert done.summary["contactPoints"] == pushed.summary["contactPoints"]
+
+
+# ---------------------------------------------------------------- contact that is cut off
+
+
+def narrow(name, keep):
+    """Of a physical curve's edges only those whose middle's abscissa passes `keep`; the others become "free"."""
+
+    def change(lines):
+        group = {line.split()[2]: line.split()[1] for line in lines[:20] if line.endswith('"')}
+        start = lines.index("$Nodes") + 2
+        x = {line.split()[0]: float(line.split()[1]) for line in lines[start : lines.index("$EndNodes")]}
+        for i, line in enumerate(lines):
+            words = line.split()
+            if len(words) == 7 and words[1] == "1" and words[3] == group[f'"{name}"']:
+                outside = not keep((x[words[5]] + x[words[6]]) / 2)
+                lines[i] = " ".join([*words[:3], group['"free"'] if outside else words[3], *words[4:]])
+
+    return change
+
+
+@pytest.mark.parametrize(
+    "curve, keep", [("contact", lambda x: x > 0.5), ("contact", lambda x: x < 0.5), ("master", lambda x: abs(x) < 1)]
+)
+@pytest.mark.parametrize("points", ["segment", "nodal"])
+def test_contact_cut_off(mesh, tmp_path, curve, keep, points):
+    """Contact that reaches the end of a curve that stops in the middle of the body's side shall be said."""
+    short = spoilt(mesh, tmp_path, narrow(curve, keep))
+    done = run_in(ROOT, script(SCENE), "-mesh", short, "-points", points, "-vtu", 0, out=tmp_path / "out")
+    whole = run_in(ROOT, script(SCENE), "-mesh", mesh, "-points", points, "-vtu", 0, out=tmp_path / "whole")
+    assert done.force < 0.98 * whole.force
+    assert [line for line in done.summary["warnings"] if "reaches the end" in line]
+    assert not whole.summary["warnings"]
+
+
+@pytest.mark.parametrize(
+    "scene, flags, said",
+    [
+        ("disc-on-block", ["-reach", 2, "-u0", 1.5], True),
+        ("disc-on-block", ["-reach", 2, "-u0", 1.5, "-geometry", "axisymmetric"], True),
+        ("disc-on-block", ["-geometry", "axisymmetric"], False),  # the axis is no end
+        ("two-cylinders", ["-reach", 0.5], True),
+        ("two-cylinders", [], False),
+        ("flat-punch", [], False),  # the punch ends where contact does
+        ("patch-test", [], False),
+        ("confined-block", ["-law", "exponential"], False),
+        ("rough", ["-force", 200], False),
+        ("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False),
+        ("patch-test-3d", [], False),
+        ("sphere-on-plane", ["-patch", 0.8, "-h", 0.2], True),
+    ],
+)
+def test_ends(scene, flags, said):
+    """The end of a body or of the obstacle, and an axis, are no ends at which contact is cut off."""
+    done = run(scene, *flags)
+    assert any("raise -" in line for line in done.summary["warnings"]) is said
+    assert bool(done.summary["warnings"]) is said
+
+
+def test_no_force_before_touch():
+    """Curved bodies a hair apart shall not press: the gap is that of the circles, not its mean over an element."""
+    for order in (1, 2):
+        assert run("two-cylinders", "-force", 0, "-u0", 0.09999, "-order", order).force == 0
+        assert run("two-cylinders", "-force", 0, "-u0", 0.1001, "-order", order).force > 0
+    assert run("two-spheres", "-force", 0, "-u0", 0.09999, "-h", 0.2).force == 0
