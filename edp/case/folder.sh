@@ -91,13 +91,22 @@ open)
     done > .written || exit 7;;
 publish)
     cd "$folder/.run" 2> /dev/null || exit 4
+    mine=$(newest)
+    read -r whose rest < ".lock-$mine"
+    test "$whose" = "$run" || exit 1
+    held()                          # a run killed meanwhile has lost the folder to the next one: hands off
+    {
+        test -e ".lock-$mine" || exit 1
+    }
     fail()
     {
+        held
         rm -rf ./* .whole
         exit 1
     }
     # a full disk cuts a file off silently: its last line tells
     for file in *; do
+        held
         test -e "$file" || continue
         if test "$(tail -c 5 "$file")" = '#end'; then
             sed '$d' "$file" > .whole && mv -f .whole "$file" || fail
@@ -106,9 +115,11 @@ publish)
     done
     { ls && cat .written; } | sort -u > .whole && mv -f .whole .written || fail
     for file in *; do
+        held
         test ! -e "$file" || test "$file" = summary.json || mv -f "$file" .. || fail
     done
+    held
     test -e summary.json || exit 0
     mv -f summary.json .. || fail
-    echo done > ".lock-$(newest)";;
+    echo done > ".lock-$mine";;
 esac
