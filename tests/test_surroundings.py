@@ -364,35 +364,6 @@ def test_gmsh_ends_with_its_run(tmp_path, slow_gmsh, how):
     assert len(left) == 1 and left.pop().endswith(".msh")
 
 
-def test_larger_copy_goes_with_its_run(mesh, tmp_path):
-    """The copy of a mesh that FreeFEM reads shall go when its run is killed, or at the latest with the next copy."""
-    path = mesh(0.3)
-    for kind in ("freefem-mesh-1-2.msh.{}", "freefem-mesh-3-4.msh"):
-        dead = subprocess.Popen(["true"])
-        dead.wait()
-        (tmp_path / kind.format(dead.pid)).write_text(f"$Run\n{dead.pid}\n$EndRun\n")
-    (tmp_path / "freefem-mesh-of-mine.msh").write_text("mine\n")
-    run = subprocess.Popen(["sleep", "100"])
-    try:
-        copy = tmp_path / "freefem-mesh-5-6.msh"
-        assert execute(["sh", "edp/bodies/larger.sh", run.pid, path, copy])[0] == 0
-        assert sorted(os.listdir(tmp_path)) == ["freefem-mesh-5-6.msh", "freefem-mesh-of-mine.msh"]
-    finally:
-        run.kill()
-    wait_for(lambda: not copy.exists(), 5)
-    run.wait()
-    assert execute(["sh", "edp/bodies/larger.sh", os.getpid(), path, tmp_path / "none" / copy.name])[0] == 4
-
-
-def test_nothing_left_in_tmp(mesh, tmp_path):
-    """A run of a mesh of the user's shall leave no copy of it."""
-
-    def copies():
-        return {name for name in os.listdir("/tmp") if name.startswith("freefem-mesh-")}
-
-    before = copies()
-    run_in(ROOT, BODIES, "-mesh", mesh(0.3), "-vtu", 0, out=tmp_path / "out")
-    wait_for(lambda: not copies() - before, 10)  # those of other runs come and go
 
 
 # ---------------------------------------------------------------- no room
@@ -435,12 +406,6 @@ def test_no_place_for_a_mesh(tmp_path):
     assert "meshes/generated cannot be written" in refused_in_one_line(done.stdout)
     assert listing(package) == before and not (tmp_path / "out").exists()
 
-
-def test_no_room_for_the_larger_copy(mesh, tmp_path):
-    """Where /tmp has no room for the copy of a mesh, the run shall say so in one line and leave nothing."""
-    code, stdout = limited_run(ROOT, BODIES, 5000, "-mesh", mesh(0.3), "-out", tmp_path / "out")
-    assert code == 10 and "/tmp" in refused_in_one_line(stdout)
-    assert not (tmp_path / "out").exists()
 
 
 # ---------------------------------------------------------------- load series

@@ -1,0 +1,582 @@
+"""Scene two-bodies on meshes that are not what they should be: refused in one line or solved rightly, never a crash."""
+
+import os
+import resource
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from freefem import FREEFEM, ROOT, Run, environment, script
+
+NAMES = {"clamped": 11, "contact": 12, "master": 13, "pushed": 14, "free": 15, "lower": 21, "upper": 22}
+SURFACES = ("lower", "upper")
+MEMORY = 4 << 30  # bytes of address space
+RESIDENT = 2 << 20  # kB
+SECONDS = 60
+FLAGS = ["-u0", "0.5", "-tol", "1e-11", "-vtu", "0"]
+
+
+class Mesh:
+    """A block of 4 x 1 below a punch of 2.6 x 1: nodes {number: place}, lines and triangles [groups, nodes]."""
+
+    def __init__(self):
+        self.nodes, self.lines, self.triangles = {}, [], []
+        self.names = dict(NAMES)
+        self.grid(-2, 2, 0, 1, 9, 2, "lower", "clamped", "contact")
+        self.grid(-1.3, 1.3, 1.1, 2.1, 4, 2, "upper", "master", "pushed")
+
+    def grid(self, left, right, bottom, top, columns, rows, body, below, above):
+        first = len(self.nodes) + 1
+        for j in range(rows + 1):
+            for i in range(columns + 1):
+                place = left + (right - left) * i / columns, bottom + (top - bottom) * j / rows, 0.0
+                self.nodes[first + i + j * (columns + 1)] = place
+        number = [[first + i + j * (columns + 1) for i in range(columns + 1)] for j in range(rows + 1)]
+        for j in range(rows):
+            for i in range(columns):
+                a, b, c, d = number[j][i], number[j][i + 1], number[j + 1][i + 1], number[j + 1][i]
+                self.triangles += [[[body], [a, b, c]], [[body], [a, c, d]]]
+        for i in range(columns):
+            self.lines += [
+                [[below], [number[0][i], number[0][i + 1]]],
+                [[above], [number[rows][i], number[rows][i + 1]]],
+            ]
+        for j in range(rows):
+            self.lines += [[["free"], [number[j][i], number[j + 1][i]]] for i in (0, columns)]
+
+    def of(self, name):
+        """The lines or triangles of a physical group."""
+        return [entry for entry in self.lines + self.triangles if name in entry[0]]
+
+    def text(self, number=str, coordinate=repr):
+        """The file; an entity in several groups is written once for each, as gmsh does."""
+        out = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(self.names))]
+        out += [f'{2 if name in SURFACES else 1} {tag} "{name}"' for name, tag in self.names.items()]
+        out += ["$EndPhysicalNames", "$Nodes", str(len(self.nodes))]
+        out += [" ".join([number(i), *map(coordinate, place)]) for i, place in self.nodes.items()]
+        elements = []
+        for kind, entries in ((1, self.lines), (2, self.triangles)):
+            for groups, corners in entries:
+                for name in groups:
+                    tag = self.names.get(name, NAMES.get(name, 99))
+                    elements.append(f"{len(elements) + 1} {kind} 2 {tag} {tag} " + " ".join(map(number, corners)))
+        return "\n".join([*out, "$EndNodes", "$Elements", str(len(elements)), *elements, "$EndElements", ""])
+
+
+def moved(scale=1.0, right=0.0, up=0.0, only=None):
+    """A change that scales and shifts the nodes, of one body only if it is named."""
+
+    def change(mesh):
+        of = {i for _, corners in (mesh.of(only) if only else mesh.triangles) for i in corners}
+        for i in of:
+            x, y, z = mesh.nodes[i]
+            mesh.nodes[i] = (scale * x + right, scale * y + up, z)
+
+    return change
+
+
+def edited(old, new, count=1):
+    """A change of the file's text."""
+
+    def change(text):
+        assert old in text
+        return text.replace(old, new, count)
+
+    return change
+
+
+def line(n, new):
+    """A change of the n-th line after $Nodes, or, n < 0, of the n-th one before $EndElements."""
+
+    def change(text):
+        lines = text.splitlines()
+        at = lines.index("$Nodes") + 1 + n if n >= 0 else lines.index("$EndElements") + n
+        lines[at] = new(lines[at]) if callable(new) else new
+        return "\n".join(lines) + "\n"
+
+    return change
+
+
+def unnamed(*names):
+    def change(mesh):
+        for name in names:
+            del mesh.names[name]
+
+    return change
+
+
+def renumbered(step, first=1):
+    """The nodes numbered first, first + step, ..."""
+    return lambda mesh: mesh.text(number=lambda i: str(first + step * (i - 1)))
+
+
+def add_node(mesh):
+    mesh.nodes[len(mesh.nodes) + 1] = (50.0, 50.0, 0.0)
+
+
+def add_piece(mesh):
+    n = len(mesh.nodes)
+    mesh.nodes |= {n + 1: (5.0, 0.0, 0.0), n + 2: (6.0, 0.0, 0.0), n + 3: (5.0, 1.0, 0.0)}
+    mesh.triangles.append([["lower"], [n + 1, n + 2, n + 3]])
+
+
+def add_hinged_piece(mesh):
+    """A triangle that hangs on one node of the lower body."""
+    n = len(mesh.nodes)
+    mesh.nodes |= {n + 1: (3.0, 0.0, 0.0), n + 2: (3.0, 1.0, 0.0)}
+    mesh.triangles.append([["lower"], [10, n + 1, n + 2]])
+
+
+def add_third_triangle(mesh):
+    """On an inner edge, which then has three."""
+    n = len(mesh.nodes)
+    mesh.nodes[n + 1] = (-1.9, 0.4, 0.0)
+    a, _, c = mesh.triangles[0][1]
+    mesh.triangles.append([["lower"], [a, c, n + 1]])
+
+
+def add_folded_triangle(mesh):
+    """Beside the clamped side, on the same side of it as the triangle above."""
+    n = len(mesh.nodes)
+    mesh.nodes[n + 1] = (-1.8, 0.2, 0.0)
+    mesh.triangles.append([["lower"], [1, 2, n + 1]])
+
+
+def add_dangling(name):
+    def change(mesh):
+        n = len(mesh.nodes)
+        mesh.nodes |= {n + 1: (2.5, 1.0, 0.0), n + 2: (3.0, 1.0, 0.0)}
+        mesh.lines.append([[name], [n + 1, n + 2]])
+
+    return change
+
+
+def add_interior(name):
+    def change(mesh):
+        a, _, c = mesh.of("upper" if name in ("master", "pushed") else "lower")[0][1]
+        mesh.lines.append([[name], [a, c]])
+
+    return change
+
+
+def crack(mesh):
+    """The inner corner of the middle triangles of the lower body doubled: what is left of it opens."""
+    n = len(mesh.nodes)
+    middle = 15
+    mesh.nodes[n + 1] = mesh.nodes[middle]
+    for _, corners in [entry for entry in mesh.of("lower") if middle in entry[1]][:2]:
+        corners[corners.index(middle)] = n + 1
+
+
+def split(mesh):
+    """All nodes between the two middle columns doubled, two parts in one body that are not joined."""
+    right = [e for e in mesh.triangles if "lower" in e[0] and sum(mesh.nodes[i][0] for i in e[1]) / 3 > 0.25]
+    left = {i for e in mesh.of("lower") if len(e[1]) == 3 and e not in right for i in e[1]}
+    twin = {}
+    for entry in right + [e for e in mesh.lines if sum(mesh.nodes[i][0] for i in e[1]) / 2 > 0.25 and e[1][0] < 31]:
+        for k, i in enumerate(entry[1]):
+            if i in left:
+                twin.setdefault(i, len(mesh.nodes) + len(twin) + 1)
+                entry[1][k] = twin[i]
+    mesh.nodes |= {new: mesh.nodes[old] for old, new in twin.items()}
+
+
+def exchange(*pair):
+    """Two groups exchange their lines."""
+
+    def change(mesh):
+        for groups, _ in mesh.lines:
+            groups[:] = [pair[1 - pair.index(name)] if name in pair else name for name in groups]
+
+    return change
+
+
+def turn_over(mesh):
+    """The whole upside down: what was the lower body hangs above."""
+    for i, (x, y, z) in mesh.nodes.items():
+        mesh.nodes[i] = (-x, -y, z)
+
+
+def mirror(mesh):
+    for i, (x, y, z) in mesh.nodes.items():
+        mesh.nodes[i] = (-x, y, z)
+
+
+def reverse(mesh):
+    """The lines' ends exchanged: gmsh does so for groups of reversed curves; the order says nothing."""
+    for _, corners in mesh.lines:
+        corners.reverse()
+
+
+def one_triangle(mesh):
+    mesh.triangles, mesh.lines = mesh.triangles[:1], []
+
+
+def one_edge(mesh):
+    """Contact of one edge only, below the punch's middle."""
+    edges = mesh.of("contact")
+    for groups, _ in edges[:4] + edges[5:]:
+        groups[:] = ["free"]
+
+
+def hole(mesh):
+    mesh.of("contact")[4][0][:] = ["free"]
+
+
+def vertical(mesh):
+    """The lower body's left side belongs to contact too."""
+    next(e for e in mesh.of("free"))[0][:] = ["contact"]
+
+
+def share_node(mesh):
+    for _, corners in mesh.lines + mesh.of("upper"):
+        if 31 in corners:
+            corners[corners.index(31)] = 22
+
+
+def collapse(mesh):
+    mesh.nodes[12] = mesh.nodes[11]
+
+
+def again(kind, index=0, name=None):
+    """An entity once more, in its own group or in another one."""
+
+    def change(mesh):
+        entry = mesh.of(kind)[index]
+        entry[0].append(name or entry[0][0])
+
+    return change
+
+
+def stray(name):
+    """A line of the other body joins the group."""
+
+    def change(mesh):
+        mesh.of("free")[-1 if name in ("contact", "clamped") else 0][0][:] = [name]
+
+    return change
+
+
+def joined(mesh):
+    for groups, _ in mesh.triangles:
+        groups[:] = ["lower"]
+
+
+# what is done to the mesh, or (edited, line) to its text; SAME: the untouched mesh's force; or words of the refusal
+SAME, SOLVED = "the same force", "a force"
+MESHES = {
+    # elements
+    "triangle twice": (again("lower", 3), ["element", "there twice"]),
+    "upper triangle twice": (again("upper", 5), ["element", "there twice"]),
+    "triangle of both bodies": (again("lower", 3, "upper"), ["both bodies"]),
+    "triangle in one more surface": (again("lower", 3, "all"), SAME),
+    "triangle in no body": (lambda mesh: mesh.triangles[5][0].__setitem__(0, "all"), ['neither "lower" nor "upper"']),
+    "triangle without area": (collapse, ["element", "without area"]),
+    "triangle clockwise": (lambda mesh: mesh.triangles[5][1].reverse(), ["element", "clockwise"]),
+    "all clockwise": (mirror, ["element", "clockwise"]),
+    "three triangles on an edge": (add_third_triangle, ["same side of the edge"]),
+    "folded triangle": (add_folded_triangle, ["same side of the edge", "overlap"]),
+    "one triangle": (one_triangle, ['no edge of "clamped"']),
+    "no triangle": (lambda mesh: mesh.triangles.clear(), ["no triangles"]),
+    "quadrangle": (line(-1, "99 3 2 22 22 1 2 12 11"), ["element 99", "quadrangle"]),
+    "second order": (line(-1, "99 9 2 22 22 1 2 12 3 4 11"), ["element 99", "first order"]),
+    "tetrahedron": (line(-1, "99 4 2 22 22 1 2 12 11"), ["element 99", "type 4"]),
+    "corner missing": (line(-1, lambda old: old.rsplit(" ", 1)[0]), ["element", "cut off"]),
+    "corner too many": (line(-1, lambda old: old + " 3"), ["element", "more than"]),
+    "text behind an element": (line(-1, lambda old: old + " // last"), ["element"]),
+    "corner of no number": (line(-1, lambda old: old.rsplit(" ", 1)[0] + " x"), ["element", "node that is missing: x"]),
+    "corner not there": (line(-1, lambda old: old.rsplit(" ", 1)[0] + " 777"), ["node that is missing: 777"]),
+    "element without tags": (line(-1, lambda old: "99 2 0 " + " ".join(old.split()[5:])), ["neither"]),
+    # lines
+    "contact edge twice": (again("contact", 4), SAME),
+    "clamped edge twice": (again("clamped", 4), SAME),
+    "edge in one more curve": (again("contact", 4, "free"), SAME),
+    "edge in an unnamed curve": (again("master", 2, "all"), SAME),
+    "edge in contact and clamped": (again("contact", 0, "clamped"), ["two physical curves", "clamped"]),
+    "lines reversed": (reverse, SAME),
+    "dangling line": (add_dangling("free"), SAME),
+    "dangling contact": (add_dangling("contact"), ["element", '"contact"', "no triangle has"]),
+    "dangling clamped": (add_dangling("clamped"), ["element", '"clamped"', "no triangle has"]),
+    "contact inside": (add_interior("contact"), ['"contact" inside a body']),
+    "master inside": (add_interior("master"), ['"master" inside a body']),
+    "clamped inside": (add_interior("clamped"), ['"clamped" inside a body']),
+    "free inside": (add_interior("free"), SAME),
+    "contact and master exchanged": (exchange("contact", "master"), ["no edge", '"contact"', "lower body"]),
+    "contact below": (exchange("contact", "clamped"), ['"contact" faces down']),
+    "master above": (exchange("master", "pushed"), ['"master" faces up']),
+    "upside down": (turn_over, ["faces down"]),
+    "contact partly on the upper body": (stray("contact"), ['"contact"', "not on the lower body"]),
+    "clamped partly on the upper body": (stray("clamped"), ['"clamped"', "not on the lower body"]),
+    "pushed partly on the lower body": (stray("pushed"), ['"pushed"', "not on the upper body"]),
+    "contact in two pieces": (hole, ['"contact" is in 2 pieces']),
+    "contact of one edge": (one_edge, SOLVED),
+    "vertical edge": (vertical, ["vertical edge", '"contact"']),
+    # nodes
+    "node of no element": (add_node, SAME),
+    "node number 0": (renumbered(1, 0), ["the node 0", "start at 1"]),
+    "negative node number": (line(3, lambda old: "-" + old), ["the node -3"]),
+    "node number of no number": (line(3, lambda old: "x" + old), ["the node x3"]),
+    "sparse node numbers": (renumbered(1000, 7), SAME),
+    "huge node numbers": (renumbered(1, 2_000_000_000), SAME),
+    "nodes not in order": (
+        lambda mesh: setattr(mesh, "nodes", dict(sorted(mesh.nodes.items(), key=lambda n: -n[0]))),
+        SOLVED,
+    ),
+    "node twice": (line(3, lambda old: old.replace("3 ", "2 ", 1)), ["node 2", "twice"]),
+    "coordinate nan": (line(3, "3 nan 0 0"), ["node 3", "nan is no number"]),
+    "coordinate 1e400": (line(3, "3 1e400 0 0"), ["node 3", "1e400 is no number"]),
+    "coordinate inf": (line(3, "3 0 -inf 0"), ["node 3", "-inf is no number"]),
+    "coordinate hexadecimal": (line(3, "3 0x10 0 0"), ["0x10 is no number"]),
+    "comma decimals": (lambda mesh: mesh.text(coordinate=lambda v: repr(v).replace(".", ",")), ["is no number"]),
+    "coordinate missing": (line(3, "3 0.5 0"), ["node 3", "2 coordinates"]),
+    "off the plane": (lambda mesh: mesh.nodes.update({5: (*mesh.nodes[5][:2], 0.1)}), ["node 5", "z = 0.1"]),
+    "plane z = 1": (lambda mesh: mesh.nodes.update({i: (x, y, 1.0) for i, (x, y, _) in mesh.nodes.items()}), ["z = 1"]),
+    "z of rounding": (lambda mesh: mesh.nodes.update({5: (*mesh.nodes[5][:2], 1e-13)}), SAME),
+    "huge": (moved(1e12), SOLVED),
+    "tiny": (moved(1e-12), ["too small"]),
+    "far away": (moved(right=1e6), SOLVED),
+    "too far away": (moved(right=1e12), ["too far"]),
+    # bodies
+    "crack": (crack, ["same place", "crack"]),
+    "body in two parts": (split, ["same place"]),
+    "bodies share a node": (share_node, ["share a node"]),
+    "one body": (joined, ["no edge", "upper body"]),
+    "piece that nothing holds": (add_piece, ["holds"]),
+    "piece that hangs on a node": (add_hinged_piece, ["holds", "single node"]),
+    "bodies overlap": (moved(up=-0.3, only="upper"), ["overlap by"]),
+    "master below": (moved(up=-5, only="upper"), ["overlap by"]),
+    "bodies aside": (moved(right=30, only="upper"), ["above"]),
+    "bodies touch": (moved(up=-0.1, only="upper"), SOLVED),
+    # names and sections
+    "no names": (lambda mesh: mesh.names.clear(), ["no physical group", '"contact"', "none"]),
+    "names missing": (
+        unnamed("contact", "upper"),
+        ['no physical group "contact" "upper" (surface)', '"master"', '"lower"'],
+    ),
+    "no $PhysicalNames": (lambda mesh: _without_names(mesh.text()), ["no physical groups"]),
+    "name with a blank": (edited('"free"', '"free sides"'), SAME),
+    "name of a curve on a surface": (edited('2 21 "lower"', '1 21 "lower"'), ['no physical group "lower" (surface)']),
+    "unknown section": (edited("$Nodes", "$Periodic\n1\n0 1 2\n$EndPeriodic\n$Nodes"), SAME),
+    "long comments": (edited("$Nodes", "$Comments\n" + "word $Nodes " * 5000 + "\n$Nodes\n$EndComments\n$Nodes"), SAME),
+    "comments first": (edited("$MeshFormat", "$Comments\nmade by hand\n$EndComments\n$MeshFormat"), SAME),
+    "many names": (lambda mesh: mesh.names.update({f"other{i}": 100 + i for i in range(200)}), SAME),
+    "text behind the end": (lambda mesh: mesh.text() + "some text\n", SAME),
+    "blank lines": (edited("$EndNodes", "\n  \n$EndNodes"), SAME),
+    "CRLF": (lambda mesh: mesh.text().replace("\n", "\r\n"), SAME),
+    "no last line end": (lambda mesh: mesh.text().rstrip(), SAME),
+    "second $Nodes": (edited("$Elements", "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements"), ["second $Nodes"]),
+    "nodes miscounted": (edited("$Nodes\n45", "$Nodes\n1000000000"), ["$Nodes has 45 lines"]),
+    "count of no number": (edited("$Nodes\n45", "$Nodes\nmany"), ["no number"]),
+    "cut off": (lambda mesh: mesh.text()[:-200], ["cut off"]),
+    "cut off in the nodes": (lambda mesh: mesh.text()[:400], ["cut off"]),
+    "empty": (lambda mesh: "", ["empty"]),
+    "no mesh": (lambda mesh: "solid\nfacet normal 0 0 1\n", ["version 2"]),
+    "zeros": (lambda mesh: "\0" * 100000, ["version 2"]),
+    "version 1": (lambda mesh: "$NOD\n1\n1 0 0 0\n$ENDNOD\n", ["version 2"]),
+    "version 3": (edited("2.2 0 8", "3 0 8"), ["version 3"]),
+    "said to be binary": (edited("2.2 0 8", "2.2 1 8"), ["gmsh"]),
+    "said to be version 4": (edited("2.2 0 8", "4.1 0 8"), ["gmsh"]),
+}
+
+
+def _without_names(text):
+    head, rest = text.split("$PhysicalNames\n")
+    return head + rest.split("$EndPhysicalNames\n")[1]
+
+
+def limited():
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def attempt(file, folder, *flags):
+    """A run in little memory, within a minute: Run."""
+    began = time.monotonic()
+    command = [*FREEFEM, script("two-bodies"), "-mesh", str(file), *FLAGS, *flags, "-out", str(folder / "out")]
+    with open(folder / "stdout", "wb") as stdout:
+        process = subprocess.Popen(
+            command,
+            cwd=ROOT,
+            env=environment(),
+            stdin=subprocess.DEVNULL,
+            stdout=stdout,
+            stderr=stdout,
+            preexec_fn=limited,
+        )
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    assert time.monotonic() - began < SECONDS
+    assert usage.ru_maxrss < RESIDENT
+    assert not copies(process)
+    return Run(process.returncode, (folder / "stdout").read_text(errors="replace"), folder / "out")
+
+
+def copies(process):
+    """The folders that a run has made for its copy of the mesh."""
+    return list(Path("/tmp").glob(f"mesh-{process.pid}-*"))
+
+
+def assert_refused(run, file, words):
+    assert run.code == 10, run.stdout[-2000:]
+    lines = run.stdout.strip().splitlines()
+    assert len(lines) == 1, run.stdout
+    for word in [*words, str(file), "allowed"]:
+        assert word in lines[0]
+    assert not run.folder.exists()
+
+
+@pytest.fixture(scope="module")
+def untouched(tmp_path_factory):
+    """The force of the mesh as it is."""
+    folder = tmp_path_factory.mktemp("untouched")
+    (folder / "mesh.msh").write_text(Mesh().text())
+    run = attempt(folder / "mesh.msh", folder)
+    assert run.code == 0, run.stdout
+    assert not run.summary["warnings"]
+    return run.force
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_hostile(name, tmp_path, untouched):
+    """A mesh shall be refused in one line that names the file and what is wrong, or solved rightly."""
+    change, expected = MESHES[name]
+    mesh = Mesh()
+    if change.__qualname__.startswith(("edited", "line")):
+        text = change(mesh.text())
+    else:
+        text = change(mesh)
+        text = text if isinstance(text, str) else mesh.text()
+    file = tmp_path / "hostile.msh"
+    file.write_text(text, newline="")
+    run = attempt(file, tmp_path)
+    if isinstance(expected, list):
+        assert_refused(run, file, expected)
+    else:
+        assert run.code == 0, run.stdout[-2000:]
+        assert run.summary["masterForceY"] == pytest.approx(run.force, rel=1e-9)
+        assert run.summary["reactionY"] == pytest.approx(run.force, rel=1e-9)
+        if expected == SAME:
+            assert run.force == pytest.approx(untouched, rel=1e-9)
+
+
+def test_translated(tmp_path, untouched):
+    """A million sizes away the force shall be the same, to the digits that the coordinates keep."""
+    mesh = Mesh()
+    moved(right=4e6)(mesh)
+    (tmp_path / "far.msh").write_text(mesh.text())
+    assert attempt(tmp_path / "far.msh", tmp_path).force == pytest.approx(untouched, rel=1e-7)
+
+
+def test_numbers_of_nodes_change_nothing_else(tmp_path, untouched):
+    """Nodes in another order shall give the same force but for rounding."""
+    mesh = Mesh()
+    mesh.nodes = dict(sorted(mesh.nodes.items(), key=lambda node: -node[0]))
+    (tmp_path / "back.msh").write_text(mesh.text())
+    assert attempt(tmp_path / "back.msh", tmp_path).force == pytest.approx(untouched, rel=1e-9)
+
+
+def test_one_edge(tmp_path, untouched):
+    """Contact of a single edge shall carry less than the whole curve, and say that it is cut off."""
+    mesh = Mesh()
+    one_edge(mesh)
+    (tmp_path / "edge.msh").write_text(mesh.text())
+    run = attempt(tmp_path / "edge.msh", tmp_path)
+    assert 0 < run.force < untouched
+    assert any("reaches the end" in text for text in run.summary["warnings"])
+
+
+@pytest.mark.parametrize("what", ["folder", "none", "unreadable", "quote's", "blank in it", "a=b"])
+def test_files(what, tmp_path, untouched):
+    """A folder, a file that is not there or may not be read shall be refused; odd names shall work."""
+    file = tmp_path / f"{what}.msh"
+    if what == "folder":
+        file.mkdir()
+    elif what != "none":
+        file.write_text(Mesh().text())
+    if what == "unreadable":
+        file.chmod(0)
+    run = attempt(file, tmp_path)
+    said = {"folder": ["a folder"], "none": ["no such file"], "unreadable": ["may not be read"]}
+    if what in said and not (what == "unreadable" and os.geteuid() == 0):
+        assert_refused(run, file, said[what])
+    else:
+        assert run.force == pytest.approx(untouched, rel=1e-9)
+
+
+GEO = """
+Point(1) = {-2, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 1, 0}; Point(4) = {-2, 1, 0};
+Point(5) = {-1.2, 1.1, 0}; Point(6) = {1.2, 1.1, 0}; Point(7) = {1.2, 2.1, 0}; Point(8) = {-1.2, 2.1, 0};
+For b In {0 : 1}
+  For k In {1 : 4}
+    Line(4 * b + k) = {4 * b + k, 4 * b + k % 4 + 1};
+  EndFor
+  Curve Loop(b + 1) = {4 * b + 1 : 4 * b + 4};
+  Plane Surface(b + 1) = {b + 1};
+EndFor
+Physical Curve("clamped") = {1}; Physical Curve("contact") = {3};
+Physical Curve("master") = {5}; Physical Curve("pushed") = {7};
+Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
+Mesh.MeshSizeMax = 0.5;
+"""
+
+
+@pytest.fixture(scope="module")
+def geo(tmp_path_factory):
+    """A .geo file and the force on its mesh in version 2."""
+    folder = tmp_path_factory.mktemp("geo")
+    (folder / "bodies.geo").write_text(GEO)
+    convert(folder / "bodies.geo", folder / "bodies.msh", "-format", "msh22")
+    return folder / "bodies.geo", attempt(folder / "bodies.msh", folder).force
+
+
+def convert(source, target, *flags):
+    subprocess.run(["gmsh", "-2", "-v", "0", *flags, source, "-o", target], check=True, stdin=subprocess.DEVNULL)
+    return target
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [["-format", "msh41"], ["-format", "msh41", "-bin"], ["-format", "msh40"], ["-format", "msh22", "-bin"], None],
+)
+def test_converted(geo, flags, tmp_path):
+    """Other formats of gmsh and a .geo file itself shall be converted."""
+    source, force = geo
+    file = convert(source, tmp_path / "other.msh", *flags) if flags else source
+    assert attempt(file, tmp_path).force == pytest.approx(force, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("Point(1) = {0, 0", ["gmsh cannot read it"]),
+        ("Point(1) = {0, 0, 0};", ["no physical groups"]),
+        (GEO.replace("Physical", "// Physical"), ["no physical groups"]),
+        (GEO.replace('"master"', '"Master"'), ['no physical group "master"', '"Master"']),
+        (GEO + "Mesh.ElementOrder = 2;", ["first order"]),
+        (GEO + "Recombine Surface{1, 2};", ["quadrangle"]),
+    ],
+    ids="broken point unnamed misnamed second quadrangles".split(),
+)
+def test_refused_geo(text, words, tmp_path):
+    """What gmsh cannot read, or reads as another mesh than the scene wants, shall be refused."""
+    (tmp_path / "bodies.geo").write_text(text)
+    assert_refused(attempt(tmp_path / "bodies.geo", tmp_path), tmp_path / "bodies.geo", words)
+
+
+def test_nothing_left_when_killed(geo, tmp_path):
+    """The copy shall go also when the run is killed while it is made."""
+    (tmp_path / "slow.geo").write_text(GEO.replace("0.5;", "0.004;"))
+    command = [*FREEFEM, script("two-bodies"), "-mesh", tmp_path / "slow.geo", "-out", tmp_path / "out"]
+    process = subprocess.Popen(
+        command, cwd=ROOT, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+    )
+    end = time.monotonic() + 20
+    while not copies(process) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert copies(process)
+    process.kill()
+    process.wait()
+    end = time.monotonic() + 20
+    while copies(process) and time.monotonic() < end:
+        time.sleep(0.1)
+    assert not copies(process)
