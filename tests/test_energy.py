@@ -1,4 +1,4 @@
-"""Work is force: the derivative of the reported energy with respect to the prescribed displacement is the reported force."""
+"""Work is force: the reported energy's derivative in the prescribed displacement is the reported force."""
 
 import pytest
 from freefem import run
@@ -13,8 +13,7 @@ LAWS = {
     "table": ["-law", "table"],
     "signorini": HARD,
 }
-# Under the full approach and in small meshes; smooth laws, for the energy of hard contact has kinks in its second derivative
-# where a point comes into contact.
+# small meshes; smooth laws: hard contact's energy has kinks in its second derivative where a point comes into contact
 PLANE = [
     ("disc-on-block", 2.5, ["-h", 0.5]),
     ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "stress"]),

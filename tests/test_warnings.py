@@ -1,4 +1,4 @@
-"""What makes a converged result doubtful is said: in summary.json, on the screen, by postprocess; and not without a cause."""
+"""What makes a converged result doubtful is said: in summary.json, on the screen, by postprocess."""
 
 import json
 
@@ -111,7 +111,7 @@ def test_overlap_lost_in_rounding():
 
 
 def test_mean_planes_that_pass_through_each_other():
-    """A law so soft that the bodies pass through each other shall be named with -kappa; a layer that holds shall not."""
+    """A law so soft that the bodies pass through each other shall be named with -kappa, no other one."""
     soft = run("two-bodies", "-law", "power", "-d0", -0.05)
     text = warned(soft, "mean planes", "-kappa")
     assert soft.overlapMax > 0.1 * 0.4  # gap 0.1, approach 0.5
@@ -149,7 +149,7 @@ def test_few_points_in_the_plane():
 
 
 def test_jumping_pressure():
-    """A fine, stiff slave against a coarse, soft master: the pressure jumps, and the run says by how much and the cure."""
+    """A fine, stiff slave against a coarse, soft master: the pressure jumps, and the run says so with the cure."""
     done = run("two-cylinders", "-E1", 1e5, "-h", 0.1)
     warned(done, "jumps from point to point", "softer body")
     warned(run("two-spheres", "-E1", 1e5, "-ratio", 2), "jumps from point to point", "softer body")
