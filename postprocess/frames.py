@@ -1,4 +1,4 @@
-"""The frames of a movie: points on the law's curve over s = d - d0, pressure profile, deformed bodies; one frame per Newton step."""
+"""The frames of a movie: points on the law's curve, pressure profile, deformed bodies; one frame per Newton step."""
 
 from dataclasses import dataclass
 
@@ -162,7 +162,9 @@ def wall_words(walls: np.ndarray, tau: np.ndarray, plane: Plane) -> str:
     name = "law" if plane.curve is not None else "points"
     if len(walls) == 0:
         return f"{name}; wall beyond the picture"
-    return f"{name}; wall at $T - d_0 = {style.number(walls[0])}$" if len(walls) == 1 else f"{name}; walls: the points' $T - d_0$"
+    if len(walls) == 1:
+        return f"{name}; wall at $T - d_0 = {style.number(walls[0])}$"
+    return f"{name}; walls: $T - d_0$ of the points"
 
 
 def states_of_steps(run: Run) -> np.ndarray:

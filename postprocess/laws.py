@@ -10,7 +10,7 @@ Law = Callable[[np.ndarray], np.ndarray]
 
 
 def law_of(run: Run) -> Law | None:
-    """s = d - d0 (n,) -> pressure (n,) of the run's law, 0 below 0; inf where the law is; None for a law made of data."""
+    """s = d - d0 (n,) -> pressure (n,) of the run's law, 0 below 0, inf where the law is; None if made of data."""
     name = run.summary["parameters"].get("law", "power")
     if name not in ("power", "exponential", "barrier", "signorini"):
         return None

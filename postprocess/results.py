@@ -133,7 +133,7 @@ class Run:
 
     @cached_property
     def adaptations(self) -> list[Table]:
-        """A table per model solved, columns ADAPTATIONS, points sorted by x; threshold is the T^N of that model, tau T^N - d0.
+        """A table per model solved, columns ADAPTATIONS, points sorted by x; threshold is that model's T^N.
 
         With load steps the models of all steps follow one another, as in the summary's newtonPerAdaptation.
         """

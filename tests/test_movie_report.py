@@ -188,7 +188,8 @@ class TestFrames:
         (disc,) = movie.below.patches
         p = found.summary["parameters"]
         assert disc.get_xy()[:, 1].min() == pytest.approx(p["depth"] + p["gap"] - p["u0"], abs=1e-6)
-        assert movie.left.get_xlabel() == "overlap of the asperities $s = d - d_0$ [mm]" and movie.below.get_aspect() == 1
+        assert movie.left.get_xlabel() == "overlap of the asperities $s = d - d_0$ [mm]"
+        assert movie.below.get_aspect() == 1
         assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1399$"
         assert title(found, 0) == "before the first of 12 Newton steps"
 

@@ -62,6 +62,8 @@ def test_own_mesh(mesh, tmp_path):
 def test_own_mesh_in_other_units(mesh, tmp_path):
     """In other lengths the force shall scale: elements of an area of 1e-12 are no reason to fail."""
     flags = [
+        "-law",
+        "power",
         "-mesh",
         spoilt(mesh, tmp_path, lambda lines: shrink(lines, 1e-5)),
         "-u0",
@@ -76,7 +78,7 @@ def test_own_mesh_in_other_units(mesh, tmp_path):
         0,
     ]
     there = run_in(ROOT, script(SCENE), *flags, out=tmp_path / "there")
-    here = run_in(ROOT, script(SCENE), "-mesh", mesh, "-vtu", 0, out=tmp_path / "here")
+    here = run_in(ROOT, script(SCENE), "-law", "power", "-d0", -0.05, "-mesh", mesh, "-vtu", 0, out=tmp_path / "here")
     assert there.newton == here.newton
     assert there.force == pytest.approx(here.force * 1e-5, rel=1e-8)
 

@@ -26,8 +26,8 @@ def refused(package, script, *flags, out="results/new/folder", env=None):
 EVERYWHERE = [
     ("-kappa", "0", "above 0"),
     ("-kappa", "-1e3", "above 0"),
-    ("-m", "1", "above 1"),
-    ("-m", "0.5", "above 1"),
+    ("-m", "1", "(1, 1000)"),
+    ("-m", "0.5", "(1, 1000)"),
     ("-E", "0", "above 0"),
     ("-E", "-100", "above 0"),
     ("-nu", "0.5", "(-1, 0.5)"),

@@ -112,6 +112,13 @@ def rough_profile(x, given):
     return np.sum(size * np.cos(np.outer(x, wavenumber) + phase), axis=1)
 
 
+def rough_top(given):
+    """The profile's highest value: a dense search, and a denser one around what it found."""
+    dense = np.linspace(-0.5, 0.5, 100 * int(given["modes"]) + 1) * given["width"]
+    found = dense[np.argmax(rough_profile(dense, given))]
+    return rough_profile(found + np.linspace(-1, 1, 20001) * (dense[1] - dense[0]), given).max()
+
+
 def circle(r, radius):
     return radius - np.sqrt(radius**2 - r**2)
 
@@ -129,13 +136,13 @@ GAPS = {
     "patch-test-3d": lambda c, g: 0 * c["x"],
     "sphere-on-plane": lambda c, g: circle(np.hypot(c["x"], c["y"]), g["R"]),
     "two-spheres": lambda c, g: sum(circle(np.hypot(c["x"], c["y"]), g[name]) for name in ("R1", "R2")),
-    "rough": lambda c, g: rough_profile(c["x"], g).max() - rough_profile(c["x"], g),
+    "rough": lambda c, g: rough_top(g) - rough_profile(c["x"], g),
 }
 GAPS["hertz-line"] = GAPS["disc-on-block-ipopt"] = GAPS["disc-on-block"]
 NODAL = ["-points", "nodal"]
 APART = {"hertz-line": ["-force", 0], "two-cylinders": ["-force", 0, *NODAL], "patch-test": NODAL}
 APART |= {"patch-test-3d": NODAL, "sphere-on-plane": ["-force", 0, "-layers", 1]}
-APART |= {"two-spheres": ["-force", 0, "-layers", 1, *NODAL]}
+APART |= {"two-spheres": ["-force", 0, "-layers", 1, *NODAL], "wavy": ["-waves", 10], "rough": ["-modes", 20]}
 ENDS = {  # of the contact: the greatest |x| of a point
     **{"disc-on-block": 9.9, "disc-on-block-ipopt": 9.9, "meshed-disc": 9.9, "confined-block": 10, "patch-test": 10},
     **{"wavy": 20, "rough": 20, "flat-punch": 4, "hertz-line": 2, "two-cylinders": 2},

@@ -1,0 +1,68 @@
+"""Work is force: the reported energy's derivative in the prescribed displacement is the reported force."""
+
+import pytest
+from freefem import run
+
+STEP = 5e-4  # of the approach: the central difference's own error is of its square, its rounding far below
+HARD = ["-law", "signorini"]
+LAWS = {
+    "power": [],
+    "stiff": ["-kappa", 1e9],
+    "exponential": ["-law", "exponential"],
+    "barrier": ["-law", "barrier"],
+    "table": ["-law", "table"],
+    "signorini": HARD,
+}
+# small meshes; smooth laws: hard contact's energy has kinks in its second derivative where a point comes into contact
+PLANE = [
+    ("disc-on-block", 2.5, ["-h", 0.5]),
+    ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "stress"]),
+    ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "axisymmetric", "-width", 20]),
+    ("disc-on-block", 2.5, ["-h", 0.5, "-order", 2, "-method", "newton"]),
+    ("disc-on-block", 2.5, ["-h", 0.5, "-bodyForce", 0.5, "-traction", 1]),
+    ("disc-on-block-ipopt", 2.5, ["-h", 1, "-method", "newton"]),
+    ("confined-block", 2.5, ["-h", 4]),
+    ("wavy", 2.5, ["-h", 0.5]),
+    ("wavy", 2.5, ["-h", 0.5, "-geometry", "stress"]),
+    ("flat-punch", 2.5, ["-h", 0.5]),
+    ("flat-punch", 2.5, ["-h", 0.5, "-geometry", "axisymmetric"]),
+    ("rough", 1.0, ["-h", 0.5, "-modes", 20]),
+    ("meshed-disc", 2.5, ["-h", 0.5, "-Eratio", 10]),
+    ("patch-test", 2.5, []),
+    ("patch-test-3d", 2.5, ["-lower", 2, "-upper", 3]),
+    ("hertz-line", 0.3, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.2]),
+    ("two-cylinders", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.2]),
+    ("two-bodies", 0.5, ["-law", "power", "-d0", -0.25]),
+    ("sphere-on-block", 1.0, ["-h", 1, "-patch", 3, "-layers", 2]),
+    ("sphere-on-plane", 0.1, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.3, "-layers", 2]),
+    ("two-spheres", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.3, "-layers", 2]),
+]
+
+
+def derivative(scene, u0, flags):
+    """The central difference of the energy, and the force."""
+    tight = [*flags, "-tol", 1e-12]
+    before, after = (run(scene, *tight, "-u0", u0 + k * STEP).energy for k in (-1, 1))
+    slope = (after - before) / (2 * STEP)
+    return slope, run(scene, *tight, "-u0", u0).force
+
+
+@pytest.mark.parametrize("scene, u0, flags", PLANE, ids=lambda value: str(value) if isinstance(value, str) else None)
+def test_work_is_force_in_every_scene(scene, u0, flags):
+    """dE/du0 shall be the force to 1e-5."""
+    slope, force = derivative(scene, u0, flags)
+    assert force > 0
+    assert slope == pytest.approx(force, rel=1e-5)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_work_is_force_for_every_law(tmp_path_factory, law):
+    """The same with the other laws, in the plane; a table of the power law's own pairs."""
+    flags = list(LAWS[law])
+    if law == "table":
+        pairs = tmp_path_factory.getbasetemp() / "pairs.csv"
+        pairs.write_text("".join(f"{s / 20},{1e3 * (s / 20) ** 3!r}\n" for s in range(11)))
+        flags += ["-table", pairs]
+    slope, force = derivative("flat-punch", 2.5, ["-h", 1, *flags])
+    assert force > 0
+    assert slope == pytest.approx(force, rel=1e-5)
