@@ -12,6 +12,8 @@ PRELUDE = """
 string scene = "unit";
 include "case/flags.idp"
 include "case/output.idp"
+include "laws/all.idp"
+include "solve/methods/all.idp"
 include "case/options.idp"
 flagsDone("unit");
 int rows;

@@ -1,4 +1,4 @@
-"""case/, bodies/, contact/ and solve/: each module by itself, against values worked out by hand."""
+"""case/, bodies/, surface/ and solve/: each module by itself, against values worked out by hand."""
 
 import numpy as np
 import pytest
@@ -186,7 +186,7 @@ def test_unknown_group_is_refused(tmp_path):
     assert 'no physical group "contac"' in first
 
 
-# ---------------------------------------------------------------- bodies/elastic-2d.idp
+# ---------------------------------------------------------------- bodies/stiffness.idp
 
 # the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
 BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]
@@ -234,14 +234,14 @@ tell("load", bodyLoad.sum);
 
 def test_body_load(tmp_path):
     """A confined column under its own weight g shall sink at its top by g L^2 / (2 M)."""
-    discretise = 'include "bodies/discretise-2d.idp"'
+    discretise = 'include "bodies/discretise.idp"'
     text = scene_text("confined-block")
     assert text.count(discretise) == 1
     values = told(snippet(tmp_path, text.replace(discretise, WEIGHT + discretise) + SINKING, *BLOCK, "-order", 2))
     np.testing.assert_allclose(values["top"], -3 * 2**2 / (2 * CONFINED), rtol=1e-12)
 
 
-# ---------------------------------------------------------------- contact/slave-2d.idp
+# ---------------------------------------------------------------- surface/slave.idp
 
 POINTS = """
 tell("x", pointX);
@@ -274,7 +274,7 @@ def test_slave_points(tmp_path, order, element, weights):
     np.testing.assert_allclose(values["trace"], 10 * np.linspace(-2, 2, n) + 2, atol=1e-13)
 
 
-# ---------------------------------------------------------------- contact/master-2d.idp
+# ---------------------------------------------------------------- surface/pair-plane.idp
 
 MASTER = """
 fespace Uh(Th, ELEMENT);
@@ -335,9 +335,9 @@ tell("linear", seen);
 def test_partly_covered(tmp_path, share, order, element):
     """Whatever part the master covers, no weight shall be negative, and together they give the integrals."""
     text = scene_text("patch-test")
-    whole = "upperElements, [width * (x - 0.5)"
+    whole = "upperElements, [width * (x - 0.5), depth + apart + height * y"
     assert text.count(whole) == 1
-    text = text.replace(whole, f"upperElements, [width * ({share} * x - 0.5)") + COVERED.replace("ELEMENT", element)
+    text = text.replace(whole, f"upperElements, [width * ({share} * x - 0.5), depth + apart + height * y") + COVERED.replace("ELEMENT", element)
     values = told(snippet(tmp_path, text, "-method", "newton", "-order", order, "-width", 2, "-lower", 4, "-upper", 3))
     weight, paired = values["weight"], values["paired"] == 1
     assert (weight > 0).all()
@@ -381,7 +381,7 @@ func int imbalance(real[int] & u, real[int] & G)
     ENDIFMACRO
     return 0;
 }
-real[int] uBefore(ndof), newtonStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points);
+real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points);
 displacement = 0;
 for (int k = 1; k <= STEPS; k++)
 {
@@ -392,16 +392,16 @@ for (int k = 1; k <= STEPS; k++)
     for (int i = 0; i < points; i++) state[i] = slope[i] > 0 ? compliant : open;
     solveLinearised();
 }
-newtonStep = displacement - uBefore;
+fullStep = displacement - uBefore;
 imbalance(uBefore, G0);
 real smallness = 1e-5;
-real[int] uForward = uBefore + smallness * newtonStep;
-real[int] uBackward = uBefore - smallness * newtonStep;
+real[int] uForward = uBefore + smallness * fullStep;
+real[int] uBackward = uBefore - smallness * fullStep;
 imbalance(uForward, Gplus);
 imbalance(uBackward, Gminus);
-real[int] JnewtonStep = Gplus - Gminus;
-JnewtonStep /= 2 * smallness;
-real[int] tangentError = JnewtonStep + G0;
+real[int] JfullStep = Gplus - Gminus;
+JfullStep /= 2 * smallness;
+real[int] tangentError = JfullStep + G0;
 tell("imbalance", G0.l2);
 tell("error", tangentError.l2);
 """

@@ -72,7 +72,7 @@ EVERYWHERE = [
 def test_refused_by_every_scene(package, flag, value, allowed):
     """Every scene shall refuse the value in one line that names flag, value and what is allowed."""
     for script in (DISC, TWO_BODIES, BLOCK):
-        method = [] if flag == "-method" else ["-method", "newton"]
+        method = [] if flag in ("-method", "-T0") else ["-method", "newton"]
         line = refused(package, script, *method, flag, value)
         assert flag in line
         assert flag == "-kapa" or value in line

@@ -12,15 +12,8 @@ from freefem import ROOT, run, scene_text, snippet, told
 THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 DISC, SPHERE = "disc-on-block", "sphere-on-block"
 COMPLIANCE = """
-include "contact/compliance.idp"
-IFMACRO(threeDimensional)
-include "solve/kernel-boussinesq.idp"
-ENDIFMACRO
-IFMACRO(!threeDimensional)
-include "solve/kernel-2d.idp"
-ENDIFMACRO
-include "solve/problem.idp"
-include "solve/kernel.idp"
+setUpKernel();
+setUpProblem();
 int[int] all(points);
 for (int i = 0; i < points; i++) all[i] = i;
 real[int,int] half(0, 0);
@@ -39,7 +32,7 @@ for (int i = 0; i < points; i++)
 {
     unit = 0;
     unit[i] = 1;
-    complianceTimes(unit, column);
+    complianceTimes(unit, column, 0);
     tell("C", column);
     column = half(:, i);
     tell("G", column);

@@ -33,7 +33,7 @@ gmsh=$!
     kill "$gmsh"
 ) > /dev/null 2>&1 &
 watch=$!
-wait "$gmsh"
+wait "$gmsh" 2> /dev/null
 kill "$watch" 2> /dev/null
 gmsh=
 if grep -q '^2.2 0 8' "$work/new.msh" 2> /dev/null && grep -q PhysicalNames "$work/new.msh" && ! grep -q ^Error "$work/log" \
