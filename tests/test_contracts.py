@@ -215,7 +215,8 @@ def test_the_code_is_read():
         """real[int] a(n), b = f(c, 2); IFMACRO(!space) matrix<real> M; ENDIFMACRO string[int] words = ["", other];
         func real[int] g(real[int] & p1, int p2,
                          ostream & p3) { real t = p1[0]; for (int i = used1; i < t; i++) p3 << real(used2); return a; }
-        func int g0() { return 0; } for (int j = 0; j < 3; j++) a[j] = j; macro def (u) { u } macro paste (u, v) { u#Y + dx(v) * used3 }
+        func int g0() { return 0; } for (int j = 0; j < 3; j++) a[j] = j;
+        macro def (u) { u } macro paste (u, v) { u#Y + dx(v) * used3 }
         fespace Wh(Th, P1); Wh def(w) = 0; Wh [w1, w2]; varf form(def(u1), def(v1)) = on(label1, u1 = edge);
         func h1 = x * used4; call(order = 3); int m = Wh.ndof / 2; { real inner = 1; } inner2 = inner;""",
         spaces=["Wh"],
