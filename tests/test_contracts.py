@@ -1,7 +1,7 @@
-"""The heads of the modules against their code: what crosses files is in the "Needs" of the one and the "Gives" of the other.
+"""The heads of the modules against their code: what crosses files is in "Needs" of the one and "Gives" of the other.
 
-Needs may name an identifier, or the module that gives it (`solve/problem.idp`), or a folder with two algorithms behind one
-contract (`operator/`).
+Needs may name an identifier, or the module that gives it (`solve/problem.idp`), or a folder with two algorithms behind
+one contract (`operator/`).
 """
 
 import re
@@ -13,7 +13,8 @@ from freefem import ROOT
 EDP = ROOT / "edp"
 MODULES = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.idp"))
 SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp"))
-TYPES = r"(?:int|real|string|bool|complex|matrix|mesh3?|meshS|meshL|varf|fespace|ifstream|ofstream)(?:\s*<\w+>)?(?:\[[\w, ]*\])?"
+TYPES = r"(?:int|real|string|bool|complex|matrix|mesh3?|meshS|meshL|varf|fespace|ifstream|ofstream)"
+TYPES += r"(?:\s*<\w+>)?(?:\[[\w, ]*\])?"
 KEYWORDS = set("if else for while return func macro include load break continue try catch new true false".split())
 EXCEPTIONS = set()  # (module, identifier): why
 

@@ -102,7 +102,7 @@ def test_no_other_flags():
     """The README shall document no flag that no scene has."""
     known = set().union(*(help_table(scene) for scene in SCENES))
     assert documented().keys() <= known
-    mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README) }
+    mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README)}
     assert mentioned <= known | {"-help", "-kapa", "-spring", "-damping"}
 
 
@@ -392,13 +392,14 @@ def test_show(paper_run):
 
 
 def test_scene_example(tmp_path):
-    """The scene that the README walks through shall be the one in edp/scenes/, its bodies' lines a scene's, and a copy run."""
+    """The scene that the README walks through shall be the one in edp/scenes/, its bodies' lines one's; a copy runs."""
     example, bodies = fences(section(README, "Writing a scene"), "freefem")
     assert example == (ROOT / "edp/scenes/flat-punch.edp").read_text()
     missing = set(bodies.splitlines()) - set((ROOT / "edp/scenes/confined-block.edp").read_text().splitlines())
     assert not missing
     package = tree(tmp_path / "package")
-    copy = example.replace('scene = "flat-punch"', 'scene = "copy"').replace("(ax, ay, az) gap", "(ax, ay, az) (gap + 0.01 * ax^2)")
+    copy = example.replace('scene = "flat-punch"', 'scene = "copy"')
+    copy = copy.replace("(ax, ay, az) gap", "(ax, ay, az) (gap + 0.01 * ax^2)")
     (package / "edp/scenes/copy.edp").write_text(copy)
     contact = run_in(package, "edp/scenes/copy.edp", "-h", 2, "-u0", 0.1, "-vtu", 0, out=tmp_path / "out").contact
     np.testing.assert_allclose(contact["overlap"], 0.1 - 0.5 - 0.01 * contact["x"] ** 2, atol=1e-12)
@@ -443,7 +444,7 @@ def test_law_example(grown, tmp_path, method):
 
 
 def test_method_example(grown, tmp_path):
-    """The method that the README adds shall work, its flag be its own, and its steps shrink the error by what it leaves."""
+    """The method that the README adds shall work, its flag be its own; each step leaves 1 - damping of the error."""
     result = layer_of_springs(grown, tmp_path / "out", "-method", METHOD, "-damping", 0.9)
     assert result.parameters["damping"] == 0.9
     ratio = result.history["residual"][5:-1] / result.history["residual"][4:-2]
