@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
@@ -20,7 +21,7 @@ THEORY = (ROOT / "edp" / "README.md").read_text()
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]  # set-up counts as done
 # what stands for a table's values in the commands
 VALUES = {"H": 2, "T0": 0, "TOL": 1e-6, "ORDER": 1, "METHOD": "paper", "KAPPA": 1e6, "M": 2, "RATIO": 1e3}
-LAW = "linear"  # the law that the README adds
+LAW, METHOD = "linear", "damped"  # the law and the method that the README adds
 
 
 def section(text, title):
@@ -57,9 +58,9 @@ SCENES = [quoted(name)[0] for name, *_ in rows(section(README, "Scenes"))]
 
 
 @functools.cache
-def help_table(scene):
-    """{flag: (default, words of the rest)} as -help prints them."""
-    lines = run_in(ROOT, script(scene), "-help").stdout.splitlines()
+def help_table(scene, *flags):
+    """{flag: (default, words of the rest)} as -help prints them, beside other flags."""
+    lines = run_in(ROOT, script(scene), *flags, "-help").stdout.splitlines()
     return {line.split()[0]: line[18:].split() for line in lines if line.startswith("-")}
 
 
@@ -69,9 +70,9 @@ def documented():
     return {quoted(flag)[0]: (default, unit) for flag, default, unit, _ in table}
 
 
-def default_for(scene, cell):
-    """The default of a cell such as "40 (`confined-block`: 20)"."""
-    own = re.search(rf"`{scene}`: ([^;)]+)", cell)
+def default_for(name, cell):
+    """The default for a scene or a method of a cell such as "40 (`confined-block`: 20)"."""
+    own = re.search(rf"`{name}`: ([^;)]+)", cell)
     return own[1].strip() if own else cell.split(" (")[0]
 
 
@@ -93,10 +94,7 @@ def test_flags(scene):
             results = "disc-on-block" if scene == "disc-on-block-ipopt" else scene
             assert re.search(rf"results/{results}/\w+$", words[0])
             continue
-        expected = default_for(scene, default)
-        if scene == "disc-on-block-ipopt" and "other methods:" in default:  # its default method is another one
-            expected = re.search(r"other methods: ([^;)]+)", default)[1]
-        assert words[0] == expected, flag
+        assert words[0] == default_for(scene, default), flag
         assert not unit or words[1] == default_for(scene, unit), flag
 
 
@@ -104,16 +102,55 @@ def test_no_other_flags():
     """The README shall document no flag that no scene has."""
     known = set().union(*(help_table(scene) for scene in SCENES))
     assert documented().keys() <= known
-    mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README) if word not in ("-help", "-kapa", "-spring")}
-    assert mentioned <= known
+    mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README)}
+    assert mentioned <= known | {"-help", "-kapa", "-spring", "-damping"}
 
 
-def test_methods_and_laws():
-    """The methods and the laws of -help shall be those that the README names."""
-    for scene, flag, title, end in (("disc-on-block", "-method", "Methods", 7), ("disc-on-block", "-law", "Laws", 99)):
-        words = " ".join(help_table(scene)[flag])
-        allowed = re.search(r"one of: ([^)]*)", words)[1].split()
-        assert sorted(quoted(name)[0] for name, *_ in rows(section(README, title))[:end]) == sorted(allowed)
+def words_of(scene, flag):
+    """The words that a flag of a scene may be."""
+    return re.search(r"one of: ([^)]*)", " ".join(help_table(scene)[flag]))[1].split()
+
+
+METHODS = [quoted(name)[0] for name, *_ in rows(section(README, "Methods"))[:7]]
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_methods_and_laws(scene):
+    """The methods and the laws of -help shall be those that the README names: ipopt in one scene only."""
+    expected = [name for name in METHODS if name != "ipopt" or scene == "disc-on-block-ipopt"]
+    assert sorted(words_of(scene, "-method")) == sorted(expected)
+    assert sorted(words_of(scene, "-law")) == sorted(quoted(name)[0] for name, *_ in rows(section(README, "Laws")))
+
+
+def owners():
+    """{flag: methods that have it} of the flags that the README says to be a method's own."""
+    table = {quoted(row[0])[0]: row[3] for row in rows(section(README, "Flags")) if row[0].startswith("`")}
+    named = {flag: re.search(r"only with ((?:`\w+`(?:, )?)+)", meaning) for flag, meaning in table.items()}
+    return {flag: set(quoted(found[1])) for flag, found in named.items() if found}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_flags_of_a_method(method, tmp_path):
+    """A run shall have the flags of its method, with the README's defaults, and refuse those of another by its name."""
+    scene = "disc-on-block-ipopt" if method == "ipopt" else "disc-on-block"
+    assert owners().keys() == {quoted(row[0])[0].split(",")[0] for row in rows(section(README, "Methods"))[7:]}
+    used = run(scene, "-method", method, "-h", 2).parameters
+    assert {flag for flag in owners() if flag[1:] in used} == {flag for flag in owners() if method in owners()[flag]}
+    for flag, methods in owners().items():
+        if method in methods:
+            assert str(used[flag[1:]]) == default_for(method, documented()[flag][0])
+        else:
+            words = ["-method", method, flag, documented()[flag][0].split(" (")[0]]
+            stdout = run_in(ROOT, script(scene), *words, out=tmp_path / "out", expect=10).stdout
+            said = re.fullmatch(rf"{flag}: not a flag of this method; allowed: only with -method ([\w ]+)\n", stdout)
+            assert said and set(said[1].split()) == methods
+
+
+@pytest.mark.parametrize("method", METHODS[:-1])
+def test_help_of_a_method(method):
+    """-help shall list the flags of the method that stands beside it."""
+    own = {flag for flag in help_table("disc-on-block", "-method", method) if flag in owners()}
+    assert own == {flag for flag in owners() if method in owners()[flag]}
 
 
 # ---------------------------------------------------------------- files
@@ -146,7 +183,8 @@ def test_summary_keys(paper_run):
     names = {key for key in listed if not key.endswith(".csv") and not key.startswith("-")}
     assert names - others == flat(paper_run.summary)
     assert {key for key in listed if key.endswith(".csv")} == {name for name in files if name.endswith(".csv")}
-    assert paper_run.summary["parameters"].keys() == {flag[1:] for flag in help_table("disc-on-block")}
+    listed = help_table("disc-on-block", "-method", "paper")
+    assert paper_run.summary["parameters"].keys() == {flag[1:] for flag in listed}
 
 
 def test_summary_keys_in_space(tmp_path):
@@ -205,7 +243,7 @@ def test_picture_from_paraview():
 def test_exit_codes(tmp_path):
     """The exit codes shall be those of the README."""
     codes = [int(row[0]) for row in rows(section(README, "Files of a run")) if row[0].isdigit()]
-    assert codes == [0, 10, 20, 30]
+    assert codes == [0, 10, 20, 30, 130]
     run_in(ROOT, script("confined-block"), "-h", 5, out=tmp_path / "a", expect=0)
     run_in(ROOT, script("confined-block"), "-kapa", 5, out=tmp_path / "b", expect=10)
     run_in(ROOT, script("confined-block"), "-method", "newton", "-maxNewton", 1, "-h", 5, out=tmp_path / "c", expect=20)
@@ -353,34 +391,67 @@ def test_show(paper_run):
 # ---------------------------------------------------------------- examples
 
 
-def test_scene_example():
-    """The scene that the README walks through shall be the one in edp/scenes/."""
-    (example,) = fences(section(README, "Writing a scene"), "freefem")
+def test_scene_example(tmp_path):
+    """The scene that the README walks through shall be the one in edp/scenes/, its bodies' lines one's; a copy runs."""
+    example, bodies = fences(section(README, "Writing a scene"), "freefem")
     assert example == (ROOT / "edp/scenes/flat-punch.edp").read_text()
-
-
-def test_law_example(tmp_path):
-    """The law that the README adds shall work: the exact state of the confined block, by every method that it has."""
-    law, listed = fences(section(README, "Adding a law"), "freefem")
-    macro, include = listed.splitlines()
+    missing = set(bodies.splitlines()) - set((ROOT / "edp/scenes/confined-block.edp").read_text().splitlines())
+    assert not missing
     package = tree(tmp_path / "package")
-    (package / "edp/laws" / f"{LAW}.idp").write_text(law)
-    laws = package / "edp/laws/laws.idp"
-    text, lists = re.subn(r"^macro eachLaw\(do\).*$", macro, laws.read_text(), flags=re.M)
-    assert macro.replace(f" do({LAW})", "") in (ROOT / "edp/laws/laws.idp").read_text()
-    text, includes = re.subn(r'^include "laws/signorini.idp"$', rf"\g<0>\n{include}", text, flags=re.M)
-    assert lists == includes == 1
-    laws.write_text(text)
+    copy = example.replace('scene = "flat-punch"', 'scene = "copy"')
+    copy = copy.replace("(ax, ay, az) gap", "(ax, ay, az) (gap + 0.01 * ax^2)")
+    (package / "edp/scenes/copy.edp").write_text(copy)
+    contact = run_in(package, "edp/scenes/copy.edp", "-h", 2, "-u0", 0.1, "-vtu", 0, out=tmp_path / "out").contact
+    np.testing.assert_allclose(contact["overlap"], 0.1 - 0.5 - 0.01 * contact["x"] ** 2, atol=1e-12)
 
+
+def added(package, path, text, listing, name):
+    """Adds a file to the package, and to its list what the README says: the list must differ from it in that alone."""
+    (package / "edp" / path.replace("NAME", name)).write_text(text)
+    path = package / "edp" / path.replace("NAME", "all")
+    kept = "".join(line for line in listing.splitlines(keepends=True) if f"/{name}.idp" not in line)
+    kept = kept.replace(f" do({name})", "")
+    assert path.read_text().count(kept) == 1 and len(listing.splitlines()) == len(kept.splitlines()) + 1
+    path.write_text(path.read_text().replace(kept, listing))
+
+
+def layer_of_springs(package, out, *flags):
+    """The confined block with the README's law against its exact state; the run."""
     width, depth, spring, d0, approach, modulus, nu = 20, 20, 500, -0.25, 2.5 - 0.5, 100, 0.3
     confined = modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / depth
     pressure = spring * confined * (approach - d0) / (spring + confined)  # two springs in series
     energy = 0.5 * width * pressure * (approach - d0)
-    for method in ("xnewton", "paper", "newton"):
-        flags = ["-law", LAW, "-spring", spring, "-method", method, "-h", 4, "-tol", 1e-11, "-vtu", 0]
-        result = run_in(package, script("confined-block"), *flags, out=tmp_path / method)
-        assert abs(result.force / (width * pressure) - 1) < 1e-9
-        assert abs(result.energy / energy - 1) < 1e-9
+    flags = ["-law", LAW, "-spring", spring, *flags, "-h", 4, "-tol", 1e-11, "-vtu", 0]
+    result = run_in(package, script("confined-block"), *flags, out=out)
+    assert abs(result.force / (width * pressure) - 1) < 1e-9
+    assert abs(result.energy / energy - 1) < 1e-9
+    return result
+
+
+@pytest.fixture(scope="module")
+def grown(tmp_path_factory):
+    """A copy of the package with the law and the method that the README adds."""
+    folder = tree(tmp_path_factory.mktemp("readme-added") / "package")
+    added(folder, "laws/NAME.idp", *fences(section(README, "Adding a law"), "freefem"), LAW)
+    added(folder, "solve/methods/NAME.idp", *fences(section(README, "Adding a method"), "freefem"), METHOD)
+    return folder
+
+
+@pytest.mark.parametrize("method", ["xnewton", "paper", "newton"])
+def test_law_example(grown, tmp_path, method):
+    """The law that the README adds shall work: the exact state of the confined block, by every method that it has."""
+    layer_of_springs(grown, tmp_path / "out", "-method", method)
+
+
+def test_method_example(grown, tmp_path):
+    """The method that the README adds shall work, its flag be its own; each step leaves 1 - damping of the error."""
+    result = layer_of_springs(grown, tmp_path / "out", "-method", METHOD, "-damping", 0.9)
+    assert result.parameters["damping"] == 0.9
+    ratio = result.history["residual"][5:-1] / result.history["residual"][4:-2]
+    np.testing.assert_allclose(ratio, 0.1, rtol=0.01)
+    words = ["-method", "newton", "-damping", 0.9]
+    stdout = run_in(grown, script("confined-block"), *words, out=tmp_path / "newton", expect=10).stdout
+    assert f"only with -method {METHOD}" in stdout
 
 
 def test_citation():

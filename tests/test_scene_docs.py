@@ -62,24 +62,27 @@ def test_width():
     assert not [line for line in TEXT.splitlines() if len(line) > 130 and not line.startswith("|")]
 
 
-def included(scene):
-    """The text of a scene's script and of the scripts and bodies that it includes."""
-    text = (ROOT / script(scene)).read_text()
-    for name in re.findall(r'include "(main\.edp|bodies/block\S*\.idp)"', text):
-        text += (ROOT / "edp" / name).read_text()
-    return text + ((ROOT / "edp/bodies/block.idp").read_text() if 'include "main.edp"' in text else "")
+def included(name, space=None):
+    """The text of a script and of the scripts and bodies that it includes, as it is read in the plane or in space."""
+    text = (ROOT / "edp" / name).read_text()
+    space = "macro threeDimensional()" in text if space is None else space
+    other = "!threeDimensional" if space else "threeDimensional"
+    text = re.sub(rf"^ *IFMACRO\({other}\)\n.*?^ *ENDIFMACRO\n", "", text, flags=re.M | re.S)
+    inner = re.findall(r'^include "(main\.edp|scenes/\S+|bodies/(?!gmsh)\S+)"', text, re.M)
+    return text + "".join(included(file, space) for file in inner)
 
 
 def boundaries(scene):
     """The names of a scene's boundary: groups of its .geo one dimension below the body's, or labels of its script."""
-    text = included(scene)
-    geo = re.search(r'gmshMesh3?\("([\w-]+)"', text)
+    text = included(script(scene).removeprefix("edp/"))
+    geo = re.search(r'gmshMesh\("([\w-]+)"', text)
     if geo is None:
-        return set(re.findall(r"^int (\w+) = \d+; *(?://.*)?$", text, re.M)) - {"block", "lower", "upper"}
+        mesh = text.partition("runStart = clock();")[2]
+        return set(re.findall(r"^int (\w+) = \d+; *(?://.*)?$", mesh, re.M)) - {"block", "lower", "upper"}
     source = (ROOT / "meshes" / f"{geo[1]}.geo").read_text()
     for name in re.findall(r'Include "([\w.-]+)"', source):
         source += (ROOT / "meshes" / name).read_text()
-    kind = "Surface" if "gmshMesh3" in geo[0] else "Curve"
+    kind = "Surface" if re.search(r"^mesh3 Th\b", text, re.M) else "Curve"
     return set(re.findall(rf'Physical {kind}\("(\w+)"', source))
 
 

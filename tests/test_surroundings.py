@@ -364,8 +364,6 @@ def test_gmsh_ends_with_its_run(tmp_path, slow_gmsh, how):
     assert len(left) == 1 and left.pop().endswith(".msh")
 
 
-
-
 # ---------------------------------------------------------------- no room
 
 
@@ -405,7 +403,6 @@ def test_no_place_for_a_mesh(tmp_path):
     done = run_in(package, DISC, "-h", 2, out=tmp_path / "out", expect=10)
     assert "meshes/generated cannot be written" in refused_in_one_line(done.stdout)
     assert listing(package) == before and not (tmp_path / "out").exists()
-
 
 
 # ---------------------------------------------------------------- load series

@@ -3,8 +3,8 @@
 `stability.csv` has a row per run, `checks.csv` a row per comparison of a converged xnewton run with something that does
 not depend on it: plain Newton on the full law (or, where that fails, the paper's scheme), the exact state of confined
 blocks, the limits of a rigid layer and of a linear one, a twin in other units; and a row per count that has a limit.
-`--quick` runs the subset that is part of the tests (`quick.csv`), `python tests/campaigns/stability.py patch-test rough` these
-parts alone (`parts.csv`). Interrupted and started again, it goes on where it was.
+`--quick` runs the subset that is part of the tests (`quick.csv`), `python tests/campaigns/stability.py patch-test` this
+part alone (`parts.csv`). Interrupted and started again, it goes on where it was.
 """
 
 import argparse
