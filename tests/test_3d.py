@@ -168,7 +168,7 @@ def hertz(force, radius, modulus):
     "scene, radius, modulus", [("two-spheres", 5, 50 / (1 - NU**2)), ("sphere-on-plane", 10, 100 / (1 - NU**2))]
 )
 def test_balls_against_hertz(scene, radius, modulus):
-    """Balls under a force: radius and greatest pressure within 4 % of Hertz at h = a/10; radius and profile converge."""
+    """Balls under a force: within 4 % of Hertz at h = a/10; radius and profile converge."""
     a, greatest = hertz(FORCE, radius, modulus)
     errors = []
     for h, layers in ((0.2, 2), (0.1, 4)):

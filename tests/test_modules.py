@@ -337,7 +337,9 @@ def test_partly_covered(tmp_path, share, order, element):
     text = scene_text("patch-test")
     whole = "upperElements, [width * (x - 0.5), depth + apart + height * y"
     assert text.count(whole) == 1
-    text = text.replace(whole, f"upperElements, [width * ({share} * x - 0.5), depth + apart + height * y") + COVERED.replace("ELEMENT", element)
+    text = text.replace(
+        whole, f"upperElements, [width * ({share} * x - 0.5), depth + apart + height * y"
+    ) + COVERED.replace("ELEMENT", element)
     values = told(snippet(tmp_path, text, "-method", "newton", "-order", order, "-width", 2, "-lower", 4, "-upper", 3))
     weight, paired = values["weight"], values["paired"] == 1
     assert (weight > 0).all()
