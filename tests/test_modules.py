@@ -353,7 +353,7 @@ def test_partly_covered(tmp_path, share, order, element):
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
 TANGENT = """
 applyLoad(1.);
-tau = 1e300;
+walled = false;
 lambda = 0;
 func int traceOf(real[int] & u, real[int] & trace)
 {
