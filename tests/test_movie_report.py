@@ -26,9 +26,8 @@ from postprocess.frames import Movie, title
 from postprocess.laws import law_of, overlap_at
 from postprocess.references import PAPER, checks
 from postprocess.results import Run, read_run
-from postprocess.words import BY_METHOD, DEFAULTS, OTHERWISE, command, same
+from postprocess.words import command
 
-SCENES = ["disc-on-block", *sorted(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))]
 
 
 @pytest.fixture(scope="module")
@@ -507,6 +506,7 @@ def test_the_command_makes_the_run_again(tmp_path, scene, flags):
     found = read_run(run(scene, *flags).folder)
     words = shlex.split(command(found))
     assert words[:4] == FREEFEM and words[4] == script(scene) and words[-2] == "-out"
+    assert set(words[5:-2:2]) - {"-vtu"} == set(flags[::2])
     again = run_in(ROOT, words[4], *words[5:-2], out=tmp_path / "again").summary
     for name in ("force", "newton", "backsolves", "energy", "ndof"):
         assert again[name] == found.summary[name], name
@@ -514,19 +514,6 @@ def test_the_command_makes_the_run_again(tmp_path, scene, flags):
     assert {name: value for name, value in again["parameters"].items() if name not in left_out} == {
         name: value for name, value in found.summary["parameters"].items() if name not in left_out
     }
-
-
-@pytest.mark.parametrize("scene", SCENES)
-def test_defaults(scene):
-    """A flag that a command leaves out shall have that default in -help."""
-    stdout = run_in(ROOT, script(scene), "-help").stdout
-    helped = {line.split()[0][1:]: line.split()[1] for line in stdout.splitlines() if line.startswith("-")}
-    assert helped
-    method = BY_METHOD.get(helped["method"], BY_METHOD[""])
-    for name, default in {**DEFAULTS, **method}.items():
-        if name in helped and name not in OTHERWISE.get(scene, "").split():
-            value = float(helped[name]) if isinstance(default, int | float) else helped[name]
-            assert same(value, default), f"-{name} of {scene}: {helped[name]}, expected {default}"
 
 
 # ---------------------------------------------------------------- compare, figures, show
