@@ -29,7 +29,6 @@ from postprocess.results import Run, read_run
 from postprocess.words import command
 
 
-
 @pytest.fixture(scope="module")
 def paper():
     """The paper's test by the paper's scheme, with its states: 12 Newton steps."""
