@@ -1,8 +1,10 @@
 """case/, bodies/, surface/ and solve/: each module by itself, against values worked out by hand."""
 
+import json
+
 import numpy as np
 import pytest
-from freefem import ROOT, being_written, files, named, scene_text, snippet, told
+from freefem import ROOT, being_written, files, named, run, scene_text, snippet, told
 
 E, NU = 100.0, 0.3
 LAME = E * NU / ((1 + NU) * (1 - 2 * NU))
@@ -424,3 +426,32 @@ def test_tangent(tmp_path, scene, order):
         values = told(snippet(tmp_path, code, *flags))
         assert values["imbalance"] > 1e-3
         assert values["error"] < 1e-7 * values["imbalance"]
+
+
+# ---------------------------------------------------------------- lists of a scene's own
+
+LISTS = """
+macro eachLaw(do) do(signorini) do(power) //
+macro lawFiles() include "laws/signorini.idp"
+include "laws/power.idp" //
+macro eachMethod(do) do(newton) //
+macro methodFiles() include "solve/methods/newton.idp" //
+"""
+
+
+def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
+    """A scene with lists of its own shall load nothing else, and take the first entry where the usual one is missing."""
+    text = LISTS + (ROOT / "edp/scenes/confined-block.edp").read_text()
+    snippet(tmp_path, text, "-h", 5, "-vtu", 0, "-out", tmp_path / "out")
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    loaded = {name for name in summary["modules"] if name.startswith(("laws/", "solve/methods", "kernel/"))}
+    assert loaded == {"laws/laws", "laws/power", "laws/signorini"} | {
+        "solve/methods",
+        "solve/methods/newton",
+        "kernel/half-plane",
+    }
+    assert summary["method"] == "newton"
+    exact = run("confined-block", "-h", 5, "-method", "newton").summary["force"]
+    assert summary["force"] == pytest.approx(exact, rel=1e-12)
+    refused = snippet(tmp_path, text, "-method", "xnewton", expect=10)
+    assert refused.startswith("-method xnewton: unknown; allowed: one of: newton;")
