@@ -440,7 +440,7 @@ macro methodFiles() include "solve/methods/newton.idp" //
 
 
 def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
-    """A scene with lists of its own shall load nothing else, and take the first entry where the usual one is missing."""
+    """A scene with its own lists shall load nothing else, and take the first entry where the usual one is missing."""
     text = LISTS + (ROOT / "edp/scenes/confined-block.edp").read_text()
     snippet(tmp_path, text, "-h", 5, "-vtu", 0, "-out", tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
