@@ -122,6 +122,9 @@ def test_interrupted_movie(package):
     for name in names:
         (folder / name).write_text("of an earlier run")
     interrupted(package, folder, signal.SIGINT, "movie", "SCENE=confined-block", f"ARGS={LONG} -kappa 1e9")
+    end = time.monotonic() + 10  # what is being removed when make ends is removed to the end
+    while set(names) & set(files(folder)) and time.monotonic() < end:
+        time.sleep(0.01)
     assert not set(names) & set(files(folder))
 
 

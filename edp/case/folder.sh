@@ -78,6 +78,8 @@ open)
         rm -f ".lock-$last"
         last=$((last - 1))
     done
+    trap '' HUP INT TERM            # a removal that is begun goes on to its end; the summary, which stands for the whole, goes first
+    rm -f ../summary.json
     rm -rf ./*
     if test -e .written; then
         while read -r name; do
@@ -85,7 +87,6 @@ open)
             case $name in */*) ;; *) rm -f "../$name";; esac
         done < .written
     fi
-    rm -f ../summary.json
     for name; do
         test ! -e "../$name" || echo "$name"
     done > .written || exit 7;;
