@@ -196,7 +196,7 @@ def named(text):
 
 
 def paths(text):
-    """The files and folders that a text names: `case/flags.idp`, `meshes/readable.sh`, `kernel/`."""
+    """The files and folders that a text names: `case/flags.idp`, `meshes/check.awk`, `kernel/`."""
     return re.findall(r"(?<![\w/<>.-])(?:[a-z][\w-]{2,}/)+(?:[\w-]+\.\w+|(?![\w<*]))", text)
 
 

@@ -1,16 +1,17 @@
-#!/bin/sh
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh FILE FOLDER PID
-# Needs: awk; gmsh for a .geo file, and for what is not version 2 text.
-# Gives: FOLDER/mesh.msh, see check.awk; exit code 0, or 1 and in FOLDER/mesh.msh one line that says why not. FOLDER is new, and
-#        goes when the process PID has ended, however it ended: PID takes it away itself if it can.
-export LC_ALL=C
-file=$1
-folder=$2
-here=$(dirname "$0")
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER
+# Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text.
+# Gives: FOLDER/mesh.msh, see meshes/check.awk. FOLDER is new, and goes when the run has ended, however it ended: the run takes it
+#        away itself if it can.
+# Exit codes: 0 done, 1 refused: FOLDER/mesh.msh has one line that says why, 2 FOLDER cannot be made.
+. "${0%/*}/../case/process.sh"
+run=$1
+file=$2
+folder=$3
+check=${0%/*}/../../meshes/check.awk
 (umask 077 && mkdir "$folder") || exit 2
 (
     trap '' HUP INT TERM
-    while kill -0 "$3" && test -e "$folder"; do sleep 1; done
+    while test -n "$(started "$run")" && test -e "$folder"; do sleep 1; done
     rm -rf "$folder"
 ) < /dev/null > /dev/null 2>&1 &
 
@@ -32,7 +33,7 @@ if test -n "$how"; then
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
     file=$folder/converted.msh
 fi
-awk -f "$here/check.awk" < "$file" > "$folder/mesh.msh" 2> /dev/null
+awk -f "$check" < "$file" > "$folder/mesh.msh" 2> /dev/null
 code=$?
 test $code -le 1 || no "cannot be checked: is awk there, and room in /tmp?"
 test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in /tmp"
