@@ -1,7 +1,5 @@
 """solution.vtu of a run in space, read and checked, and cut by a plane."""
 
-import base64
-import binascii
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +8,13 @@ import numpy as np
 
 from postprocess.results import ResultsError, check_file
 
-TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
+TYPES = {"Float64": "<f8", "Int64": "<i8"}
 TRIANGLE, TETRAHEDRON = 5, 10  # VTK's numbers
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Bodies: points, move (n, 3) lengths; cells (m, 4) and their surface (k, 3) from 0; stress (m,) von Mises'."""
+    """Bodies: points, move (n, 3) lengths; cells (m, 4) and their surface (k, 3) from 0; stress (n,) von Mises'."""
 
     points: np.ndarray
     move: np.ndarray
@@ -28,21 +26,23 @@ class Grid:
 def read_grid(path: Path) -> Grid:
     """The grid of a run in space; ResultsError for a file that is missing, truncated, or no grid of tetrahedra."""
     check_file(path, "; run the scene with -vtu 1")
+    head, _, numbers = path.read_bytes().partition(b'<AppendedData encoding="raw">')
     try:
-        root = ElementTree.parse(path).getroot()
-    except (ElementTree.ParseError, UnicodeDecodeError, OSError):
+        root = ElementTree.fromstring(head + b"</VTKFile>")
+    except (ElementTree.ParseError, UnicodeDecodeError):
         raise ResultsError(path, "is not XML, or is truncated") from None
+    numbers = numbers.lstrip()[1:]
     found = {}
-    for part in ("Points", "Cells", "CellData", "PointData"):
+    for part in ("Points", "Cells", "PointData"):
         for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
-            found[part, element.get("Name") if part != "Points" else None] = numbers(path, element)
+            found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
     names = {
         "points": ("Points", None),
         "move": ("PointData", "displacement[length]"),
         "corners": ("Cells", "connectivity"),
         "ends": ("Cells", "offsets"),
         "types": ("Cells", "types"),
-        "stress": ("CellData", "vonMises[pressure]"),
+        "stress": ("PointData", "vonMises[pressure]"),
     }
     missing = [name[1] or name[0] for name in names.values() if name not in found]
     if missing:
@@ -51,7 +51,7 @@ def read_grid(path: Path) -> Grid:
     if not np.any(types == TETRAHEDRON) or not np.isin(types, (TRIANGLE, TETRAHEDRON)).all():
         raise ResultsError(path, "is not a grid of tetrahedra and their surface; the run is not one in space")
     wanted = np.cumsum(np.where(types == TETRAHEDRON, 4, 3))
-    whole = len(points) % 3 == 0 and len(points) == len(move) and len(types) == len(stress)
+    whole = len(points) == len(move) == 3 * len(stress)
     if not whole or not np.array_equal(ends, wanted) or len(corners) != wanted[-1]:
         raise ResultsError(path, "is truncated: its fields are not as long as its points and cells")
     if corners.min() < 0 or corners.max() >= len(points) // 3:
@@ -59,31 +59,28 @@ def read_grid(path: Path) -> Grid:
     solid, shell = (wanted[types == kind] for kind in (TETRAHEDRON, TRIANGLE))
     cells = corners[solid[:, None] + np.arange(-4, 0)].astype(int)
     surface = corners[shell[:, None] + np.arange(-3, 0)].astype(int)
-    return Grid(points.reshape(-1, 3), move.reshape(-1, 3), cells, surface, stress[types == TETRAHEDRON])
+    return Grid(points.reshape(-1, 3), move.reshape(-1, 3), cells, surface, stress)
 
 
-def numbers(path: Path, element: ElementTree.Element) -> np.ndarray:
-    """The finite numbers of a DataArray, ASCII or base64 after their length in bytes."""
-    kind, words = TYPES.get(element.get("type", "")), (element.text or "").split()
+def array(path: Path, element: ElementTree.Element, numbers: bytes) -> np.ndarray:
+    """The finite numbers of a DataArray, which stand among the appended ones behind their length in bytes."""
+    kind, name = TYPES.get(element.get("type", "")), element.get("Name", "the points")
     if kind is None:
         raise ResultsError(path, f"has numbers of an unknown type {element.get('type')!r:.40}")
-    try:
-        if element.get("format") == "ascii":
-            array = np.array(words, kind)
-        else:
-            data = base64.b64decode("".join(words), validate=True)
-            array = np.frombuffer(data[4:], kind, int.from_bytes(data[:4], "little") // np.dtype(kind).itemsize)
-    except (ValueError, OverflowError, binascii.Error):
-        raise ResultsError(path, f"is truncated: {element.get('Name', 'the points')} cannot be read") from None
-    if not np.isfinite(array).all():
-        raise ResultsError(path, f"has a number that is not finite in {element.get('Name', 'the points')}")
-    return array
+    begin = int(element.get("offset", "0")) + 8
+    end = begin + int.from_bytes(numbers[begin - 8 : begin], "little")
+    if end > len(numbers) or (end - begin) % 8:
+        raise ResultsError(path, f"is truncated: {name} cannot be read")
+    found = np.frombuffer(numbers[begin:end], kind)
+    if not np.isfinite(found).all():
+        raise ResultsError(path, f"has a number that is not finite in {name}")
+    return found
 
 
 def cut(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The section by the plane y = level of the undeformed grid, in its deformed place, as corners in (x, z).
 
-    Polygons (n, 4, 2), a triangle's last corner given twice; the stress (n,) of each; the outline's lines (m, 2, 2).
+    Polygons (n, 4, 2), a triangle's last corner given twice; the mean stress (n,) of each one's cell; the outline's lines (m, 2, 2).
     No point of the grid may lie on the plane.
     """
     one, two, three = (
@@ -93,7 +90,7 @@ def cut(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     )
     polygons, origin = crossings(grid, grid.cells, level, {1: one, 2: two, 3: three})
     lines, _ = crossings(grid, grid.surface, level, {1: [(2, 0), (2, 1)], 2: [(0, 1), (0, 2)]})
-    return polygons, grid.stress[origin], lines
+    return polygons, grid.stress[grid.cells[origin]].mean(axis=1), lines
 
 
 def crossings(grid: Grid, cells: np.ndarray, level: float, edges: dict) -> tuple[np.ndarray, np.ndarray]:
