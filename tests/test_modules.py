@@ -110,7 +110,8 @@ cout << "quoted [" << quoted("it's") << "]" << endl;
 openOutput("folder of results", "");
 {
     ofstream f(temporary("history.csv"));
-    f << "a,b" << endl << "1,2" << endl << LAST << endl;
+    f << "a,b" << endl << "1,2" << endl;
+    wholeAt("history.csv", f.tellp + CUT);
 }
 publish();
 """
@@ -124,7 +125,7 @@ def test_output_is_published_whole(tmp_path):
     (folder / ".run/.written").write_text("contact.csv\nmovie.gif\n")
     for name in (".run/series.csv", "summary.json", "contact.csv", "movie.gif", "mine.txt", "mine.vtu", "movie.html"):
         (folder / name).touch()
-    stdout = snippet(tmp_path, OUTPUT.replace("LAST", '"#end"'))
+    stdout = snippet(tmp_path, OUTPUT.replace("CUT", "0"))
     assert "root []" in stdout
     assert "quoted [it'\\''s]" in stdout
     assert files(folder) == ["history.csv", "mine.txt", "mine.vtu", "movie.html"] and not being_written(folder)
@@ -132,8 +133,8 @@ def test_output_is_published_whole(tmp_path):
 
 
 def test_output_cut_off_is_not_published(tmp_path):
-    """A file without its last line shall not be published, nor left behind, and the run shall say so."""
-    stdout = snippet(tmp_path, OUTPUT.replace("LAST", '"3,4"'), expect=30)
+    """A file that is shorter than its writer left it shall not be published, nor left behind, and the run shall say so."""
+    stdout = snippet(tmp_path, OUTPUT.replace("CUT", "4"), expect=30)
     assert "could not be written whole" in stdout
     folder = tmp_path / "folder of results"
     assert files(folder) == being_written(folder) == []

@@ -208,7 +208,7 @@ def test_lock(tmp_path, owner, free):
     text = owner.format(**who)
     (tmp_path / ".run" / ".lock-7").write_text(f"{text}\n" if text else "")
     done = run_in(ROOT, BLOCK, *TINY, out=tmp_path, expect=0 if free else 10)
-    assert sorted(os.listdir(tmp_path / ".run")) == ([".lock-8", ".written"] if free else [".lock-7"])
+    assert sorted(os.listdir(tmp_path / ".run")) == ([".ends", ".lock-8", ".written"] if free else [".lock-7"])
     if not free:
         assert ("another computer" if "elsewhere" in owner else "another run") in refused_in_one_line(done.stdout)
 
@@ -216,9 +216,10 @@ def test_lock(tmp_path, owner, free):
 def test_publishing_of_a_killed_run(tmp_path):
     """What a killed run was still moving into place shall not touch the files of the run that has the folder now."""
     (tmp_path / ".run").mkdir()
-    for state in range(300):
-        (tmp_path / ".run" / f"state-{state}.vtu").write_text("old\n#end\n")
-    (tmp_path / ".run" / "summary.json").write_text("old\n#end\n")
+    names = [*(f"state-{state}.vtu" for state in range(300)), "summary.json"]
+    for name in names:
+        (tmp_path / ".run" / name).write_text("old\n")
+    (tmp_path / ".run" / ".ends").write_text("".join(f"{name} 4\n" for name in names))
     (tmp_path / ".run" / ".written").touch()
     (tmp_path / ".run" / ".lock-1").write_text("1 0 killed\n")
     publishing = subprocess.Popen(["sh", "edp/case/folder.sh", "1", "publish", tmp_path], cwd=ROOT)

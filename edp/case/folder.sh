@@ -5,7 +5,7 @@
 #        publish: the files in FOLDER/.run, if each was written to its end, go into FOLDER, summary.json last; if not, none.
 # Exit codes: 0 done, 1 files not whole, 3 a control character in the name, 4 cannot be made or written, 5 another run is using
 #        it, 6 one on another computer has not finished there and cannot be looked after, 7 no room for even a line.
-# FOLDER/.run holds what is being written, the list .written of what a run has put into FOLDER, and the lock .lock-N. The lock
+# FOLDER/.run holds what is being written, the list .ends of files and their lengths, the list .written of what a run has put into FOLDER, and the lock .lock-N. The lock
 # with the highest N counts, until it says "done" or the process that it names has ended: nothing needs to take it away after a
 # kill. The next run adds .lock-<N + 1>, which only one can make, and removes the older ones after that.
 . "${0%/*}/process.sh"
@@ -34,10 +34,10 @@ owner()
 free()
 {
     test "$1" -gt 0 || return 0
-    line=$(cat ".lock-$1" 2> /dev/null)
+    read -r line 2> /dev/null < ".lock-$1"
     if test -z "$line"; then        # its run is just writing it, or was killed there
         sleep 1
-        line=$(cat ".lock-$1" 2> /dev/null)
+        read -r line 2> /dev/null < ".lock-$1"
     fi
     case $line in '' | done | "$run "*) return 0;; esac
     test "${line##* }" = "$(uname -n)" || return 6
@@ -74,20 +74,21 @@ open)
         else test -e ".lock-$mine" || exit 4
         fi
     done 2> /dev/null
+    trap '' HUP INT TERM            # a removal that is begun goes on to its end; the summary, which stands for the whole, goes first
+    kept=" $* "
+    set -- ../summary.json ./* .ends
     while test "$last" -gt 0 && test -e ".lock-$last"; do
-        rm -f ".lock-$last"
+        set -- "$@" ".lock-$last"
         last=$((last - 1))
     done
-    trap '' HUP INT TERM            # a removal that is begun goes on to its end; the summary, which stands for the whole, goes first
-    rm -f ../summary.json
-    rm -rf ./*
     if test -e .written; then
         while read -r name; do
-            case " $* " in *" $name "*) continue;; esac
-            case $name in */*) ;; *) rm -f "../$name";; esac
+            case $kept in *" $name "*) continue;; esac
+            case $name in */*) ;; *) set -- "$@" "../$name";; esac
         done < .written
     fi
-    for name; do
+    rm -rf "$@"
+    for name in $kept; do
         test ! -e "../$name" || echo "$name"
     done > .written || exit 7;;
 publish)
@@ -102,23 +103,23 @@ publish)
     fail()
     {
         held
-        rm -rf ./* .whole
+        rm -rf ./* .ends
         exit 1
     }
-    # a full disk cuts a file off silently: its last line tells
+    # a full disk cuts a file off silently: .ends has how long each was for its writer
+    wc -c -- * 2> /dev/null | awk '
+        NR == FNR { size[$1] = $2; missing++; next }
+        $2 in size { cut += size[$2] != $1; missing--; next }
+        $2 != "total" { cut++ }
+        END { exit cut || missing }' .ends - 2> /dev/null || fail
+    set --
     for file in *; do
-        held
-        test -e "$file" || continue
-        if test "$(tail -c 5 "$file")" = '#end'; then
-            sed '$d' "$file" > .whole && mv -f .whole "$file" || fail
-        else tail -c 100 "$file" | grep -q '</VTKFile>' || fail
-        fi
-    done
-    { ls && cat .written; } | sort -u > .whole && mv -f .whole .written || fail
-    for file in *; do
-        held
-        test ! -e "$file" || test "$file" = summary.json || mv -f "$file" .. || fail
-    done
+        echo "$file" >> .written || fail
+        test "$file" = summary.json || set -- "$@" "$file"
+    done 2> /dev/null
+    held
+    test $# = 0 || mv -f "$@" .. || fail
+    : > .ends
     held
     test -e summary.json || exit 0
     mv -f summary.json .. || fail
