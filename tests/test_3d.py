@@ -131,7 +131,7 @@ def test_contact_up_to_the_edge_is_said():
 @pytest.mark.parametrize(
     "flags, words",
     [
-        (["-order", 2], ["-order 2", "from 1 to 1"]),
+        (["-order", 4], ["-order 4", "from 1 to 2"]),
         (["-patch", 7.5], ["-patch 7.5", "at most 7"]),
         (["-R", 100, "-patch", 19], ["-patch 19", "at most 18"]),
         (["-patch", 2, "-h", 3], ["-h 3", "at most 2"]),

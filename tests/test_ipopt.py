@@ -40,7 +40,7 @@ def test_same_answer_on_every_law(law):
     assert ipopt.newton <= 20
 
 
-@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("order", [1, 2, 4])
 def test_hard_contact_by_bounds(order):
     """With -law signorini IPOPT shall find hard contact: a wall at d0, pressure nowhere else."""
     flags = ["-h", 0.5, "-order", order]

@@ -100,14 +100,18 @@ def test_measure(made):
     name, run = made
     grid = Grid(run.folder / "solution.vtu")
     space = "space" in name
-    corners = np.array([grid.points[cell] for cell, kind in zip(grid.cells, grid.kinds, strict=True) if kind == (10 if space else 5)])
+    corners = np.array(
+        [grid.points[cell] for cell, kind in zip(grid.cells, grid.kinds, strict=True) if kind == (10 if space else 5)]
+    )
     edges = corners[:, 1:] - corners[:, :1]
     volume = np.abs(np.linalg.det(edges)) / 6 if space else np.abs(np.cross(edges[:, 0], edges[:, 1])[:, 2]) / 2
     assert volume.min() > 0
     block = {"axis": 40 * 20, "bodies": 40 * 20 + 50 * np.pi}.get(name, 40 * 40 * 20 if space else 40 * 20)
     assert volume.sum() == pytest.approx(block, rel=2e-2 if name == "bodies" else 1e-9)
     labels = grid.in_cells["Label"]
-    sides = [tuple(sorted(cell)) for cell, kind in zip(grid.cells, grid.kinds, strict=True) if kind == (5 if space else 3)]
+    sides = [
+        tuple(sorted(cell)) for cell, kind in zip(grid.cells, grid.kinds, strict=True) if kind == (5 if space else 3)
+    ]
     assert len(set(sides)) == len(sides) > 0 and labels.min() >= 1
 
 
@@ -136,7 +140,9 @@ def test_contact(made):
     if name == "axis":
         assert grid.points[-1, 0] == 0 and grid.at_points[PRESSURE][-1] > contact["pressure"].max()
     if name == "space P2":
-        assert extra > 20 and grid.at_points[PRESSURE][points:].max() == pytest.approx(contact["pressure"].max(), rel=0.1)
+        assert extra > 20 and grid.at_points[PRESSURE][points:].max() == pytest.approx(
+            contact["pressure"].max(), rel=0.1
+        )
         assert grid.at_points[PRESSURE].min() >= 0
     solution = Grid(run.folder / "solution.vtu")
     if name != "bodies":  # there are two nodes at a place where bodies touch

@@ -1,0 +1,113 @@
+"""The elements: patch tests, accuracy, counts and energy at every order, in the plane, about the axis and in space."""
+
+import numpy as np
+import pytest
+from freefem import ROOT, run, run_in, script
+from test_energy import derivative
+from test_surroundings import refused_in_one_line
+from test_two_bodies import confined
+
+FORCE, PRESSURE, HALF_WIDTH = 150.0294748, 22.559747, 4.927623  # of the paper's test, from another code
+SPHERE = 1567.7  # +- 0.3: the force of sphere-on-block's default load, from another code
+ORDERS = {"patch-test": (1, 2, 4), "patch-test-3d": (1, 2)}
+
+
+@pytest.mark.parametrize("scene, order", [(scene, order) for scene, orders in ORDERS.items() for order in orders])
+def test_patch(scene, order):
+    """Between meshes that do not match the pressure shall be uniform to 1e-10, and exact."""
+    done = run(scene, "-order", order, "-tol", 1e-12)
+    exact = confined(1e3, 3, -0.25, 2, (20, 10), (100 * 0.7 / (1.3 * 0.4),) * 2)
+    np.testing.assert_allclose(done.contact["pressure"], exact, rtol=1e-10)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("upper", [3, 5])
+def test_patch_in_space_covers_a_part(order, upper):
+    """Other meshes: the weights shall be the areas, none negative."""
+    done = run("patch-test-3d", "-order", order, "-lower", 2, "-upper", upper, "-tol", 1e-12)
+    assert done.contact["weight"].min() > 0
+    assert done.contact["weight"].sum() == pytest.approx(400, rel=1e-12)
+    assert np.ptp(done.contact["pressure"]) < 1e-10 * done.pressureMax
+
+
+def test_one_order_is_left_out():
+    """P3 shall be refused in one line, with what is allowed."""
+    text = refused_in_one_line(run_in(ROOT, script("disc-on-block"), "-order", 3, expect=10).stdout)
+    assert "-order 3" in text and "1, 2 or 4" in text
+
+
+@pytest.mark.parametrize("order, dofs, allowed", [(2, 4000, (6e-4, 5e-4, 5e-5)), (4, 3000, (5e-5, 2e-4, 2e-5))])
+def test_accuracy(order, dofs, allowed):
+    """Force, greatest pressure and half-width of the paper's test on a coarse mesh, against another code."""
+    done = run("disc-on-block", "-order", order, "-h", 0.25 * order if order > 2 else 0.25, "-grading", 60)
+    assert done.ndof < dofs
+    found = done.force, done.pressureMax, done.halfWidth
+    for value, exact, error in zip(found, (FORCE, PRESSURE, HALF_WIDTH), allowed, strict=True):
+        assert value == pytest.approx(exact, rel=error)
+
+
+def test_space():
+    """P2 in space: ten times closer than P1 with as many degrees of freedom; equilibrium; few iterations."""
+    done = run("sphere-on-block", "-order", 2, "-h", 1.25, "-layers", 1, "-patch", 6)
+    assert done.ndof < 20000
+    assert done.force == pytest.approx(SPHERE, rel=6e-3)
+    assert done.contact["weight"].sum() == pytest.approx(12**2, rel=1e-10)
+    assert done.summary["reactionZ"] == pytest.approx(done.force, rel=1e-9)
+    assert done.newton <= 4 and done.backsolves <= 20
+
+
+@pytest.mark.parametrize(
+    "law", [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1e-2, 1e6, 1e30) for m in (1.05, 30)]]
+)
+@pytest.mark.parametrize("order", [2, 4])
+@pytest.mark.parametrize(
+    "more", [[], ["-geometry", "axisymmetric", "-width", 20], ["-offset", 3]], ids=["plane", "axis", "off"]
+)
+def test_counts(order, law, more):
+    """At most 4 linearisations and 20 back-substitutions, whatever the law."""
+    done = run("disc-on-block", *law, *more, "-order", order, "-h", 0.25 * order, "-tol", 1e-8)
+    assert done.newton <= 4
+    assert done.backsolves <= 20
+
+
+@pytest.mark.parametrize(
+    "scene, u0, flags",
+    [
+        ("disc-on-block", 2.5, ["-h", 2, "-order", 4]),
+        ("disc-on-block", 2.5, ["-h", 2, "-order", 4, "-geometry", "axisymmetric", "-width", 20]),
+        ("disc-on-block", 2.5, ["-h", 2, "-order", 4, "-geometry", "stress"]),
+        ("meshed-disc", 2.5, ["-h", 2, "-order", 4, "-Eratio", 10]),
+        ("patch-test", 2.5, ["-order", 4]),
+        ("patch-test-3d", 2.5, ["-lower", 2, "-upper", 3, "-order", 2]),
+        ("sphere-on-block", 1.0, ["-h", 2, "-patch", 4, "-layers", 1, "-order", 2]),
+    ],
+)
+def test_work_is_force(scene, u0, flags):
+    """dE/du0 shall be the force to 1e-5."""
+    slope, force = derivative(scene, u0, flags)
+    assert force > 0
+    assert slope == pytest.approx(force, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "scene, flags",
+    [("disc-on-block", ["-h", 1, "-order", 4]), ("sphere-on-block", ["-h", 2, "-layers", 1, "-order", 2])],
+)
+def test_methods_agree(scene, flags):
+    """The paper's scheme and Newton's method shall find xnewton's solution."""
+    best = run(scene, *flags, "-tol", 1e-9)
+    for method in ("paper", "newton"):
+        other = run(scene, *flags, "-tol", 1e-9, "-eps", 1e-9, "-method", method)
+        assert other.force == pytest.approx(best.force, rel=1e-7)
+        np.testing.assert_allclose(other.contact["pressure"], best.contact["pressure"], atol=1e-6 * best.pressureMax)
+
+
+def test_stress_without_jumps(tmp_path):
+    """The stress below the contact, on the axis of symmetry, shall be smooth: P4's second differences are tiny."""
+    done = run_in(ROOT, script("hertz-line"), "-order", 4, "-h", 0.25, "-axis", 1, out=tmp_path / "out")
+    axis = np.genfromtxt(tmp_path / "out" / "axis.csv", delimiter=",", names=True)
+    a, greatest = done.halfWidth, done.pressureMax
+    depth = axis["depth"] / a
+    exact = -greatest / np.sqrt(1 + depth**2)
+    assert np.abs(axis["s22"] - exact).max() < 0.02 * greatest
+    assert np.abs(np.diff(axis["s22"], 2)).max() < 0.01 * greatest
