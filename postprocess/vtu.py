@@ -80,7 +80,8 @@ def array(path: Path, element: ElementTree.Element, numbers: bytes) -> np.ndarra
 def cut(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The section by the plane y = level of the undeformed grid, in its deformed place, as corners in (x, z).
 
-    Polygons (n, 4, 2), a triangle's last corner given twice; the mean stress (n,) of each one's cell; the outline's lines (m, 2, 2).
+    Polygons (n, 4, 2), a triangle's last corner given twice; the mean stress (n,) of each one's cell; the outline's
+    lines (m, 2, 2).
     No point of the grid may lie on the plane.
     """
     one, two, three = (

@@ -46,8 +46,11 @@ def source(name):
 
 @cache
 def spaces():
-    """The finite element spaces: they are types."""
-    return {space for name in MODULES + SCRIPTS for space in re.findall(r"\bfespace\s+(\w+)", source(name)[1])}
+    """The finite element spaces, and macros that stand for one: they are types."""
+    codes = [source(name)[1] for name in MODULES + SCRIPTS]
+    found = {space for code in codes for space in re.findall(r"\bfespace\s+(\w+)", code)}
+    macros = {pair for code in codes for pair in re.findall(r"\bmacro (\w+) \(\) \{ *(\w+) *\}", code)}
+    return found | {name for name, meaning in macros if meaning in found}
 
 
 class Reader:
@@ -160,8 +163,8 @@ def uses(name):
 
 
 def includes(name):
-    """The sources that a source includes."""
-    return re.findall(r'^\s*include "([^"]+)"', (EDP / name).read_text(), flags=re.M)
+    """The sources that a source includes, or has a macro include."""
+    return re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', (EDP / name).read_text(), flags=re.M)
 
 
 @cache

@@ -133,7 +133,7 @@ def test_output_is_published_whole(tmp_path):
 
 
 def test_output_cut_off_is_not_published(tmp_path):
-    """A file that is shorter than its writer left it shall not be published, nor left behind, and the run shall say so."""
+    """A file shorter than its writer left it shall not be published, nor left behind, and the run shall say so."""
     stdout = snippet(tmp_path, OUTPUT.replace("CUT", "4"), expect=30)
     assert "could not be written whole" in stdout
     folder = tmp_path / "folder of results"
@@ -267,7 +267,7 @@ tell("trace", trace);
     ],
 )
 def test_slave_points(tmp_path, order, element, weights):
-    """The points shall be the slave's nodes from left to right, weighted by the trapezoidal, Simpson's or Boole's rule."""
+    """The points shall be the slave's nodes from left to right, with the trapezoidal, Simpson's or Boole's weights."""
     values = told(
         snippet(tmp_path, scene_text("confined-block") + POINTS.replace("ELEMENT", element), *BLOCK, "-order", order)
     )

@@ -80,7 +80,7 @@ def coordinates(table):
 
 
 def test_solution(made):
-    """solution.vtu: every node with its displacement and stress, the contact pressure at the slave's and 0 elsewhere."""
+    """solution.vtu: every node with its displacement and stress, the pressure at the slave's and 0 elsewhere."""
     name, run = made
     grid = Grid(run.folder / "solution.vtu")
     assert grid.at_points.keys() == {DISPLACEMENT, PRESSURE, STRESS} and grid.in_cells.keys() == {"Label"}
@@ -134,7 +134,7 @@ def test_contact(made):
         length = np.ptp(grid.points[:, 0])
         assert np.abs(corners[:, 1, 0] - corners[:, 0, 0]).sum() == pytest.approx(length, rel=1e-12)
         assert len(grid.cells) == len(grid.points) - 1
-    # what is no point: P2's node on the axis, its corners in space; extrapolated, at least as high as beside it where p is highest
+    # what is no point, P2's node on the axis and its corners in space, is extrapolated
     extra = len(grid.points) - points
     assert extra == {"axis": 1, "space P2": len(grid.points) - points}.get(name, 0)
     if name == "axis":
