@@ -12,13 +12,16 @@ BLOCK = 0.5  # the default depth of a block of width 1
 HALF_DISC = np.pi / 2
 QUARTER = np.pi / 6  # of a half-ball
 
-# .geo file: numbers of its own, {body: area or volume}
+# .geo file, and what of it: numbers of its own, {body: area or volume}
 MESHES = {
     "block": ([], {"block": BLOCK}),
     "block-and-disc": ([], {"block": BLOCK, "disc": HALF_DISC / 16}),
     "two-discs": ([], {"lower": HALF_DISC, "upper": HALF_DISC}),
     "two-bodies": ([], {"lower": 111.5867, "upper": 44.4231}),
     "block-3d": (["h", 0.03, "patch", 0.09], {"block": BLOCK}),
+    "block-3d half": (["h", 0.03, "patch", 0.09, "mirrors", 1], {"block": BLOCK / 2}),
+    "block-3d quarter": (["h", 0.03, "patch", 0.09, "mirrors", 2], {"block": BLOCK / 4}),
+    "block punch": (["sharp", 1], {"block": BLOCK}),
     "quarter-spheres": (["h", 0.05, "layers", 2], {"lower": QUARTER, "upper": QUARTER}),
 }
 
@@ -59,15 +62,18 @@ def mesh(request, tmp_path_factory):
     """(bodies' sizes, names, nodes, elements of the bodies, elements of their boundary, dimension)."""
     numbers, sizes = MESHES[request.param]
     path = tmp_path_factory.mktemp("mesh") / "a.msh"
-    dimension = 3 if request.param in ("block-3d", "quarter-spheres") else 2
-    names, nodes, elements = made(path, request.param, dimension, *numbers)
+    source = request.param.split()[0]
+    dimension = 3 if source in ("block-3d", "quarter-spheres") else 2
+    names, nodes, elements = made(path, source, dimension, *numbers)
     inner, outer = (TETRAHEDRON, TRIANGLE) if dimension == 3 else (TRIANGLE, EDGE)
     return sizes, names, nodes, elements[inner], elements[outer], dimension
 
 
 def test_all_sources_are_here():
     """Every .geo file shall be among those tested, and the part that they include."""
-    assert {path.stem for path in (ROOT / "meshes").glob("*.geo")} == {*MESHES, "singular"}
+    assert {path.stem for path in (ROOT / "meshes").glob("*.geo")} == {name.split()[0] for name in MESHES} | {
+        "singular"
+    }
 
 
 def test_conforming(mesh):
