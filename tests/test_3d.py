@@ -156,7 +156,7 @@ FINE = ["-law", "signorini", "-d0", 0, "-gap", 0, "-force", FORCE, "-patch", 1.3
 
 
 def test_no_ridge_on_the_mirror():
-    """P1 on a half: pressures on its plane of symmetry shall be those beside it, within half a per cent of the greatest."""
+    """P1 on a half: pressures on its mirror shall be those beside it, within half a per cent of the greatest."""
     onX, onY, inner = ridge(run(SCENE, *FINE, "-h", 0.1, "-symmetry", "half"))
     assert abs(onX - inner) < 0.005
     assert abs(onY - inner) < 0.005

@@ -18,7 +18,7 @@ RUNS = {
     "P2": ("disc-on-block", "-h", 2, "-order", 2),
     "axis": ("disc-on-block", "-geometry", "axisymmetric", "-h", 1, "-order", 2),
     "bodies": ("meshed-disc", "-method", "newton", "-h", 2),
-    "space": ("sphere-on-block", "-h", 1.2, "-layers", 2),
+    "space": ("sphere-on-block", "-h", 1.2, "-layers", 2, "-symmetry", "whole"),
 }
 
 
