@@ -17,4 +17,12 @@ Plane Surface(11) = {11};
 Physical Curve("master", 4) = {11, 12};
 Physical Curve("pushed", 5) = {13};
 Physical Surface("disc", 2) = {11};
+If (corners > 0)
+  atY = depth + gap + radius;
+  For side In {-1 : 1 : 2}
+    atX = side * radius;
+    Call Singular;
+  EndFor
+EndIf
+Field[100].FieldsList = {1, singular[]};
 // the disc's elements grow from its lowest point's neighbourhood as the block's do from the contact line

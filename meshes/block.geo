@@ -5,8 +5,12 @@ DefineConstant[
   left    = {0.2525, Name "left"},     // contact is possible between these distances from the block's left side
   right   = {0.7475, Name "right"},
   h       = {0.0125, Name "h"},        // element size there
-  grading = {20,     Name "grading"}   // size = h (1 + grading r), r: distance from the contact line
+  grading = {20,     Name "grading"},  // size = h (1 + grading r), r: distance from the contact line
+  corners = {1e-4,   Name "corners"},   // element size at the clamped corners, where stresses are singular; 0: that of the rest
+  axis    = {0,      Name "axis"},     // 1: the left side is an axis, its corner none
+  sharp   = {0,      Name "sharp"}     // 1: the ends of the contact line are singular too
 ];
+Include "singular.geo";
 
 half = 0.5;
 a = left - half;
@@ -33,8 +37,18 @@ If (a > -half + 1e-9)
   Point(6) = {a, depth, 0};
   to = 6;
 EndIf
-Line(4) = {from, to};
-top[] += {4};
+graded = sharp && corners > 0;
+contact[] = {4};
+If (graded && !axis)
+  // two halves, each from its end: mirror images
+  Point(7) = {0.5 * (a + b), depth, 0};
+  Line(4) = {from, 7};
+  Line(7) = {to, 7};
+  contact[] += {-7};
+Else
+  Line(4) = {from, to};
+EndIf
+top[] += {contact[]};
 If (a > -half + 1e-9)
   Line(5) = {6, 4};
   sides[] += {5};
@@ -43,10 +57,12 @@ EndIf
 Curve Loop(1) = {1, 2, top[], 6};
 Plane Surface(1) = {1};
 // equal elements on the contact line, an even number of them: a node in its middle
-Transfinite Curve {4} = 2 * Ceil((b - a) / (2 * h) - 1e-9) + 1;
+If (!graded)
+  Transfinite Curve {4} = 2 * Ceil((b - a) / (2 * h) - 1e-9) + 1;
+EndIf
 
 Physical Curve("clamped", 1) = {1};
-Physical Curve("contact", 2) = {4};
+Physical Curve("contact", 2) = {contact[]};
 Physical Curve("free", 3) = {sides[]};
 Physical Curve("left", 6) = {6};
 Physical Surface("block", 1) = {1};
@@ -56,7 +72,27 @@ reach = 0.5 * (b - a);
 beyond = Sprintf("(0.5*(Fabs(x-(%.12g))-%.12g+Fabs(Fabs(x-(%.12g))-%.12g)))", middle, reach, middle, reach);
 Field[1] = MathEval;
 Field[1].F = StrCat(Sprintf("%.12g*(1+%.12g*Sqrt((%.12g-y)*(%.12g-y)+", h, grading, depth, depth), beyond, "*", beyond, "))");
-Background Field = 1;
+If (corners > 0)
+  atY = 0;
+  atX = half;
+  Call Singular;
+  If (!axis)
+    atX = -half;
+    Call Singular;
+  EndIf
+  If (sharp)
+    atY = depth;
+    atX = b;
+    Call Singular;
+    If (!axis)
+      atX = a;
+      Call Singular;
+    EndIf
+  EndIf
+EndIf
+Field[100] = Min;
+Field[100].FieldsList = {1, singular[]};
+Background Field = 100;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeMax = 0.25 * ((depth < 1) ? depth : 1);

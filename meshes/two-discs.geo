@@ -6,8 +6,10 @@ DefineConstant[
   reach   = {0.2,  Name "reach"},    // contact is possible for |x| <= reach
   h       = {0.01, Name "h"},        // element size of the lower disc there
   ratio   = {1.37, Name "ratio"},    // element size of the upper disc there, over h
-  grading = {20,   Name "grading"}   // size = h (1 + grading r), r: distance from the point between the discs, beyond reach
+  grading = {20,   Name "grading"},  // size = h (1 + grading r), r: distance from the point between the discs, beyond reach
+  corners = {1e-4, Name "corners"}    // element size at the ends of the flat sides, where stresses are singular; 0: that of the rest
 ];
+Include "singular.geo";
 
 yc = Sqrt(1 - reach * reach);
 Point(1) = {0, 0, 0};
@@ -57,8 +59,18 @@ Field[1].F = StrCat(Sprintf("%.12g*(1+%.12g*", h, grading), beyond, ")");
 middle = 1 + 0.5 * gap;
 Field[2] = MathEval;                    // at most a quarter of the disc's radius
 Field[2].F = Sprintf("0.25*(1+(%.12g)*(0.5+0.5*(y-%.12g)/Fabs(y-%.12g)))", radius - 1, middle, middle);
-Field[3] = Min;
-Field[3].FieldsList = {1, 2};
-Background Field = 3;
+If (corners > 0)
+  For side In {-1 : 1 : 2}
+    atX = side;
+    atY = 0;
+    Call Singular;
+    atX = side * radius;
+    atY = top;
+    Call Singular;
+  EndFor
+EndIf
+Field[100] = Min;
+Field[100].FieldsList = {1, 2, singular[]};
+Background Field = 100;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;

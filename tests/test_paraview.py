@@ -18,8 +18,8 @@ RUNS = {
     "P4": ("disc-on-block", "-h", 2, "-order", 4),
     "axis": ("disc-on-block", "-geometry", "axisymmetric", "-h", 1, "-order", 2),
     "bodies": ("meshed-disc", "-method", "newton", "-h", 2, "-order", 1),
-    "space": ("sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1),
-    "space P2": ("sphere-on-block", "-h", 2, "-layers", 1, "-order", 2),
+    "space": ("sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-symmetry", "whole"),
+    "space P2": ("sphere-on-block", "-h", 2, "-layers", 1, "-order", 2, "-symmetry", "whole"),
 }
 
 
