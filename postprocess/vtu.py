@@ -26,9 +26,9 @@ class Grid:
 def read_grid(path: Path) -> Grid:
     """The grid of a run in space; ResultsError for a file that is missing, truncated, or no grid of tetrahedra."""
     check_file(path, "; run the scene with -vtu 1")
-    head, _, numbers = path.read_bytes().partition(b'<AppendedData encoding="raw">')
+    head, mark, numbers = path.read_bytes().partition(b'<AppendedData encoding="raw">')
     try:
-        root = ElementTree.fromstring(head + b"</VTKFile>")
+        root = ElementTree.fromstring(head + b"</VTKFile>" if mark else head)
     except (ElementTree.ParseError, UnicodeDecodeError):
         raise ResultsError(path, "is not XML, or is truncated") from None
     numbers = numbers.lstrip()[1:]

@@ -130,7 +130,12 @@ def execute(command, cwd=ROOT, env=None):
 
 
 def run(scene, *flags, expect=0):
-    """The run of a scene with these flags; its exit code must be `expect`. Shared: its files must not be changed."""
+    """The run of a scene with these flags; its exit code must be `expect`. Shared: its files must not be changed.
+
+    The elements are P1, whatever the scene's default, unless -order is among the flags: most meshes are made for it.
+    """
+    if "-order" not in flags:
+        flags = (*flags, "-order", 1)
     result = stored(scene, tuple(map(flag_text, flags)))
     assert result.code == expect, f"exit code {result.code} of {scene} {flags}:\n{result.stdout[-2000:]}"
     if expect == 0:

@@ -233,15 +233,6 @@ def test_refusals(flags, words):
         assert word in done.stdout.splitlines()[0]
 
 
-def test_solution_for_paraview(tmp_path):
-    """solution.vtu shall be written whole, a cell and a point for each of the mesh's."""
-    run_in(ROOT, script(SCENE), *COARSE, "-method", "newton", out=tmp_path / "out")
-    text = (tmp_path / "out" / "solution.vtu").read_text()
-    assert 'Name="displacement[length]"' in text
-    assert 'Name="vonMises[pressure]"' in text
-    assert text.rstrip().endswith("</VTKFile>")
-
-
 def hertz(force, radius, modulus):
     """Radius and greatest pressure of Hertz's circle of contact."""
     a = (0.75 * force * radius / modulus) ** (1 / 3)

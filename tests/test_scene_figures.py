@@ -1,8 +1,6 @@
 """postprocess/figures of single scenes, drawn from real runs: what they show, and what they refuse."""
 
-import base64
 import json
-import re
 import shutil
 from dataclasses import replace
 
@@ -63,12 +61,12 @@ def test_section_of_one_tetrahedron(balls):
     """A cut through one, two or three corners' side shall be a triangle, a quadrangle, a triangle of the right area."""
     grid = read_grid(balls.folder / "solution.vtu")
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 1], [0, 1, 0], [0.2, 0.5, 0.2], [0.9, 2, 0.1]])
-    one = type(grid)(corners, 0 * corners, np.array([[0, 1, 2, 3]]), np.empty((0, 3), int), np.ones(1))
+    one = type(grid)(corners, 0 * corners, np.array([[0, 1, 2, 3]]), np.empty((0, 3), int), np.ones(6))
     for level in (0.25, 0.5):
         (piece,), _, _ = cut(one, level)
         assert len(np.unique(piece, axis=0)) == 3
         assert np.ptp(piece, axis=0) == pytest.approx([1 - level, 1 - level])
-    two = type(grid)(corners, 0 * corners, np.array([[0, 1, 4, 5]]), np.empty((0, 3), int), np.ones(1))
+    two = type(grid)(corners, 0 * corners, np.array([[0, 1, 4, 5]]), np.empty((0, 3), int), np.ones(6))
     (piece,), _, _ = cut(two, 0.3)
     assert len(np.unique(piece, axis=0)) == 4
     assert all(len(found) == 0 for found in crossings(two, two.cells, 3.0, {1: [(3, 0)], 3: [(0, 1)]}))
@@ -126,13 +124,13 @@ def test_sphere_mirrored(balls):
     [
         (lambda data: None, "no such file; run the scene with -vtu 1"),
         (lambda data: b"", "is empty"),
-        (lambda data: data[: len(data) // 2], "is not XML, or is truncated"),
+        (lambda data: data[:500], "is not XML, or is truncated"),
         (lambda data: bytes(range(256)) * 8, "is not XML"),
         (lambda data: b"<html><body>404</body></html>", "is not a run's solution: no Points, displacement[length]"),
         (lambda data: data.replace(b"vonMises", b"Mises"), "no vonMises[pressure]"),
-        (lambda data: data.replace(b'"Float32"', b'"Float8"'), "numbers of an unknown type 'Float8'"),
-        (lambda data: re.sub(rb'("3" format="binary">\s*)\S{400}', rb"\1", data, count=1), "is truncated"),
-        (lambda data: data.replace(base64.b64encode(b"\n" * 300), base64.b64encode(b"\t" * 300)), "not a grid"),
+        (lambda data: data.replace(b'"Float64"', b'"Float8"'), "numbers of an unknown type 'Float8'"),
+        (lambda data: data[: 2 * len(data) // 3], "is truncated"),
+        (lambda data: data.replace(b"\n\0\0\0\0\0\0\0" * 300, b"\t\0\0\0\0\0\0\0" * 300), "not a grid"),
     ],
 )
 def test_spoilt_grids(balls, tmp_path, capsys, spoil, words):
