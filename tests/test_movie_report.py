@@ -188,7 +188,7 @@ class TestFrames:
         assert disc.get_xy()[:, 1].min() == pytest.approx(p["depth"] + p["gap"] - p["u0"], abs=1e-6)
         assert movie.left.get_xlabel() == "overlap of the asperities $s = d - d_0$ [mm]"
         assert movie.below.get_aspect() == 1
-        assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1399$"
+        assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1407$"
         assert title(found, 0) == "before the first of 12 Newton steps"
 
     def test_far_points_are_told(self, paper):

@@ -113,9 +113,13 @@ def test_sphere(tmp_path, scene, flags):
 
 
 def test_sphere_mirrored(balls):
-    """A quarter model's map shall show the whole circle; a run without files for ParaView has no section."""
+    """The map of a quarter or half shall show the whole circle; a run without files for ParaView has no section."""
     left = draw("sphere", balls).axes[0]
     assert left.get_xlim()[0] < -1.4 and left.get_ylim()[0] < -1.4
+    half = run("sphere-on-block", "-law", "signorini", "-h", 0.6, "-layers", 1, "-symmetry", "half")
+    left = draw("sphere", half).axes[0]
+    for low, high in (left.get_xlim(), left.get_ylim()):
+        assert low == pytest.approx(-high)
     assert len(draw("sphere", run("two-spheres", *SMALL)).axes) == 3
 
 

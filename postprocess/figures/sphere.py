@@ -20,7 +20,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
     (c), for runs with -vtu 1: the section by y = 0 in its deformed place, coloured by von Mises' stress, constant in
     each element. a and p0 are those of hard contact on a half-space under the run's total force; the middle is the
-    pressure's centre. Of a quarter model the other three quarters are its mirror images.
+    pressure's centre. Of a half or quarter model the rest is its mirror images.
     """
     (run,) = runs
     height = read_table(run.path / "contact.csv", ["z"], "; the run is not one in space")["z"].max()
@@ -29,8 +29,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     if not nodal.sum() > 0:
         raise ResultsError(run.path / "contact.csv", "no point is in contact")
     a, greatest = hertz(run, run.value("force"), round_contact=True)
-    signs = (1, -1) if x.min() > -1e-6 * a and y.min() > -1e-6 * a else (1,)
-    middle = (0, 0) if len(signs) == 2 else (np.sum(nodal * x) / nodal.sum(), np.sum(nodal * y) / nodal.sum())
+    mirrored = [at.min() > -1e-6 * a for at in (x, y)]
+    signs = [(1, -1) if each else (1,) for each in mirrored]
+    middle = tuple(0 if each else np.sum(nodal * at) / nodal.sum() for each, at in zip(mirrored, (x, y), strict=True))
 
     used = run.summary.get("used")
     whole = not isinstance(used, dict) or used.get("vtu", True)
@@ -39,8 +40,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     left, right = top.subplots(1, 2)
     triangles = style.surface(run).triangles
     look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
-    for across in signs:
-        for along in signs:
+    for across in signs[0]:
+        for along in signs[1]:
             mesh = Triangulation(across * x, along * y, triangles)
             colours = left.tripcolor(mesh, pressure, shading="gouraud", vmax=pressure.max(), **look)
     turn = np.linspace(0, 2 * np.pi, 200)
