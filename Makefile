@@ -194,7 +194,7 @@ bench: .venv/run.stamp | system ## error against run time, cost growth, ingredie
 	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
 	echo "Installing $< into .venv-peers"; \
 	$$python -m venv .venv-peers && \
-	.venv-peers/bin/python -m pip install -q --no-input --disable-pip-version-check -r $< 2>.venv-peers/pip.log || { \
+	.venv-peers/bin/python -m pip install -q --no-input --disable-pip-version-check --retries 1 -r $< 2>.venv-peers/pip.log || { \
 	  echo "bench-peers: pip could not install $< (is a package index reachable?); its messages: .venv-peers/pip.log"; exit 1; \
 	}
 	@touch $@

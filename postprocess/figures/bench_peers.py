@@ -22,7 +22,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     if not problems:
         raise ResultsError(runs[0].path / "peers.csv", "no run of it converged")
     lines = -(-len(problems) // 2)
-    figure = Figure(figsize=(style.COLUMN, 0.62 * style.COLUMN * lines + 0.3), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, 0.5 * style.COLUMN * lines + 0.3), layout="constrained")
     grid = figure.subplots(lines, 2, sharey=True, sharex=True, squeeze=False)
     for axes, which in zip(grid.flat, problems, strict=False):
         for code, color in enumerate(COLORS):

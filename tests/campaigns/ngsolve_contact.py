@@ -306,26 +306,27 @@ def contact_force(problem: Problem, displacement: ng.GridFunction, copies: int) 
     return copies * ng.Integrate(p * ng.ds(where, bonus_intorder=40), mesh)
 
 
-def contact_edge(x: np.ndarray, s: np.ndarray) -> float:
-    """The greatest abscissa where s changes sign; x, s: (edges, nodes) with enough nodes for the element's degree."""
+def contact_edge(x: np.ndarray, s: np.ndarray) -> float | None:
+    """The greatest abscissa where s changes sign, if any; x, s: (edges, nodes), enough nodes for the element's degree.
+
+    A change may lie within an edge both ends of which are open: between the nodes of a coarse mesh the disc bulges.
+    """
     found = []
     for along, values in zip(x, s, strict=True):
-        if values[0] == 0 or values[-1] == 0 or values[0] * values[-1] < 0:
-            middle, half = 0.5 * (along[0] + along[-1]), 0.5 * (along[-1] - along[0])
-            curve = Chebyshev.fit((along - middle) / half, values, len(along) - 1, domain=[-1, 1])
-            found.append(middle + half * bisected(curve))
-    return max(found)
+        middle, half = 0.5 * (along[0] + along[-1]), 0.5 * (along[-1] - along[0])
+        at = (along - middle) / half
+        for place in np.flatnonzero(values[:-1] * values[1:] <= 0):
+            curve = Chebyshev.fit(at, values, len(along) - 1, domain=[-1, 1])
+            found.append(middle + half * bisected(curve, at[place], at[place + 1]))
+    return float(max(found)) if found else None
 
 
-def bisected(curve) -> float:
-    """The root in [-1, 1] of a function that changes sign there, or by rounding just misses it at an end."""
-    low, high = -1.0, 1.0
-    at_low, at_high = curve(low), curve(high)
-    if at_low * at_high > 0:
-        return low if abs(at_low) < abs(at_high) else high
+def bisected(curve, low: float, high: float) -> float:
+    """The root of a function that changes sign between low and high."""
+    sign = curve(low)
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if curve(middle) * at_low > 0 else (low, middle)
+        low, high = (middle, high) if curve(middle) * sign > 0 else (low, middle)
     return 0.5 * (low + high)
 
 

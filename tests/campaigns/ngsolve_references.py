@@ -97,7 +97,7 @@ def compliant(problem: Problem, edge: float, refinement: Refinement):
         solution = newton(problem, mesh, degree, start, tol=tol, points=60)
         start = solution.displacement
     x, s = trace(problem, start, lobatto(2 * order + 1), "contact|open")
-    half_width = float(contact_edge(x, s))
+    half_width = contact_edge(x, s)
     results = {"force": contact_force(problem, start, 2)}
     results["pressureMax"] = float(problem.kappa * s.ravel()[np.argmin(x)] ** problem.m)
     results["halfWidth"] = half_width
