@@ -42,12 +42,12 @@ PEER_PLANE = [
     ({"order": 3, "corners": 4}, (1, 0.5, 0.25, 0.1)),
     ({"order": 4, "corners": 5}, (1, 0.5, 0.25, 0.1)),
     ({"order": 5, "corners": 6}, (1, 0.5, 0.25, 0.1)),
+    ({"order": 5, "corners": 6, "far": 1.5}, (1,)),
 ]
 # With the first law alone: no refinement to the corners; the straightforward form of the same method.
 PEER_PLANE_FIRST = [
     *(({"order": order, "corners": 0}, (0.5, 0.25, 0.1)) for order in (2, 4)),
     ({"order": 4, "corners": 5, "start": 0, "assembly": "whole"}, (1, 0.5, 0.25)),
-    ({"order": 5, "corners": 6, "far": 1.5}, (1,)),
 ]
 PEER_SPACE = [
     ({"order": 2, "mesh": "tetrahedra"}, (1.5, 1)),
