@@ -23,10 +23,10 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures movie report bench stability labs test test-all lint doctor clean distclean
+.PHONY: help setup system run figures movie report bench bench-peers stability labs test test-all lint doctor clean distclean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 	@echo 'Scenes: $(SCENES)'
 
 # ---------------------------------------------------------------- set-up
@@ -177,7 +177,7 @@ results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addpr
 # ---------------------------------------------------------------- campaigns
 
 # Many runs, a row each; interrupted and started again, they go on where they were.
-CAMPAIGN_FIGURES = $(basename $(notdir $(wildcard postprocess/figures/$@_*.py)))
+CAMPAIGN_FIGURES = $(basename $(notdir $(filter-out %_peers.py,$(wildcard postprocess/figures/$@_*.py))))
 
 define DRAW_CAMPAIGN
 for figure in $(CAMPAIGN_FIGURES); do \
@@ -188,6 +188,20 @@ endef
 bench: .venv/run.stamp | system ## error against run time, cost growth, ingredients, timed one run at a time, into results/bench/
 	@$(PYTHON) tests/campaigns/bench.py
 	@$(DRAW_CAMPAIGN)
+
+# NGSolve is wanted by this target alone.
+.venv-peers/run.stamp: requirements-peers.txt | system
+	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
+	echo "Installing $< into .venv-peers"; \
+	$$python -m venv .venv-peers && \
+	.venv-peers/bin/python -m pip install -q --no-input --disable-pip-version-check --retries 1 -r $< 2>.venv-peers/pip.log || { \
+	  echo "bench-peers: pip could not install $< (is a package index reachable?); its messages: .venv-peers/pip.log"; exit 1; \
+	}
+	@touch $@
+
+bench-peers: .venv/run.stamp .venv-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, into results/bench/
+	@$(PYTHON) tests/campaigns/peers.py
+	@$(PYTHON) -m postprocess figure bench_peers --out results/bench/bench_peers.pdf results/bench
 
 # Code 1: a run failed or a check did not pass; the figures show it.
 stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
@@ -238,5 +252,5 @@ clean: ## remove results and generated meshes
 	rm -rf results meshes/generated
 
 distclean: clean ## remove the virtual environment and caches as well
-	rm -rf .venv .pytest_cache .ruff_cache
+	rm -rf .venv .venv-peers .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

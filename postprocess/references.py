@@ -6,7 +6,7 @@ import numpy as np
 
 from postprocess.results import ResultsError, Run, is_number
 
-# The paper's test by (kappa, m): NGSolve 6.2, P4, refined to h = 0.0125 (tests/data/README.md).
+# The paper's test by (kappa, m): tests/data/references.csv, rounded (NGSolve 6.2; tests/data/README.md).
 PAPER = {
     (1e3, 3.0): {"force": 150.02947, "pressureMax": 22.559747, "halfWidth": 4.927623},
     (1e3, 10.0): {"force": 114.04577, "pressureMax": 19.478949, "halfWidth": 5.464573},

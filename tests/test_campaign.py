@@ -11,13 +11,16 @@ import time
 import bench
 import campaign
 import numpy as np
+import peers
 import pytest
+import reference
 import stability
 from campaign import Case, case, read_rows, value
 
 from postprocess import figures
 from postprocess.__main__ import main
 from postprocess.campaign import read_campaign
+from postprocess.references import PAPER
 from postprocess.results import ResultsError
 
 # Writes a summary as a run does; -code N ends with it, -sleep S takes that long first, -count FILE adds a line to it.
@@ -204,15 +207,120 @@ def test_the_campaigns_are_large_enough():
     assert {item.parameters["method"] for item in cases} >= {"xnewton", "paper", "newton", "linesearch", "incremental"}
     for parts, *_ in bench.PARTS.values():
         assert len(parts(campaign.ROOT)) > 50
+    runs = peers.cases()
+    assert len({item.key for item in runs}) == len(runs) > 300
 
 
 def test_errors_of_the_benchmark():
-    """The interpolation of the reference shall be exact for a cubic, and the fitted exponent for a power."""
-    x = np.linspace(-1, 1, 9)
-    at = np.linspace(-1, 1, 50)
-    assert bench.cubic(x, x**3 - x, at) == pytest.approx(at**3 - at, abs=1e-14)
+    """The fitted exponent shall be exact for a power."""
     sizes = np.array([1e4, 1e5, 1e6])
     assert bench.exponent(sizes, 3e-5 * sizes**1.2) == pytest.approx(1.2)
+
+
+LAWS = sorted((kappa, m) for scene, kappa, m in reference.values() if scene == "disc-on-block")
+
+
+def test_references():
+    """Every problem that the peers solve shall have a reference whose two solutions share the digits that it is for."""
+    with (reference.DATA / "references.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        allowed = 1e-9 if row["scene"] == "disc-on-block" else 5e-5
+        assert float(row["value"]) > 0 and float(row["difference"]) <= allowed and row["code"], row
+    known = reference.values()
+    assert {("disc-on-block", *law) for law in peers.LAWS} | {("sphere-on-block", *peers.LAWS[0])} <= set(known)
+    for law, expected in PAPER.items():
+        for quantity, rounded in expected.items():
+            assert known["disc-on-block", *law][quantity] == pytest.approx(rounded, rel=5e-8), (law, quantity)
+
+
+@pytest.mark.parametrize("kappa, m", LAWS)
+def test_profiles_of_the_references(kappa, m):
+    """A profile shall have the force, greatest pressure and half-width of its reference, between its nodes too."""
+    known = reference.values()["disc-on-block", kappa, m]
+    pieces = reference.profile(kappa, m)
+    assert pieces[0][-1, -1] == pytest.approx(known["halfWidth"], rel=1e-11)
+    assert pieces[1].max() == pytest.approx(known["pressureMax"], rel=1e-10)
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    low, high = pieces[0][:, :1], pieces[0][:, -1:]
+    at = 0.5 * (low + high) + 0.5 * (high - low) * nodes
+    force = np.sum((high - low) * weights * reference.expected_pressure(pieces, -at.ravel()).reshape(at.shape))
+    assert force == pytest.approx(known["force"], rel=2e-8)
+    assert reference.expected_pressure(pieces, np.array([1.001 * known["halfWidth"], 9.0])).tolist() == [0, 0]
+
+
+def test_profile_error():
+    """The profile itself shall have no error, one that is a tenth too large a tenth; without a file there is none."""
+    x, p = (part.ravel() for part in reference.profile(1e9, 3))
+    contact = {"x": x, "pressure": 1.1 * p, "weight": np.linspace(1, 2, len(x))}
+    assert reference.profile_error(1e9, 3, contact | {"pressure": p}) < 1e-12
+    assert reference.profile_error(1e9, 3, contact) == pytest.approx(0.1)
+    assert reference.profile_error(1e7, 3, contact) is None
+
+
+def test_peers_alternate():
+    """Each code's runs shall be spread over the other's, and every round have all of them."""
+    runs = peers.cases()
+    rounds = {item.name for item in runs}
+    assert len(rounds) == peers.ROUNDS
+    keys = [[item.key[1:] for item in runs if item.name == name] for name in sorted(rounds)]
+    assert all(part == keys[0] for part in keys)
+    ours = [item.script != peers.PEER for item in runs[: len(peers.PACKAGE_PLANE[0][1]) * 6]]
+    assert 0 < sum(ours) < len(ours) and ours != sorted(ours) and ours != sorted(ours, reverse=True)
+    assert all(item.program == ((str(peers.PYTHON),) if item.script == peers.PEER else ()) for item in runs)
+
+
+def peer_row(seconds, error, script="edp/main.edp", flags="-h 1", **cells):
+    common = {
+        "script": script,
+        "flags": flags,
+        "scene": "disc-on-block",
+        "kappa": "1000",
+        "m": "3",
+        "order": "2",
+        "h": "1",
+    }
+    common |= {"status": "converged", "message": "", "ndof": "10", "newton": "3", "kernelNewton": "4"}
+    common |= {"seconds_assembly": str(seconds), "seconds_factorisation": "0", "seconds_contact": "0"}
+    return common | {"seconds_mesh": "0.5", "forceError": str(error)} | cells
+
+
+def test_report_of_the_peers():
+    """The table shall take medians over the rounds, the cheapest run that is close enough, and name what failed."""
+    rows = [peer_row(seconds, 5e-5) for seconds in (1, 2, 9)]
+    rows += [peer_row(0.5, 5e-4, flags="-h 2"), peer_row(0.1, 1e-9, peers.PEER, "-h 3")]
+    rows += [peer_row(0.01, 1e-9, peers.PEER, "-h 4", status="not converged", message="stood still", kappa="1000.0")]
+    lines = peers.report(rows).splitlines()
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:7]]
+    assert [row[2:] for row in cells[:2]] == [
+        ["1e-03", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+        ["1e-04", "2.000 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+    ]
+    assert cells[2][3] == "-" and lines[-1].endswith("not converged, stood still")
+
+
+def test_peers_without_the_other_code(monkeypatch, tmp_path, capsys):
+    """Without NGSolve the campaign shall say in a line how to get it, and write nothing."""
+    monkeypatch.setattr(peers, "PYTHON", tmp_path / "python")
+    with pytest.raises(SystemExit) as stopped:
+        peers.main(["--out", str(tmp_path / "bench")])
+    assert stopped.value.code == 1 and not (tmp_path / "bench").exists()
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "make bench-peers" in line
+
+
+@pytest.mark.skipif(not peers.PYTHON.exists(), reason="NGSolve is not installed (make bench-peers)")
+def test_peer(tmp_path):
+    """The other code's run shall give the reference's force, and what a run of the package writes."""
+    script = campaign.ROOT / "tests" / "campaigns" / peers.PEER
+    flags = ["-order", "4", "-h", "1", "-kappa", "1e3", "-out", tmp_path]
+    done = subprocess.run([peers.PYTHON, script, *flags], capture_output=True, text=True)
+    if "No module named" in done.stderr:
+        pytest.skip("NGSolve is not installed whole")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["force"] == pytest.approx(reference.values()["disc-on-block", 1e3, 3.0]["force"], rel=5e-6)
+    assert reference.profile_error(1e3, 3, campaign.read_contact(tmp_path)) < 1e-3
 
 
 def test_markdown():
@@ -290,6 +398,7 @@ def campaigns(tmp_path_factory):
     """Folders bench and stability with tables of the real lists of cases and made-up results."""
     folder = tmp_path_factory.mktemp("campaigns")
     lists = {f"bench/{name}": (cases(campaign.ROOT), columns) for name, (cases, columns, *_) in bench.PARTS.items()}
+    lists["bench/peers"] = peers.cases(), peers.COLUMNS
     lists["stability/stability"] = stability.cases(), stability.COLUMNS
     for name, (cases, further) in lists.items():
         columns = [*campaign.COLUMNS, *further]

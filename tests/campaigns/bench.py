@@ -18,13 +18,11 @@ from pathlib import Path
 
 import campaign
 import numpy as np
+import reference
 from campaign import case, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "bench"
-PROFILE = campaign.ROOT / "tests" / "data" / "disc_on_block_base.csv"
 REPEATS = 5
-# force and greatest pressure of the paper's test: NGSolve 6.2.2608, P4, refined to h = 0.0125 (tests/data/README.md)
-REFERENCE = {(1e3, 3.0): (150.02947, 22.559747), (1e3, 10.0): (114.04577, 19.478949)}
 
 CASES = [(1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3)]  # kappa, m: the paper's, an extreme one, two stiff ones
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
@@ -166,43 +164,22 @@ def iteration_error(sources: Path, processes: campaign.Processes) -> campaign.Me
 
 
 def discretisation_error(*_) -> campaign.Measure:
-    """Relative differences to the reference: force, greatest pressure, and the profile where there is one (L2)."""
-    x, p = np.loadtxt(PROFILE, delimiter=",", skiprows=1, unpack=True)
+    """Relative differences to the reference: force, greatest pressure, and the profile (L2)."""
 
     def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
         law = float(item.parameters["kappa"]), float(item.parameters["m"])
-        force, greatest = REFERENCE[law]
-        errors = {
-            "forceError": abs(summary["force"] / force - 1),
-            "pressureMaxError": abs(summary["pressureMax"] / greatest - 1),
+        known = reference.values()["disc-on-block", *law]
+        return {
+            "forceError": abs(summary["force"] / known["force"] - 1),
+            "pressureMaxError": abs(summary["pressureMax"] / known["pressureMax"] - 1),
+            "profileError": reference.profile_error(*law, campaign.read_contact(folder)),
         }
-        if law == (1e3, 3.0):
-            contact = campaign.read_contact(folder)
-            inside = np.abs(contact["x"]) < x[-1]
-            weight = contact["weight"][inside]
-            expected = cubic(x, p, contact["x"][inside])
-            errors["profileError"] = norm(weight, contact["pressure"][inside] - expected) / norm(weight, expected)
-        return errors
 
     return measure
 
 
 def norm(weight: np.ndarray, values: np.ndarray) -> float:
     return float(np.sqrt(np.sum(weight * values**2)))
-
-
-def cubic(x: np.ndarray, y: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Lagrange's cubic through the four nearest of equidistant points: far closer than a straight line."""
-    step = x[1] - x[0]
-    first = np.clip(np.floor((at - x[0]) / step).astype(int) - 1, 0, len(x) - 4)
-    t = (at - x[first]) / step
-    weights = (
-        -(t - 1) * (t - 2) * (t - 3) / 6,
-        t * (t - 2) * (t - 3) / 2,
-        -t * (t - 1) * (t - 3) / 2,
-        t * (t - 1) * (t - 2) / 6,
-    )
-    return sum(factor * y[first + k] for k, factor in enumerate(weights))
 
 
 # ---------------------------------------------------------------- what came out

@@ -56,7 +56,10 @@ WORDS = frozenset([*CASE, "scene", *MACHINE, "status", "message"])
 
 @dataclass(frozen=True)
 class Case:
-    """One run: part of the campaign it belongs to, script, flags; `weight`: guess of its seconds, for the time left."""
+    """One run: part of the campaign it belongs to, script, flags; `weight`: guess of its seconds, for the time left.
+
+    program: what executes the script, if not FreeFEM.
+    """
 
     name: str
     script: str
@@ -64,6 +67,7 @@ class Case:
     timeout: float = 300.0
     repeats: int = 1
     weight: float = 1.0
+    program: tuple[str, ...] = ()
 
     @property
     def key(self) -> tuple[str, str, str]:
@@ -104,7 +108,7 @@ def flag_text(value: object) -> str:
 
 
 def sources_digest(root: Path) -> str:
-    """What the runs depend on: the scripts and the meshes' sources, without comments and blank space."""
+    """What the runs depend on: scripts, added files and the meshes' sources, without comments and blank space."""
     digest = hashlib.sha256()
     for path in source_files(root):
         text = re.sub(r"//[^\n]*", "", path.read_text(encoding="utf-8"))
@@ -118,6 +122,7 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/**/*.idp"),
         *root.glob("edp/**/*.sh"),
         *root.glob("meshes/*.geo"),
+        *root.glob("*.py"),  # of a copy: what a campaign has added
     ]
     return sorted(path for path in found if path.is_file())
 
@@ -259,7 +264,7 @@ def run_case(
     spent = 0.0
     while len(outcomes) < item.repeats and (not outcomes or spent < REPEATS_END):
         with tempfile.TemporaryDirectory(prefix="run-") as name:
-            command = [*freefem, item.script, *item.flags, "-vtu", "0", "-out", name]
+            command = [*(item.program or freefem), item.script, *item.flags, "-vtu", "0", "-out", name]
             outcome = processes.execute(command, sources, Path(name), item.timeout)
             if not outcomes and measure and outcome.code == 0:
                 further = measure(item, outcome.summary, Path(name))

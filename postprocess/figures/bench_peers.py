@@ -1,0 +1,79 @@
+"""error in force against CPU seconds, this package beside NGSolve, by degree of the elements (results/bench)"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from postprocess import style
+from postprocess.campaign import Campaign, Row, contact_seconds, good, number, read_campaign
+from postprocess.results import ResultsError
+
+RUNS = (1, 1)
+READ = read_campaign
+
+CODES = ("this package", "NGSolve")
+COLORS = (style.BLUE, style.VERMILION)
+COLUMNS = "script flags status scene kappa m order forceError seconds_assembly seconds_factorisation seconds_contact"
+
+
+def draw(runs: list[Campaign], units: style.Units) -> Figure:
+    """A panel per problem: a digit a run, its degree; the line joins what no run of the same code beats."""
+    rows = [row for row in runs[0].rows("peers", COLUMNS) if good(row) and number(row, "forceError") > 0]
+    problems = list(dict.fromkeys(map(problem, rows)))
+    if not problems:
+        raise ResultsError(runs[0].path / "peers.csv", "no run of it converged")
+    lines = -(-len(problems) // 2)
+    figure = Figure(figsize=(style.COLUMN, 0.5 * style.COLUMN * lines + 0.3), layout="constrained")
+    grid = figure.subplots(lines, 2, sharey=True, sharex=True, squeeze=False)
+    for axes, which in zip(grid.flat, problems, strict=False):
+        for code, color in enumerate(COLORS):
+            draw_code(axes, [row for row in rows if problem(row) == which and of(row) == code], color)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_title(name_of(*which), loc="left", fontsize=8)
+        axes.grid(color="0.9", linewidth=0.5)
+        axes.margins(0.08)
+    for axes in grid.flat[len(problems) :]:
+        axes.set_visible(False)
+    for axes in grid[-1]:
+        axes.set_xlabel("CPU seconds")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("error in force")
+    for name, color in zip(CODES, COLORS, strict=True):
+        grid[0, 0].plot([], [], color=color, label=name)
+    grid[0, 0].plot([], [], linestyle="", marker="$4$", color=style.GREY, label="degree")
+    figure.legend(loc="outside upper center", ncols=3)
+    return figure
+
+
+def problem(row: Row) -> tuple[str, float, float]:
+    return row["scene"], number(row, "kappa"), number(row, "m")
+
+
+def of(row: Row) -> int:
+    """The code that a row is of: its place in CODES."""
+    return int(row["script"].endswith(".py"))
+
+
+def name_of(scene: str, kappa: float, m: float) -> str:
+    law = rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
+    return "sphere" if scene == "sphere-on-block" else law
+
+
+def draw_code(axes, rows: list[Row], color: str) -> None:
+    """The runs of one code: medians over the rounds, and the best of them joined."""
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(row["flags"], []).append(row)
+    points = []
+    for group in groups.values():
+        seconds = float(np.median([contact_seconds(row) for row in group]))
+        points.append((seconds, number(group[0], "forceError"), round(number(group[0], "order"))))
+    for degree in sorted({point[2] for point in points}):
+        x, y = zip(*[point[:2] for point in points if point[2] == degree], strict=True)
+        axes.plot(x, y, linestyle="", marker=f"${degree}$", color=color, markersize=4.5, markeredgewidth=0.2)
+    front = []
+    for seconds, error, _ in sorted(points):
+        if not front or error < front[-1][1]:
+            front.append((seconds, error))
+    if front:
+        axes.plot(*zip(*front, strict=True), color=color, linewidth=0.8, alpha=0.6, zorder=1)

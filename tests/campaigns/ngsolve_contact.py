@@ -1,0 +1,450 @@
+"""The paper's test, and its sphere in space, solved with NGSolve by plain Newton: the peer of `make bench-peers`.
+
+Run as a scene is: `python ngsolve_contact.py -order 4 -h 0.5 -kappa 1e9 -out DIR`; it writes DIR/summary.json and, in
+the plane, DIR/contact.csv. Exit code 0 converged, 20 not converged. Needs the packages of requirements-peers.txt.
+
+It is written as one who knows NGSolve would write it for speed: elasticity is assembled once with static condensation;
+a Newton step assembles the contact boundary alone, adds it to the condensed matrix and factorises that in place, the
+ordering kept; the first iterate is the solution with P1 on the same mesh. `-assembly whole -start 0` is the
+straightforward form of it. Newton's steps are not damped. One thread.
+
+Lengths, forces and pressures are those of the package's scenes; pressures are positive in compression.
+"""
+
+import argparse
+import json
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import netgen.occ as occ
+import ngsolve as ng
+import numpy as np
+from netgen.geom2d import SplineGeometry
+from ngsolve.krylovspace import CGSolver
+from ngsolve.meshes import MakeStructured3DMesh
+from numpy.polynomial.chebyshev import Chebyshev
+
+CORNER_RATIO = 0.2  # of one layer's size to the next towards a clamped corner
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The block and what is pressed on it: the defaults of the scenes disc-on-block and sphere-on-block.
+
+    Lengths; E a pressure; kappa a pressure/length^m.
+    """
+
+    kappa: float = 1e3
+    m: int = 3
+    space: bool = False
+    width: float = 40.0
+    depth: float = 20.0
+    E: float = 100.0
+    nu: float = 0.3
+    R: float = 10.0
+    gap: float = 0.5
+    u0: float = 2.5
+    d0: float = -0.25
+
+    @property
+    def lame(self) -> tuple[float, float]:
+        """(lambda, mu), pressures; plane strain in the plane."""
+        return self.E * self.nu / ((1 + self.nu) * (1 - 2 * self.nu)), self.E / (2 * (1 + self.nu))
+
+    @property
+    def reach(self) -> float:
+        """Half the length where contact is looked for: the rigid section at the undeformed surface, with some room."""
+        sunk = self.u0 - self.gap - self.d0
+        return 1.1 * np.sqrt(sunk * (2 * self.R - sunk))
+
+    def shape(self, *at):
+        """Shifted overlap s = d - d0 of the undeformed block at (x,) or (x, y), coefficient functions or arrays."""
+        root = ng.sqrt if isinstance(at[0], ng.CoefficientFunction) else np.sqrt
+        return self.u0 - self.gap - self.d0 - self.R + root(self.R**2 - sum(part * part for part in at))
+
+    def overlap(self, displacement):
+        """s as a coefficient function; displacement: the vertical one on the top."""
+        return self.shape(*((ng.x, ng.y) if self.space else (ng.x,))) + displacement
+
+    def pressure(self, s):
+        """kappa s_+^m of a coefficient function."""
+        return self.kappa * ng.IfPos(s, s**self.m, 0)
+
+
+# ---------------------------------------------------------------- meshes
+
+
+def plane_mesh(problem: Problem, h: float, far: float, layers: int) -> ng.Mesh:
+    """The whole block in triangles, size h where contact is looked for, `far` away; `layers` to the clamped corners."""
+    half, reach, depth = 0.5 * problem.width, problem.reach, problem.depth
+    points = [(-half, 0), (half, 0), (half, depth), (reach, depth), (-reach, depth), (-half, depth)]
+    names = ["clamped", "free", "free", "contact", "free", "free"]
+    geometry = SplineGeometry()
+    numbers = [geometry.AppendPoint(*point, **({"hpref": 1} if point[1] == 0 else {})) for point in points]
+    for place, name in enumerate(names):
+        size = {"maxh": h} if name == "contact" else {}
+        geometry.Append(["line", numbers[place], numbers[(place + 1) % len(numbers)]], bc=name, **size)
+    mesh = ng.Mesh(geometry.GenerateMesh(maxh=far, grading=0.3))
+    if layers:
+        mesh.RefineHP(layers, CORNER_RATIO)
+    return mesh
+
+
+def half_mesh(problem: Problem, edge: float, sizes: tuple[float, float], layers: int, ratio: float) -> ng.Mesh:
+    """The right half of the block for a reference: `layers` to the clamped corner, to the free one and to x = edge.
+
+    edge: where contact ends, so that it is a breakpoint of the mesh; sizes: of the elements away and at the contact.
+    """
+    half, depth, (far, near) = 0.5 * problem.width, problem.depth, sizes
+    points = [(0, 0, far, 0), (half, 0, far, 1), (half, depth, far, 1)]
+    points += [(0.99 * problem.R, depth, far, 0), (edge, depth, near, 1), (0, depth, near, 0)]
+    names = ["clamped", "free", "free", "open", "contact", "axis"]
+    geometry = SplineGeometry()
+    numbers = []
+    for x, y, size, singular in points:
+        numbers.append(geometry.AppendPoint(x, y, maxh=size, **({"hpref": 1} if singular else {})))
+    for place, name in enumerate(names):
+        size = {"maxh": near} if name == "contact" else {}
+        geometry.Append(["line", numbers[place], numbers[(place + 1) % len(numbers)]], bc=name, **size)
+    mesh = ng.Mesh(geometry.GenerateMesh(maxh=far))
+    mesh.RefineHP(layers, ratio)
+    return mesh
+
+
+def quarter_hexes(problem: Problem, h: float, growth: float, layers: int, ratio: float = 0.25) -> ng.Mesh:
+    """A quarter of the block in bricks: size h below the contact, growing away, `layers` to the sides and bottom."""
+    side, down = 0.5 * problem.width, problem.depth
+    across = graded(h, 0.87 * problem.reach, growth, side, layers, ratio)
+    below = down - np.array(graded(h, h, growth, down, layers, ratio))[::-1]
+    n, nz = len(across) - 1, len(below) - 1
+    mesh = MakeStructured3DMesh(
+        hexes=True,
+        nx=n,
+        ny=n,
+        nz=nz,
+        mapping=lambda x, y, z: (across[round(x * n)], across[round(y * n)], below[round(z * nz)]),
+    )
+    for place, name in enumerate(["axis x", "axis y", "free", "free", "clamped", "contact"]):
+        mesh.ngmesh.SetBCName(place, name)
+    return ng.Mesh(mesh.ngmesh)
+
+
+def graded(h: float, even: float, growth: float, end: float, layers: int, ratio: float) -> list[float]:
+    """Abscissae from 0: about h up to `even`, then growing by `growth`, the last split in `layers` towards `end`."""
+    found = list(np.linspace(0, even, max(round(even / h), 1) + 1))
+    step = h * growth
+    while found[-1] + 1.5 * step < end:
+        found.append(found[-1] + step)
+        step *= growth
+    last = end - found[-1]
+    return [*found, *(end - last * ratio ** (layer + 1) for layer in range(layers)), end]
+
+
+def quarter_tetrahedra(problem: Problem, h: float) -> ng.Mesh:
+    """A quarter of the block in tetrahedra, size h where contact is looked for."""
+    side, reach, depth = 0.5 * problem.width, problem.reach, problem.depth
+    block = occ.Box((0, 0, 0), (side, side, depth))
+    below = occ.Box((0, 0, depth - h), (reach, reach, depth))
+    for face in [*block.faces, *below.faces]:
+        face.name = "inner"
+    block = occ.Glue([block - below, below])
+    for face in block.faces:
+        x, y, z = face.center
+        name = {(x < 1e-9): "axis x", (y < 1e-9): "axis y", (z < 1e-9): "clamped"}.get(True)
+        top = z > depth - 1e-9
+        face.name = name or ("contact" if top and max(x, y) < reach else "free")
+        if face.name == "contact":
+            face.maxh = h
+    return ng.Mesh(occ.OCCGeometry(block).GenerateMesh(maxh=0.25 * depth, grading=0.4))
+
+
+# ---------------------------------------------------------------- Newton's method
+
+
+@dataclass
+class Solution:
+    """Displacement, steps, residual over contact forces, CPU seconds: of assembly, of a factorisation, of the rest."""
+
+    displacement: ng.GridFunction
+    steps: int
+    residual: float
+    seconds: dict[str, float]
+    elastic: float  # CPU seconds of what a linear elastic solve takes of it
+    factorisations: int
+    backsolves: int
+
+
+def space_of(problem: Problem, mesh: ng.Mesh, order: int) -> ng.VectorH1:
+    """Displacements of this degree, clamped below, symmetric where the mesh has axes."""
+    held = {f"dirichlet{name}": f"clamped|axis {name}" for name in "xy"} if problem.space else {}
+    if "axis" in mesh.GetBoundaries():
+        held = {"dirichletx": "clamped|axis"}
+    return ng.VectorH1(mesh, order=order, dirichlet="clamped", **held)
+
+
+def elasticity(problem: Problem, space: ng.VectorH1):
+    """The weak form of linear elasticity on this space."""
+    u, v = space.TnT()
+    (first, mu), strain = problem.lame, lambda w: 0.5 * (ng.Grad(w) + ng.Grad(w).trans)
+    e, test = strain(u), strain(v)
+    return (2 * mu * ng.InnerProduct(e, test) + first * ng.Trace(e) * ng.Trace(test)) * ng.dx
+
+
+def newton(
+    problem: Problem,
+    mesh: ng.Mesh,
+    order: int,
+    start: ng.CoefficientFunction | None = None,
+    *,
+    tol: float = 1e-8,
+    most: int = 200,
+    whole: bool = False,
+    reuse: bool = False,
+    points: int | None = None,
+) -> Solution:
+    """Newton's method on the law, undamped, from `start` or no displacement, until the residual is tol of the forces.
+
+    whole: every step assembles the elasticity again. reuse: the first factorisation preconditions conjugate gradients
+    in the steps after it. points: degree of the contact's quadrature beyond the form's own (default twice the order).
+    """
+    begin = time.process_time()
+    space = space_of(problem, mesh, order)
+    normal = 2 if problem.space else 1
+    u, v = space.TnT()
+    extra = 2 * order if points is None else points
+    where = "contact|open" if "open" in mesh.GetBoundaries() else "contact"
+    load = problem.pressure(problem.overlap(u[normal])) * v[normal] * ng.ds(where, bonus_intorder=extra)
+    stiffness = ng.BilinearForm(space, symmetric=True, condense=True)
+    stiffness += elasticity(problem, space)
+    contact = ng.BilinearForm(space, symmetric=True)
+    contact += load
+    found = ng.GridFunction(space)
+    if start is not None:
+        found.Set(start)
+    skeleton, inner = space.FreeDofs(True), space.FreeDofs() & ~space.FreeDofs(True)
+    ng.Projector(inner, False).Project(found.vec)  # condensed: they follow from the others
+    onto = ng.Projector(skeleton, True)
+    stiffness.Assemble()
+    values = stiffness.mat.AsVector().FV().NumPy()
+    elastic = values.copy()
+    contact.AssembleLinearization(found.vec)
+    places = positions(stiffness.mat, contact.mat)
+    assembled = time.process_time()
+    force, residual, step = (found.vec.CreateVector() for _ in range(3))
+    inverse, steps, solves, factorised, linear = None, 0, 0, 0, 0.0
+    while True:
+        contact.Apply(found.vec, force)
+        residual.data = stiffness.mat * found.vec + force
+        onto.Project(residual)
+        error = residual.Norm() / max(force.Norm(), 1e-300)
+        if error <= tol or steps == most or not np.isfinite(error):
+            break
+        if whole:
+            stiffness.Assemble()
+        if steps or start is not None:
+            contact.AssembleLinearization(found.vec)
+        values[places] += contact.mat.AsVector().FV().NumPy()
+        before = time.process_time()
+        if inverse is None:
+            inverse = stiffness.mat.Inverse(skeleton, "sparsecholesky")
+        elif not reuse:
+            inverse.Update()
+        factorised += steps == 0 or not reuse
+        middle = time.process_time()
+        if steps == 0 or not reuse:
+            step.data = inverse * residual
+            solves += 1
+        else:
+            gradients = CGSolver(stiffness.mat, inverse, tol=1e-3 * tol / error if error < 1 else 1e-3, maxiter=200)
+            step.data = gradients * residual
+            solves += gradients.iterations
+        if steps == 0:
+            linear = time.process_time() - before
+            factorisation = middle - before
+        found.vec.data -= step
+        values[:] = elastic
+        steps += 1
+    if inner.NumSet() > 0:
+        found.vec.data += stiffness.harmonic_extension * found.vec
+    end = time.process_time()
+    seconds = {"assembly": assembled - begin, "factorisation": factorisation if steps else 0.0}
+    seconds["contact"] = end - begin - sum(seconds.values())
+    return Solution(found, steps, error, seconds, assembled - begin + linear, factorised, solves)
+
+
+def positions(matrix: ng.BaseMatrix, part: ng.BaseMatrix) -> np.ndarray:
+    """Where the stored entries of a part of a sparse matrix stand among those of the whole."""
+    _, columns, first = (np.asarray(found) for found in matrix.CSR())
+    row, column, _ = (np.asarray(found) for found in part.COO())
+    keys = np.repeat(np.arange(len(first) - 1), np.diff(first.astype(np.int64))) * len(first) + columns
+    return np.searchsorted(keys, row.astype(np.int64) * len(first) + column)
+
+
+# ---------------------------------------------------------------- what is read from a solution
+
+
+def trace(problem: Problem, displacement: ng.GridFunction, nodes: np.ndarray, where: str) -> tuple:
+    """(edges, nodes) abscissae and shifted overlaps at these parameters in [0, 1] of a plane block's boundary edges."""
+    x, u = on_edges(displacement.space.mesh, [ng.x, displacement.components[1]], nodes, where)
+    return x, problem.shape(x) + u
+
+
+def on_edges(mesh: ng.Mesh, functions: list, nodes: np.ndarray, where: str) -> list[np.ndarray]:
+    """(edges, nodes) each function's values at these parameters in [0, 1] of a plane mesh's boundary edges."""
+    rule = ng.IntegrationRule([(float(t), 0, 0) for t in nodes], [0.0] * len(nodes))
+    points = mesh.MapToAllElements(rule, mesh.Boundaries(where))
+    return [np.array(function(points)).reshape(-1, len(nodes)) for function in functions]
+
+
+def contact_force(problem: Problem, displacement: ng.GridFunction, copies: int) -> float:
+    """The integral of the pressure, times the copies that make a whole of the meshed part."""
+    mesh = displacement.space.mesh
+    p = problem.pressure(problem.overlap(displacement.components[2 if problem.space else 1]))
+    where = "contact|open" if "open" in mesh.GetBoundaries() else "contact"
+    return copies * ng.Integrate(p * ng.ds(where, bonus_intorder=40), mesh)
+
+
+def contact_edge(x: np.ndarray, s: np.ndarray) -> float | None:
+    """The greatest abscissa where s changes sign, if any; x, s: (edges, nodes), enough nodes for the element's degree.
+
+    A change may lie within an edge both ends of which are open: between the nodes of a coarse mesh the disc bulges.
+    """
+    found = []
+    for along, values in zip(x, s, strict=True):
+        middle, half = 0.5 * (along[0] + along[-1]), 0.5 * (along[-1] - along[0])
+        at = (along - middle) / half
+        for place in np.flatnonzero(values[:-1] * values[1:] <= 0):
+            curve = Chebyshev.fit(at, values, len(along) - 1, domain=[-1, 1])
+            found.append(middle + half * bisected(curve, at[place], at[place + 1]))
+    return float(max(found)) if found else None
+
+
+def bisected(curve, low: float, high: float) -> float:
+    """The root of a function that changes sign between low and high."""
+    sign = curve(low)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if curve(middle) * sign > 0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def lobatto(count: int) -> np.ndarray:
+    """Chebyshev's nodes with both ends, in [0, 1]."""
+    return 0.5 - 0.5 * np.cos(np.pi * np.arange(count) / (count - 1))
+
+
+def plane_results(problem: Problem, solution: Solution, order: int) -> tuple[dict, np.ndarray]:
+    """Force, greatest pressure, half-width; (points, 3) abscissa, pressure and weight at Gauss's points."""
+    x, s = trace(problem, solution.displacement, lobatto(4 * order + 1), "contact")
+    results = {"force": contact_force(problem, solution.displacement, 1)}
+    results["pressureMax"] = float(problem.kappa * max(s.max(), 0) ** problem.m)
+    results["halfWidth"] = contact_edge(x, s)
+    at, weight = np.polynomial.legendre.leggauss(2 * order + 2)
+    gx, gs = trace(problem, solution.displacement, 0.5 + 0.5 * at, "contact")
+    length = np.abs(x[:, -1:] - x[:, :1])
+    rows = [gx, problem.kappa * np.maximum(gs, 0) ** problem.m, 0.5 * length * weight]
+    return results, np.stack([np.broadcast_to(part, gx.shape).ravel() for part in rows], axis=1)
+
+
+def space_results(problem: Problem, solution: Solution) -> dict:
+    """Force, greatest pressure, contact area and the radius of a circle of that area."""
+    displacement = solution.displacement
+
+    def overlap(r: float, angle: float) -> float:
+        x, y, inside = r * np.cos(angle), r * np.sin(angle), 1e-10
+        at = displacement.space.mesh(x + inside, y + inside, problem.depth - inside)
+        return problem.shape(x, y) + displacement(at)[2]
+
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    radii = []
+    for angle in 0.25 * np.pi * (nodes + 1):
+        low, high = 0.3 * problem.R, 0.69 * problem.R
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if overlap(middle, angle) > 0 else (low, middle)
+        radii.append(low)
+    area = 0.5 * np.pi * float(np.sum(weights * np.array(radii) ** 2))
+    top = float(problem.kappa * overlap(0, 0) ** problem.m)
+    results = {"force": contact_force(problem, displacement, 4), "pressureMax": top}
+    return {**results, "contactArea": area, "contactRadius": float(np.sqrt(area / np.pi))}
+
+
+# ---------------------------------------------------------------- one run
+
+
+def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
+    """The run's summary, with the keys of the package's own, and in the plane its points."""
+    problem = Problem(kappa=flags.kappa, m=flags.m, space=flags.problem == "sphere-on-block")
+    begin = time.process_time()
+    if not problem.space:
+        mesh = plane_mesh(problem, flags.h, min(flags.far, 10 * flags.h), flags.corners)
+    elif flags.mesh == "hexes":
+        mesh = quarter_hexes(problem, flags.h, 1.8, flags.corners)
+    else:
+        mesh = quarter_tetrahedra(problem, flags.h)
+    meshed = time.process_time()
+    how = {"whole": flags.assembly == "whole", "reuse": flags.reuse == 1, "most": flags.maxNewton}
+    first = newton(problem, mesh, 1, tol=1e-3, **how) if flags.start and flags.order > 1 else None
+    solution = newton(problem, mesh, flags.order, first and first.displacement, tol=flags.tol, **how)
+    used = time.process_time() - meshed
+    seconds = {**solution.seconds, "mesh": meshed - begin, "total": time.process_time() - begin}
+    seconds["contact"] = used - seconds["assembly"] - seconds["factorisation"]
+    points = None
+    if problem.space:
+        results = space_results(problem, solution)
+    else:
+        results, points = plane_results(problem, solution, flags.order)
+    converged = bool(solution.residual <= flags.tol)
+    summary = {
+        "scene": flags.problem,
+        "parameters": {name: value for name, value in vars(flags).items() if name not in ("out", "vtu")},
+        "converged": converged,
+        "message": "" if converged else f"residual {solution.residual:.1e} after {solution.steps} Newton steps",
+        "newton": solution.steps,
+        "kernelNewton": first.steps if first else 0,
+        "adaptations": 1,
+        "factorisations": solution.factorisations + (first.factorisations if first else 0),
+        "backsolves": solution.backsolves + (first.backsolves if first else 0),
+        "ndof": solution.displacement.space.ndof,
+        "residual": solution.residual,
+        **results,
+        "costRatio": used / solution.elastic,
+        "seconds": seconds,
+    }
+    return summary, points
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False, add_help=False)
+    parser.add_argument("-problem", choices=["disc-on-block", "sphere-on-block"], default="disc-on-block")
+    parser.add_argument("-method", choices=["ngsolve"], default="ngsolve")
+    parser.add_argument("-law", choices=["power"], default="power")
+    parser.add_argument("-order", type=int, default=3, help="degree of the displacement")
+    parser.add_argument("-h", type=float, default=0.5, help="element size on the contact surface")
+    parser.add_argument("-kappa", type=float, default=1e3)
+    parser.add_argument("-m", type=int, default=3)
+    parser.add_argument("-far", type=float, default=2.5, help="greatest element size, at most 10 h, in the plane")
+    parser.add_argument("-corners", type=int, default=5, help="layers of geometric refinement to the clamped edges")
+    parser.add_argument("-mesh", choices=["hexes", "tetrahedra"], default="hexes", help="in space")
+    parser.add_argument("-start", type=int, choices=[0, 1], default=1, help="degree of the solution to start from")
+    parser.add_argument("-assembly", choices=["contact", "whole"], default="contact", help="what every step assembles")
+    parser.add_argument("-reuse", type=int, choices=[0, 1], default=0, help="1: one factorisation, then gradients")
+    parser.add_argument("-tol", type=float, default=1e-8, help="of the residual, relative to the contact forces")
+    parser.add_argument("-maxNewton", type=int, default=200)
+    parser.add_argument("-vtu", type=int, default=0, help="has no effect")
+    parser.add_argument("-out", type=Path, required=True, help="folder of the results")
+    flags = parser.parse_args(argv)
+    ng.ngsglobals.msg_level = 0
+    ng.SetNumThreads(1)
+    summary, points = solve(flags)
+    flags.out.mkdir(parents=True, exist_ok=True)
+    if points is not None:
+        np.savetxt(flags.out / "contact.csv", points, delimiter=",", header="x,pressure,weight", comments="")
+    (flags.out / "summary.json").write_text(json.dumps(summary, indent=1))
+    return 0 if summary["converged"] else 20
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,61 @@
+"""Reference solutions by another code: tests/data/references.csv and the pressure profiles beside it, read.
+
+tests/data/README.md says how they were computed, and what their columns are.
+"""
+
+import csv
+import functools
+from pathlib import Path
+
+import numpy as np
+from numpy.polynomial.chebyshev import Chebyshev
+
+DATA = Path(__file__).resolve().parents[1] / "data"
+
+
+@functools.cache
+def values(path: Path = DATA / "references.csv") -> dict[tuple[str, float, float], dict[str, float]]:
+    """(scene, kappa, m) to quantity to value; kappa infinite: hard contact."""
+    found: dict = {}
+    with path.open() as file:
+        for row in csv.DictReader(file):
+            key = row["scene"], float(row["kappa"]), float(row["m"])
+            found.setdefault(key, {})[row["quantity"]] = float(row["value"])
+    return found
+
+
+def name_of(kappa: float, m: float) -> str:
+    """The name of a law in the files' names: k1e9-m3, or hard."""
+    mantissa, exponent = f"{kappa:e}".split("e") if np.isfinite(kappa) else ("", "")
+    return f"k{float(mantissa):g}e{int(exponent)}-m{m:g}" if exponent else "hard"
+
+
+@functools.cache
+def profile(kappa: float, m: float) -> tuple[np.ndarray, np.ndarray] | None:
+    """(pieces, nodes) abscissae from the middle to the edge of contact, and pressures; None where there is no file."""
+    path = DATA / f"profile-{name_of(kappa, m)}.csv"
+    if not path.exists():
+        return None
+    x, p = np.loadtxt(path, delimiter=",", skiprows=1, unpack=True)
+    ends = np.flatnonzero(np.diff(x) == 0) + 1  # the end of one piece is the beginning of the next
+    return np.array(np.split(x, ends)), np.array(np.split(p, ends))
+
+
+def expected_pressure(pieces: tuple[np.ndarray, np.ndarray], at: np.ndarray) -> np.ndarray:
+    """A profile's pressure at these abscissae, by each piece's own polynomial; 0 beyond the edge."""
+    found = np.zeros_like(at)
+    for x, p in zip(*pieces, strict=True):
+        inside = (np.abs(at) >= x[0]) & (np.abs(at) <= x[-1])
+        if inside.any():
+            found[inside] = Chebyshev.fit(x, p, len(x) - 1)(np.abs(at[inside]))
+    return found
+
+
+def profile_error(kappa: float, m: float, contact: dict[str, np.ndarray]) -> float | None:
+    """Relative difference (weighted L2) of a run's pressures to the profile; contact: columns x, pressure, weight."""
+    pieces = profile(kappa, m)
+    if pieces is None:
+        return None
+    expected = expected_pressure(pieces, contact["x"])
+    root = np.sqrt(contact["weight"])
+    return float(np.linalg.norm(root * (contact["pressure"] - expected)) / np.linalg.norm(root * expected))
