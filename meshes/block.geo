@@ -8,7 +8,8 @@ DefineConstant[
   grading = {20,     Name "grading"},  // size = h (1 + grading r), r: distance from the contact line
   corners = {1e-4,   Name "corners"},   // element size at the clamped corners, where stresses are singular; 0: that of the rest
   axis    = {0,      Name "axis"},     // 1: the left side is an axis, its corner none
-  sharp   = {0,      Name "sharp"}     // 1: the ends of the contact line are singular too
+  sharp   = {0,      Name "sharp"},    // 1: the ends of the contact line are singular too
+  ends    = {0,      Name "ends"}      // 0, or the places of the line at this distance from its middle (or the axis) are
 ];
 Include "singular.geo";
 
@@ -37,7 +38,7 @@ If (a > -half + 1e-9)
   Point(6) = {a, depth, 0};
   to = 6;
 EndIf
-graded = sharp && corners > 0;
+graded = (sharp || ends > 0) && corners > 0;
 contact[] = {4};
 If (graded && !axis)
   // two halves, each from its end: mirror images
@@ -80,12 +81,20 @@ If (corners > 0)
     atX = -half;
     Call Singular;
   EndIf
+  atY = depth;
   If (sharp)
-    atY = depth;
     atX = b;
     Call Singular;
     If (!axis)
       atX = a;
+      Call Singular;
+    EndIf
+  EndIf
+  If (ends > 0)
+    atX = (axis ? a : 0.5 * (a + b)) + ends;
+    Call Singular;
+    If (!axis)
+      atX = 0.5 * (a + b) - ends;
       Call Singular;
     EndIf
   EndIf
