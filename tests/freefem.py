@@ -311,9 +311,7 @@ def check_equilibrium(run):
     if "z" in contact.dtype.names:
         check_equilibrium_in_space(summary, contact, force)
         return
-    assert abs(summary["reactionY"] - force - weight_of_block(summary)) <= 1e-9 * (
-        size + abs(weight_of_block(summary))
-    )
+    assert abs(summary["reactionY"] - force - weight_of_block(summary)) <= 1e-9 * (size + abs(weight_of_block(summary)))
     if summary["scene"] in ("patch-test", "confined-block"):
         return  # the sliding sides carry too
     assert abs(summary["reactionX"]) <= 1e-9 * size or summary.get("rounds", 1) > 1

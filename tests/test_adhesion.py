@@ -117,7 +117,7 @@ def test_change_of_units():
     lengths = {"-width": 20, "-depth": 20, "-h": 0.02, "-R": 10, "-reach": 1.5, "-fine": 0.3}
     lengths |= {"-gap": 1e-3, "-eps0": 1e-3, "-u0": 0.0005}
     scaled = [word for flag, value in lengths.items() for word in (flag, 1e3 * value)]
-    other = run(SPHERE, *scaled, "-E", 1e8, "-w", 1.098901098901e6)
+    other = run(SPHERE, *scaled, "-E", 1e8, "-w", 1.0989011e6)
     assert other.newton == one.newton
     assert other.force == pytest.approx(1e12 * one.force, rel=1e-8)
 
@@ -145,7 +145,7 @@ def test_rivals():
 
 def test_table_that_falls(tmp_path):
     """A table of Lennard-Jones' values shall give its state; one that falls without pulling shall be refused."""
-    work, far = 1.098901098901e-3, 0.1
+    work, far = 1.0989011e-3, 0.1
     gaps = np.geomspace(far, 0.6 * GAP, 2000)
     pressure = lennard_jones(gaps, work, GAP)[0] - lennard_jones(far, work, GAP)[0]
     pressure[0] = 0
