@@ -141,6 +141,12 @@ GAPS = {
     "two-spheres": lambda c, g: sum(circle(np.hypot(c["x"], c["y"]), g[name]) for name in ("R1", "R2")),
     "rough": lambda c, g: rough_top(g) - rough_profile(c["x"], g),
 }
+GAPS["adhesive-sphere"] = GAPS["adhesive-cylinder"] = lambda c, g: circle(c["x"], g["R"])
+GAPS["adhesive-sphere-3d"] = GAPS["sphere-on-block"]
+GAPS["adhesive-wavy"] = lambda c, g: (
+    g["amplitude"] * (1 - np.cos(2 * np.pi * c["x"] * g["waves"] / g["width"]))
+    + 0.5 * g["curvature"] * c["x"] * (c["x"] - g["width"] / (3 * g["waves"]))
+)
 GAPS["hertz-line"] = GAPS["disc-on-block-ipopt"] = GAPS["disc-on-block"]
 NODAL = ["-points", "nodal"]
 APART = {"hertz-line": ["-force", 0], "two-cylinders": ["-force", 0, *NODAL], "patch-test": NODAL}
@@ -152,7 +158,20 @@ ENDS = {  # of the contact: the greatest |x| of a point
 }
 
 
-@pytest.mark.parametrize("scene", [scene for scene in SCENES if scene != "two-bodies"])  # its gap is that of the meshes
+ATTRACTING = [scene for scene in SCENES if scene.startswith("adhesive-")]
+
+
+@pytest.mark.parametrize("scene", ATTRACTING)
+def test_gap_of_what_attracts(scene):
+    """A thousand times as stiff a block shall show the section's gap as it is, up to the section's ends."""
+    done = run(scene, "-u0", -0.01, "-E", 1e6)
+    gap = done.parameters["gap"] + GAPS[scene](done.contact, done.parameters)
+    np.testing.assert_allclose(done.contact["overlap"], -0.01 - gap, rtol=0, atol=1e-8)
+    assert done.contact["x"].max() == pytest.approx(done.parameters.get("reach", 2.5), rel=1e-9)
+
+
+# of two-bodies the gap is that of the meshes
+@pytest.mark.parametrize("scene", [scene for scene in SCENES if scene != "two-bodies" and scene not in ATTRACTING])
 def test_gap(scene):
     """Short of contact the overlap shall be the section's formula with u = 0, at points up to the section's ends."""
     done = run(scene, "-gap", 0.7, "-u0", 0.1, "-h", 1, *APART.get(scene, []))
@@ -319,7 +338,20 @@ REFERENCES = {
     **{"hertz-line": hertz_line, "two-cylinders": two_cylinders, "sphere-on-block": sphere_on_block, "rough": rough},
     **{"patch-test-3d": patch_test_3d, "sphere-on-plane": sphere_on_block, "two-spheres": two_spheres},
 }
-REFERENCES["two-bodies"] = lambda given: {}
+REFERENCES["two-bodies"] = REFERENCES["adhesive-wavy"] = lambda given: {}
+
+
+def sphere_that_attracts(given):
+    least = -1.6702 * np.pi * given["w"] * given["R"]
+    return {"boundary elements": {"pullOff": least, "force": least}}
+
+
+def cylinder_that_attracts(given):
+    return {"JKR": {"pullOff": -0.75 * (4 * np.pi * plane_modulus(given) * given["w"] ** 2 * given["R"]) ** (1 / 3)}}
+
+
+REFERENCES["adhesive-sphere"] = REFERENCES["adhesive-sphere-3d"] = sphere_that_attracts
+REFERENCES["adhesive-cylinder"] = cylinder_that_attracts
 MEASURED = "measured with this package"
 
 # ---------------------------------------------------------------- commands and numbers
