@@ -19,7 +19,14 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parent.parent
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
 SECONDS = 60  # for a program to answer
-PLUGINS = {"gmsh": "meshes", "lapack": "dense matrices", "iovtk": "files for ParaView"}
+PLUGINS = {
+    "gmsh": "meshes",
+    "lapack": "dense matrices",
+    "bfstream": "files for ParaView",
+    "qf11to25": "nodal stresses",
+    "Element_P4": "P4",
+    "Element_P3dc": "P4",
+}
 FURTHER_PLUGINS = {"msh3": "meshes in space", "ff-Ipopt": "the scene disc-on-block-ipopt"}
 MODULES = ("numpy", "matplotlib")
 DEVELOPERS = ("pytest", "pytest-xdist", "ruff")

@@ -80,8 +80,7 @@ def array(path: Path, element: ElementTree.Element, numbers: bytes) -> np.ndarra
 def cut(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The section by the plane y = level of the undeformed grid, in its deformed place, as corners in (x, z).
 
-    Polygons (n, 4, 2), a triangle's last corner given twice; the mean stress (n,) of each one's cell; the outline's
-    lines (m, 2, 2).
+    Polygons (n, 4, 2), a triangle's last corner given twice; the stress (n, 4) there; the outline's lines (m, 2, 2).
     No point of the grid may lie on the plane.
     """
     one, two, three = (
@@ -89,23 +88,23 @@ def cut(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         [(0, 2), (0, 3), (1, 3), (1, 2)],
         [(0, 1), (0, 2), (0, 3), (0, 3)],
     )
-    polygons, origin = crossings(grid, grid.cells, level, {1: one, 2: two, 3: three})
+    polygons, stress = crossings(grid, grid.cells, level, {1: one, 2: two, 3: three})
     lines, _ = crossings(grid, grid.surface, level, {1: [(2, 0), (2, 1)], 2: [(0, 1), (0, 2)]})
-    return polygons, grid.stress[grid.cells[origin]].mean(axis=1), lines
+    return polygons, stress, lines
 
 
 def crossings(grid: Grid, cells: np.ndarray, level: float, edges: dict) -> tuple[np.ndarray, np.ndarray]:
-    """Where the cells' edges cross the plane y = level: corners (n, c, 2) in (x, z), moved, and the cell (n,) of each.
+    """Where the cells' edges cross the plane y = level: corners (n, c, 2) in (x, z), moved; the stress (n, c) there.
 
     `edges` names them by how many of a cell's corners are above; its corners are counted from the lowest.
     """
     above, place = grid.points[:, 1] - level, grid.points + grid.move
     cells = np.take_along_axis(cells, np.argsort(above[cells], axis=1), axis=1)
     upper = np.count_nonzero(above[cells] > 0, axis=1)
-    found, origin = [], []
+    found, stress = [], []
     for count, pairs in edges.items():
         first, second = (cells[upper == count][:, [pair[end] for pair in pairs]] for end in (0, 1))
-        share = (above[first] / (above[first] - above[second]))[..., None]
-        found.append((place[first] + share * (place[second] - place[first]))[..., [0, 2]])
-        origin.append(np.flatnonzero(upper == count))
-    return np.concatenate(found), np.concatenate(origin)
+        share = above[first] / (above[first] - above[second])
+        found.append((place[first] + share[..., None] * (place[second] - place[first]))[..., [0, 2]])
+        stress.append(grid.stress[first] + share * (grid.stress[second] - grid.stress[first]))
+    return np.concatenate(found), np.concatenate(stress)

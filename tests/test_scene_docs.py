@@ -311,7 +311,7 @@ def rough(given):
     at = {f"pressure at x = {text}": pressure([number(text)])[0] for text in ("−10", "0", "5")}
     greatest = pressure(np.linspace(-0.5, 0.5, 4001) * given["width"]).max()
     closed = {"closed form": {**at, "pressureMax": greatest}}
-    return {**closed, "all points": {"wallPoints": round(given["width"] / given["h"]) + 1}}
+    return {**closed, "all points": {"wallPoints": round(given["width"] / given["h"]) * given["order"] + 1}}
 
 
 def independent(given):

@@ -1,7 +1,7 @@
 """contact in space: pressure map, pressure over the distance from the middle against Hertz, deformed cut"""
 
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, TriMesh
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
@@ -18,9 +18,9 @@ WIDE, DEEP = 2.9, 1.3  # of the cut's window, half its width and what is shown o
 def draw(runs: list[Run], units: style.Units) -> Figure:
     """(a) the pressure at the points, with Hertz's circle; (b) p/p0 over r/a, one dot a point, and Hertz's curve.
 
-    (c), for runs with -vtu 1: the section by y = 0 in its deformed place, coloured by von Mises' stress, constant in
-    each element. a and p0 are those of hard contact on a half-space under the run's total force; the middle is the
-    pressure's centre. Of a half or quarter model the rest is its mirror images.
+    (c), for runs with -vtu 1: the section by y = 0 in its deformed place, coloured by von Mises' stress. a and p0 are
+    those of hard contact on a half-space under the run's total force; the middle is the pressure's centre. Of a half or
+    quarter model the rest is its mirror images.
     """
     (run,) = runs
     height = read_table(run.path / "contact.csv", ["z"], "; the run is not one in space")["z"].max()
@@ -38,12 +38,16 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     figure = Figure(figsize=(style.PAGE, (0.88 if whole else 0.42) * style.PAGE), layout="constrained")
     top, *bottom = figure.subfigures(2, 1, height_ratios=[1, 1.05]) if whole else [figure]
     left, right = top.subplots(1, 2)
-    triangles = style.surface(run).triangles
+    images = np.concatenate(
+        [np.column_stack([across * x, along * y, pressure]) for across in signs[0] for along in signs[1]]
+    )
+    _, once = np.unique(np.round(images[:, :2] / a, 9) + 0.0, axis=0, return_index=True)
+    try:
+        mesh = Triangulation(*images[once, :2].T)
+    except (ValueError, RuntimeError):
+        raise ResultsError(run.path / "contact.csv", "its points make no surface") from None
     look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
-    for across in signs[0]:
-        for along in signs[1]:
-            mesh = Triangulation(across * x, along * y, triangles)
-            colours = left.tripcolor(mesh, pressure, shading="gouraud", vmax=pressure.max(), **look)
+    colours = left.tripcolor(mesh, images[once, 2], shading="gouraud", **look)
     turn = np.linspace(0, 2 * np.pi, 200)
     circle = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
     left.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), **circle)
@@ -89,7 +93,7 @@ def percent(value: float, reference: float) -> str:
     return f"{100 * (value / reference - 1):+.1f} %".replace("-", "−")
 
 
-def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> PolyCollection:
+def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
     """The deformed section through the middle, with its outline, and the rigid obstacle where there is no second body.
 
     The bodies' mean planes are d0 apart where hard contact is: they touch only in runs with -d0 0.
@@ -104,11 +108,11 @@ def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> PolyColl
         mirror = np.array([-1, 1])
         outline = outline[np.any(outline[..., 0] > 1e-6 * a, axis=1)]  # not the plane of symmetry
         pieces, outline = np.concatenate([pieces, pieces * mirror]), np.concatenate([outline, outline * mirror])
-        stress = np.tile(stress, 2)
-    colours = PolyCollection(
-        pieces, array=stress, cmap="viridis", edgecolor="face", linewidth=0.1, rasterized=True, clim=(0, stress.max())
-    )
-    axes.add_collection(colours)
+        stress = np.tile(stress, (2, 1))
+    corner = np.arange(4 * len(pieces)).reshape(-1, 4)
+    mesh = Triangulation(*pieces.reshape(-1, 2).T, np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]]))
+    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "rasterized": True}
+    colours = axes.tripcolor(mesh, stress.ravel(), **look)
     axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.6))
     window = middle[0] - WIDE * a, middle[0] + WIDE * a
     two = "R2" in run.summary["parameters"]
