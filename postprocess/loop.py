@@ -34,6 +34,7 @@ class Loop:
         FigureCanvasAgg(self.figure)
         self.left = self.figure.add_axes((0.09, 0.15, 0.38, 0.7))
         self.right = self.figure.add_axes((0.59, 0.15, 0.38, 0.7))
+        self.round = run.summary["parameters"].get("geometry") in (None, "axisymmetric")  # else per unit of thickness
         fine = run.summary["parameters"].get("fine", np.abs(self.x).max())
         self.window = (max(self.x.min(), -fine), fine)
 
@@ -50,7 +51,8 @@ class Loop:
             self.left.plot(approach[row - 1 : row + 1], force[row - 1 : row + 1], color=style.VERMILION)
         self.left.plot(approach[index], force[index], marker="o", color=style.BLACK)
         self.left.set_xlabel(f"approach [{self.units.length}]")
-        self.left.set_ylabel(f"force [{self.units.stress} × {self.units.length}]")
+        power = "²" if self.round else ""
+        self.left.set_ylabel(f"force [{self.units.stress} × {self.units.length}{power}]")
         self.right.plot(self.x, self.pressure[index], color=style.BLUE, marker=".", markersize=3)
         self.right.axhline(0, color=style.GREY, linewidth=0.4)
         shown = (self.x >= self.window[0]) & (self.x <= self.window[1])
