@@ -1,8 +1,10 @@
-"""draw a run's Newton steps as a movie: a page with a player, and a GIF
+"""draw a run's Newton steps, or its path, as a movie: a page with a player, and a GIF
 
-RUN is a result folder of a run made with -states 1. Written are DIR/movie.html and DIR/movie.gif: both, or neither.
+RUN is a result folder of a run made with -states 1, or with -path. Written are DIR/movie.html and DIR/movie.gif: both,
+or neither.
 One frame per Newton step: the collocation points in the (overlap, pressure) plane on the law's curve with its wall,
-the pressure along the contact, and the deformed bodies. The page needs no network.
+the pressure along the contact, and the deformed bodies; or a frame per state of the path: force against approach, and
+the pressures. The page needs no network.
 """
 
 import argparse
@@ -11,6 +13,7 @@ from pathlib import Path
 from postprocess import page, style
 from postprocess.commands.show import cell
 from postprocess.frames import Movie
+from postprocess.loop import Loop, along_path
 from postprocess.output import enter, write_files
 from postprocess.player import render
 from postprocess.results import ResultsError, Run, brief, read_run
@@ -28,7 +31,8 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     try:
         with style.look():
-            movie = Movie(chosen, style.Units(*map(style.plain, arguments.units)))
+            kind = Loop if along_path(chosen) else Movie
+            movie = kind(chosen, style.Units(*map(style.plain, arguments.units)))
         player, picture = render(movie, description(chosen))
     except (ValueError, OverflowError) as error:
         raise ResultsError(chosen.path, f"cannot be drawn: {brief(str(error))}") from None
@@ -41,6 +45,11 @@ def run(arguments: argparse.Namespace) -> None:
 
 def description(run: Run) -> str:
     """What the movie shows, in words."""
+    if along_path(run):
+        return (
+            f"One picture per state of the run {run_words(run)}. Left: the force against the approach so far, "
+            "with jumps. Right: the pressure along the contact."
+        )
     return (
         f"One picture per Newton step of the run {run_words(run)}. Left: each contact point's overlap and pressure, "
         "beside the curve of the law and its wall. Right: the pressure along the contact, and the deformed bodies. "
@@ -50,14 +59,13 @@ def description(run: Run) -> str:
 
 def web_page(run: Run, player: str) -> str:
     """The player, and the same steps as a table."""
-    head = [
-        page.element("h1", f"The method at work: {run_words(run)}"),
-        page.element(
-            "p",
-            "Each dot is a contact point. Its overlap and pressure come from a linear solve: they are in equilibrium, "
-            "but on the curve of the law only once the iteration has converged.",
-        ),
-    ]
+    words = (
+        "Each dot is a contact point. Its overlap and pressure come from a linear solve: they are in equilibrium, "
+        "but on the curve of the law only once the iteration has converged."
+    )
+    if along_path(run):
+        words = "A frame is a state of the path: what the surfaces do as they come together and part."
+    head = [page.element("h1", f"The method at work: {run_words(run)}"), page.element("p", words)]
     steps = page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
     outcome = page.element("p", f"Force {cell(run.summary['force'])}, residual {cell(run.summary['residual'])}.")
     body = page.joined([*head, page.Markup(player), outcome, steps])
