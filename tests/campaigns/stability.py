@@ -29,6 +29,7 @@ OTHER = [
     {"law": "barrier", "p0": 1},
     {"law": "barrier", "p0": 1e-4},
 ]
+HARD = {"law": "signorini"}
 LAWS = POWER + OTHER
 TABLE = {"law": "table", "table": "table.csv"}
 SAMPLE = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1e3, 1e12) for m in (1.05, 3, 20)] + OTHER
@@ -38,9 +39,17 @@ STIFF = [
 
 TOL = 1e-8
 GAP, D0, U0, SIZE = 0.5, -0.25, 2.5, 40.0  # the paper's test
-COARSE = [{"h": 0.5, "order": 1}, {"h": 0.5, "order": 2}, {"h": 0.1, "order": 1}, {"h": 0.1, "order": 2}]
+COARSE = [
+    {"h": h, "order": order} for order, steps in {1: (0.5, 0.1), 2: (0.5, 0.1), 4: (1.0, 0.5)}.items() for h in steps
+]
 FINE = [{"h": h, "order": order, "grading": 80} for h in (0.05, 0.025) for order in (1, 2)]
-SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 0.8}  # a guess of one xnewton run
+FINE += [{"h": h, "order": 4, "grading": 80} for h in (0.1, 0.05)]
+FINEST = [mesh for mesh in FINE if mesh["h"] == (0.05 if mesh["order"] == 4 else 0.025)]  # for SAMPLE and STIFF
+RIVALS = {"h": 0.5, "order": 2}  # the mesh that all methods are run on
+COMPARED = COARSE[:3]  # every law by plain Newton; on the other coarse meshes SAMPLE
+# a guess of one xnewton run
+SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 1.0, (1.0, 4): 0.35, (0.5, 4): 0.4, (0.1, 4): 2.0}
+SECONDS |= {(0.05, 1): 0.8, (0.05, 2): 2.5, (0.025, 1): 2.0, (0.025, 2): 5.5, (0.05, 4): 5.5}
 LOADS = {
     "overlap 1e-12 of the size": GAP + D0 + 1e-12 * SIZE,
     "overlap 1e-6 of the size": GAP + D0 + 1e-6 * SIZE,
@@ -57,11 +66,11 @@ STEEL_KAPPA = [(20.0, 2.0), (1e3, 3.0), (1e9, 3.0)]  # kappa scaled: p/E = kappa
 
 
 def weight(h: float = 0.25, order: int = 1, **_) -> float:
-    return SECONDS.get((h, order), {1: 1.0, 2: 2.5}[order])
+    return SECONDS.get((h, order), 0.5 * order)
 
 
 def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
-    """The whole map, for the scenes and methods that `root` has; the extreme cases come first."""
+    """The whole map, for the scenes and methods that `root` has: the default method first, its grid before all."""
     found = extreme() + steel() + further() + bodies()
 
     def add(name, *parts, factor=1.0, **flags):
@@ -72,10 +81,15 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         found.append(case(name, weight=factor * weight(**merged), **{"method": "xnewton", **merged}))
 
     # the grid: every law, stiffness and mesh; then other first thresholds, no start
+    for mesh in COARSE + FINE:
+        add("grid", HARD, mesh, T0="auto")
+        if mesh in COMPARED:
+            add("grid", HARD, mesh, method="signorini", factor=5)
     for law in LAWS:
         for mesh in COARSE + FINE:
-            add("grid", law, mesh, T0="auto")
-            if mesh in COARSE or law in SAMPLE:
+            if mesh not in FINEST or law in SAMPLE + STIFF:
+                add("grid", law, mesh, T0="auto")
+            if mesh in COARSE or (law in SAMPLE and mesh not in FINEST):
                 add("no start", law, mesh, T0="auto", start="none", factor=1.3)
         for mesh in COARSE:
             for start in STARTS.values():
@@ -83,15 +97,14 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     # the same laws by the other methods, on one mesh; plain Newton on all the coarse ones, to compare with
     for law in LAWS:
         for mesh in COARSE:
-            if mesh != {"h": 0.1, "order": 2} or law in SAMPLE:
+            if mesh in COMPARED or (law in SAMPLE and mesh != COARSE[-1]):
                 add("rival", law, mesh, method="newton", factor=10)
-        mesh = {"h": 0.1, "order": 1}
-        add("rival", law, mesh, method="linesearch", factor=10)
-        add("rival", law, mesh, method="paper", T0="0", factor=10)
-        add("rival", law, mesh, method="paper", T0="d0", factor=10)
-        add("rival", law, mesh, method="incremental", steps=5, factor=25)
+        add("rival", law, RIVALS, method="linesearch", factor=10)
+        add("rival", law, RIVALS, method="paper", T0="0", factor=10)
+        add("rival", law, RIVALS, method="paper", T0="d0", factor=10)
+        add("rival", law, RIVALS, method="incremental", steps=5, factor=25)
         if campaign.has_ipopt(root):
-            add("rival", law, {"h": 0.5, "order": 1}, method="ipopt", factor=10)
+            add("rival", law, RIVALS, method="ipopt", factor=10)
     # loads
     for u0 in LOADS.values():
         for law in SAMPLE:
@@ -121,7 +134,7 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         for kappa in (1.0, 1e3):
             add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2)
             add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2, method="newton")
-    return found
+    return sorted(found, key=lambda item: (item.parameters["method"] != "xnewton", item.name != "grid"))
 
 
 def extreme() -> list[campaign.Case]:
@@ -185,18 +198,26 @@ BODY_LAWS += [*OTHER, {"law": "signorini"}]
 SPACE = ("two-spheres", "sphere-on-plane", "sphere-on-block", "patch-test-3d")
 RATIOS = (1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9)
 POINTS = ("segment", "nodal")
-CURVED = {"two-cylinders": {"d0": -0.01, "h": 0.1}, "two-spheres": {"d0": -0.01, "h": 0.2, "layers": 2}}
-CURVED |= {"sphere-on-plane": {"d0": -0.01, "h": 0.2, "layers": 2}}
+CURVED = {
+    ("two-cylinders", 1): {"d0": -0.01, "h": 0.1},
+    ("two-cylinders", 2): {"d0": -0.01, "h": 0.1},
+    ("two-spheres", 1): {"d0": -0.01, "h": 0.2, "layers": 2},
+    ("two-spheres", 2): {"d0": -0.01, "h": 0.4, "layers": 1},
+    ("sphere-on-plane", 1): {"d0": -0.01, "h": 0.2, "layers": 2},
+    ("sphere-on-plane", 2): {"d0": -0.01, "h": 0.4, "layers": 1},
+}
 
 
 def bodies() -> list[campaign.Case]:
     """Two meshed bodies, curved or flat, and contact in space; each beside another method on the same problem."""
     found = []
 
-    def add(scene, **flags):
+    def add(scene, others=True, **flags):
         for law in BODY_LAWS:
             common = {"tol": TOL, **law, **flags}
             found.append(case(scene, scene=scene, weight=0.4, method="xnewton", **common))
+            if not others:
+                continue
             if law["law"] == "power":
                 found.append(case(scene, scene=scene, weight=1.5, method="newton", **common))
                 if (law["kappa"], law["m"]) == (1.0, 20):  # under a prescribed force plain Newton creeps there
@@ -206,18 +227,25 @@ def bodies() -> list[campaign.Case]:
             else:
                 found.append(case(scene, scene=scene, weight=1.5, method="paper", T0="d0", eps=1e-12, **common))
 
-    for scene, flags in CURVED.items():
+    for (scene, order), flags in CURVED.items():
         for load in ({}, {"force": 0}):
             for points in POINTS if scene != "sphere-on-plane" else (None,):
-                add(scene, **flags, **load, **({"points": points} if points else {}))
+                add(scene, order=order, **flags, **load, **({"points": points} if points else {}))
     for ratio in RATIOS:
-        add("patch-test", Eratio=ratio)
-        add("patch-test-3d", Eratio=ratio)
+        for order in (1, 2):
+            add("patch-test", others=order == 1, order=order, Eratio=ratio)
+            add("patch-test-3d", others=order == 1, order=order, Eratio=ratio)
     for ratio in (1.0, 1e3, 1e6, 1e9):
         for points in POINTS:
-            add("meshed-disc", Eratio=ratio, points=points, h=0.5)
-    add("rough", h=0.25)
-    add("sphere-on-block", h=1.0)
+            for order in (1, 2):
+                add("meshed-disc", others=order == 1, order=order, Eratio=ratio, points=points, h=0.5)
+    add("meshed-disc", order=4, h=1.0)
+    for order in (1, 2):
+        add("rough", order=order, h=0.25)
+    for symmetry in ("quarter", "whole"):
+        add("sphere-on-block", order=1, h=1.0, symmetry=symmetry)
+    add("sphere-on-block", order=2, h=1.5, layers=2)
+    add("sphere-on-block", others=False, order=2, h=1.0)
     return found
 
 
