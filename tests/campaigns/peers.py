@@ -18,14 +18,13 @@ from pathlib import Path
 import campaign
 import numpy as np
 import reference
-from bench import FOLDER, cheapest, element, ends, problem, problem_words
+from bench import FOLDER, cheapest, contact_seconds, element, ends, problem, problem_words
 from campaign import case, markdown, value
 
 PEER = "ngsolve_contact.py"
 PYTHON = campaign.ROOT / ".venv-peers" / "bin" / "python"
 ROUNDS = 3
 DECADES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # errors in force that the table asks the price of
-TIMED = ("assembly", "factorisation", "contact")
 TOL = 1e-8  # of the residual, for both
 
 LAWS = [(1e3, 3), (1e9, 3), (1e12, 3), (1e3, 10), (1e3, 20)]  # kappa, m
@@ -125,7 +124,7 @@ def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
             row = campaign.run_case(coarse, sources, processes)
             if row["status"] != "converged":
                 raise RuntimeError(f"{coarse.flags}: {row['message']}")
-            found["secondsBefore"] = sum(row[f"seconds_{part}"] for part in TIMED) + row["seconds_mesh"]
+            found["secondsBefore"] = contact_seconds(row) + row["seconds_mesh"]
         return found
 
     return measure
@@ -151,7 +150,7 @@ def medians(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
 
 def seconds(row: dict[str, str]) -> float:
     """CPU seconds from the mesh to the displacement, with those of the run that must come before."""
-    return sum(value(row, f"seconds_{part}") for part in TIMED) + float(row["secondsBefore"] or 0)
+    return contact_seconds(row) + float(row["secondsBefore"] or 0)
 
 
 def table(rows: list[dict[str, str]]) -> str:

@@ -324,6 +324,16 @@ def law_table() -> str:
 
 PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
 NOTHING = 1e-150  # a force or pressure below is none: its square underflows
+BODIES = (
+    "two-cylinders",
+    "two-spheres",
+    "sphere-on-plane",
+    "sphere-on-block",
+    "patch-test",
+    "patch-test-3d",
+    "meshed-disc",
+    "rough",
+)
 PRESCRIBED = {"two-cylinders": 8.631, "two-spheres": 14.652014652, "sphere-on-plane": 14.652014652}  # scenes' -force
 MORE_PROBLEM = ("-force", "-distance", "-Eratio", "-points", "-layers")  # flags without a column
 
@@ -490,7 +500,7 @@ def reactions(rows: list[dict]) -> list[dict]:
 
 
 def counts(rows: list[dict]) -> list[dict]:
-    """Counts with a limit: two bodies, rough surface and space; the true distance."""
+    """Counts with a limit: the grid with P2 and P4; two bodies, rough surface and space; the true distance."""
     found = []
 
     def at_most(what, row, name, limit):
@@ -499,7 +509,10 @@ def counts(rows: list[dict]) -> list[dict]:
 
     parts = {item.name for item in bodies()}
     for row in select(rows, method="xnewton"):
-        if row["name"] == "exact distance":
+        if row["name"] == "grid" and row["order"] in ("2", "4"):
+            at_most(f"linearisations, P{row['order']}", row, "newton", 4)
+            at_most(f"back-substitutions, P{row['order']}", row, "backsolves", 20)
+        elif row["name"] == "exact distance":
             at_most("rounds of the true distance", row, "rounds", 6)
             at_most("linearisations, true distance", row, "newton", 25)
         elif row["name"] in SPACE:
@@ -514,48 +527,111 @@ def counts(rows: list[dict]) -> list[dict]:
 # ---------------------------------------------------------------- what came out
 
 
-def worst(rows: list[dict], name: str) -> str:
-    """The greatest count among the rows, or a dash."""
-    values = [value(row, name) for row in rows if row["status"] == "converged"]
-    return f"{max(values):.0f}" if values else "-"
+PARTS = {
+    "grid": "every law and stiffness, hard contact",
+    "no start": "the same without the half-plane's start",
+    "threshold": "the same from T⁰ = 0 and T⁰ = d0",
+    "load": "overlaps from 1e-12 of the size to twice the paper's load",
+    "u0 three times": "three times the paper's load",
+    "scene": "the scenes of the plane",
+    "E": "E from 1e-6 to 1e12",
+    "d0": "d0 from -1e-12 to -5",
+    "aspect": "elements flattened 1:10 and 1:100",
+    "offset": "disc near the block's edge",
+    "20 contacts": "20 contacts, `wavy`",
+    "exact": "`confined-block`",
+    "steel SI": "a steel bearing in SI units",
+    "steel twin": "the same without units",
+    "exact distance": "true distance, all rounds together",
+}
+DEGREES = ("1", "2", "4")
+
+
+def degree(row: dict[str, str]) -> str:
+    """The degree of the elements, as text; a run that does not tell it was refused or crashed."""
+    return row["order"] or flags_of(row).get("-order", "")
+
+
+def greatest(rows: list[dict], name: str) -> str:
+    """The greatest count, for each degree that was run: "3 / 4", a dash where no run converged."""
+    found = []
+    for order in DEGREES:
+        group = [row for row in rows if degree(row) == order]
+        good = [value(row, name) for row in group if row["status"] == "converged"]
+        if group:
+            found.append(f"{max(good):.0f}" if good else "–")
+    return " / ".join(found)
+
+
+def parts_table(rows: list[dict]) -> str:
+    """Worst counts of the default method by part of the map; the degrees of the elements in turn."""
+    lines = []
+    rows = select(rows, method="xnewton")
+    names = list(dict.fromkeys([*PARTS, *(row["name"] for row in rows)]))
+    for name in names:
+        group = select(rows, name=name)
+        if group:
+            failed = sum(row["status"] != "converged" for row in group)
+            degrees = " / ".join(f"P{order}" for order in DEGREES if any(degree(row) == order for row in group))
+            word = PARTS.get(name, f"`{name}`" if name in BODIES else name)
+            counts = [greatest(group, count) for count in ("newton", "kernelNewton", "backsolves", "adaptations")]
+            lines.append([word, degrees, len(group), failed, *counts])
+    header = "part|elements|runs|failed|linearisations|on the kernel|back-substitutions|adaptations"
+    return markdown(header.split("|"), lines)
+
+
+def methods_table(rows: list[dict]) -> str:
+    """The other methods: runs, failures, linearisations."""
+    lines = []
+    for method in dict.fromkeys(row["method"] for row in rows if row["method"] != "xnewton"):
+        group = select(rows, method=method)
+        good = [value(row, "newton") for row in group if row["status"] == "converged"]
+        counts = [f"{np.median(good):.0f}", f"{max(good):.0f}"] if good else ["–", "–"]
+        lines.append([f"`{method}`", len(group), len(group) - len(good), *counts])
+    return markdown(["method", "runs", "failed", "linearisations, median", "most"], lines)
+
+
+CHOSEN = [
+    {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e-2, 3), (1.0, 2), (1e3, 3), (1e12, 3), (1e3, 20))
+]
+CHOSEN += [OTHER[0], OTHER[2]]
+
+
+def laws_table(rows: list[dict]) -> str:
+    """Method by law on one mesh: adaptations / linearisations, or how it failed."""
+    rows = select([*select(rows, name="grid"), *select(rows, name="rival")], **RIVALS)
+    lines = []
+    for method, start in dict.fromkeys((row["method"], row["T0"] * (row["method"] == "paper")) for row in rows):
+        group = [row for row in select(rows, method=method) if method != "paper" or row["T0"] == start]
+        cells = []
+        for law in CHOSEN:
+            (row, *_) = select(group, **law) or [None]
+            good = row and row["status"] == "converged"
+            cells.append(f"{row['adaptations']} / {row['newton']}" if good else row["status"] if row else "")
+        lines.append([f"`{method}`" + (f", T0 = {start}" if start else ""), *cells])
+    words = [f"κ={law['kappa']:g}, m={law['m']}" if law["law"] == "power" else law["law"] for law in CHOSEN]
+    return markdown(["method", *words], lines)
+
+
+def checks_table(verified: list[dict]) -> str:
+    lines = []
+    for kind in sorted({entry["check"] for entry in verified}):
+        group = [entry for entry in verified if entry["check"] == kind]
+        failed = sum(not entry["passed"] for entry in group)
+        allowed, most = max(entry["tolerance"] for entry in group), max(entry["error"] for entry in group)
+        lines.append([kind, len(group), failed, f"{allowed:.0e}" if allowed else "0", f"{most:.1e}"])
+    return markdown(["compared", "comparisons", "not passed", "allowed", "greatest error"], lines)
 
 
 def report(rows: list[dict], verified: list[dict]) -> str:
     """Worst counts by part of the map and by method, failures and failed checks."""
-    parts = []
-    counts = "newton kernelNewton backsolves adaptations".split()
-    header = ["part", "runs", "failed", "linearisations", "on the kernel model", "back-substitutions", "adaptations"]
-    lines = []
-    named = defaultdict(list)
-    for row in rows:
-        label = row["name"]
-        if label in ("grid", "no start"):
-            label += f", P{row['order']}, h = {row['h']}"
-        elif label == "threshold":
-            label += f" {row['T0'] if row['T0'] == 'd0' else '0'}"
-        elif label == "rival":
-            start = f", T0 = {row['T0']}" if row["method"] == "paper" else ""
-            label = f"{row['method']}{start}, P{row['order']}, h = {row['h']}"
-        if row["name"] != "rival" and row["method"] != "xnewton":
-            label += f" ({row['method']})"
-        named[label].append(row)
-    for label, group in sorted(named.items()):
-        failed = sum(row["status"] != "converged" for row in group)
-        lines.append([label, len(group), failed, *(worst(group, name) for name in counts)])
-    parts.append(markdown(header, lines))
+    parts = [parts_table(rows), methods_table(rows), laws_table(rows)]
     failures = [row for row in rows if row["method"] == "xnewton" and row["status"] != "converged"]
     parts.append(f"{len(rows)} runs; failures of xnewton: {len(failures)}")
     parts += [f"  {row['status']}: {row['script']} {row['flags']}: {row['message']}" for row in failures]
     bad = [entry for entry in verified if not entry["passed"]]
-    kinds = sorted({entry["check"] for entry in verified})
     parts.append(f"{len(verified)} checks of xnewton's answers, {len(bad)} not passed")
-    table = []
-    for kind in kinds:
-        group = [entry for entry in verified if entry["check"] == kind]
-        table.append(
-            [kind, len(group), sum(not entry["passed"] for entry in group), f"{max(e['error'] for e in group):.1e}"]
-        )
-    parts.append(markdown(["check", "comparisons", "not passed", "greatest error"], table))
+    parts.append(checks_table(verified))
     parts += [f"  {e['check']}: {e['found']!r}, expected {e['expected']!r}: {e['flags']}" for e in bad[:40]]
     return "\n".join(parts)
 
