@@ -295,12 +295,12 @@ def test_report_of_the_peers():
     lines = peers.report(rows).splitlines()
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:7]]
     assert [row[1:] for row in cells[:2]] == [
-        ["1e-03", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
-        ["1e-04", "2.000 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+        ["1e-3", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+        ["1e-4", "2.000 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
     ]
     assert cells[2][2] == "-" and lines[-1].endswith("not converged, stood still")
     last = peers.table(rows).splitlines()[-1]
-    assert last == "| 1000, 3 | 0.5 P2 / 0.1 P2 | 2 P2 / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 |"
+    assert last == "| 1e3, 3 | 0.5 P2 / 0.1 P2 | 2 P2 / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 |"
 
 
 def test_a_run_that_needs_another_is_charged_with_it():
@@ -336,6 +336,7 @@ def test_peer(tmp_path):
 
 def test_markdown():
     """A table shall have a header, a rule and a line a row."""
+    assert list(map(campaign.decade, (1e-2, 1.0, 1e12))) == ["1e-2", "1", "1e12"]
     assert campaign.markdown(["a", "b"], [[1, 2]]) == "| a | b |\n| --- | --- |\n| 1 | 2 |"
 
 

@@ -21,7 +21,7 @@ from pathlib import Path
 import campaign
 import numpy as np
 import reference
-from campaign import case, markdown, select, value
+from campaign import case, decade, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "bench"
 REPEATS = 3
@@ -242,7 +242,7 @@ def report_work_precision(rows: list[dict]) -> str:
                 good = row["status"] == "converged"
                 lines.append(
                     [
-                        f"{kappa:g}, {m}",
+                        f"{decade(kappa)}, {m}",
                         method_words(row),
                         row["newton"] if good else row["status"],
                         row["factorisations"],
@@ -252,7 +252,7 @@ def report_work_precision(rows: list[dict]) -> str:
                     ]
                 )
     header = [
-        "kappa, m",
+        "κ, m",
         "method (tol 1e-8)",
         "linearisations",
         "factorisations",
@@ -269,7 +269,7 @@ def problem(row: dict[str, str]) -> tuple[str, float, float]:
 
 
 def problem_words(row: dict[str, str]) -> str:
-    return ("sphere, " if row["scene"] == SPHERE else "") + f"{value(row, 'kappa'):g}, {value(row, 'm'):g}"
+    return ("sphere, " if row["scene"] == SPHERE else "") + f"{decade(value(row, 'kappa'))}, {value(row, 'm'):g}"
 
 
 def method_words(row: dict[str, str]) -> str:
@@ -312,7 +312,7 @@ def meshes_table(rows: list[dict]) -> str:
             )
         lines.append([*key, *cells])
     lines.sort(key=lambda line: line[1] != "xnewton")
-    return markdown(["κ, m", "method", "element", *(f"{error:.0e}" for error in ERRORS)], lines)
+    return markdown(["κ, m", "method", "element", *(decade(error) for error in ERRORS)], lines)
 
 
 def cheapest(rows: list[dict], error: float, seconds: Callable[[dict], float]) -> dict | None:
@@ -354,7 +354,7 @@ def cost_map(rows: list[dict]) -> str:
     grid = []
     for kappa in KAPPAS:
         cells = [select(rows, kappa=kappa, m=m) for m in EXPONENTS]
-        grid.append([f"{kappa:g}", *(f"{value(cell[0], 'costRatio'):.2f}" if cell else "–" for cell in cells)])
+        grid.append([decade(kappa), *(f"{value(cell[0], 'costRatio'):.2f}" if cell else "–" for cell in cells)])
     return markdown(["κ \\ m", *map(str, EXPONENTS)], grid)
 
 
@@ -373,7 +373,8 @@ def cost_table(rows: list[dict]) -> str:
             cells.append(ratio if good or not group else group[0]["status"])
         lines.append([method, *cells])
     words = [
-        ("sphere, " if scene == SPHERE else "") + f"P{order}: {kappa:g}, {m:g}" for scene, order, (kappa, m) in places
+        ("sphere, " if scene == SPHERE else "") + f"P{order}: {decade(kappa)}, {m:g}"
+        for scene, order, (kappa, m) in places
     ]
     return markdown(["method", *words], lines)
 

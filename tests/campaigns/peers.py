@@ -19,7 +19,7 @@ import campaign
 import numpy as np
 import reference
 from bench import FOLDER, cheapest, contact_seconds, element, ends, problem, problem_words
-from campaign import case, markdown, value
+from campaign import case, decade, markdown, value
 
 PEER = "ngsolve_contact.py"
 PYTHON = campaign.ROOT / ".venv-peers" / "bin" / "python"
@@ -165,7 +165,7 @@ def table(rows: list[dict[str, str]]) -> str:
             words = ["–" if row is None else f"{row['seconds']:.2g} {element(row)}" for row in pair]
             cells.append(" / ".join(words))
         lines.append([problem_words(group[0]), *cells])
-    return markdown(["κ, m", *(f"{error:.0e}" for error in DECADES)], lines)
+    return markdown(["κ, m", *(decade(error) for error in DECADES)], lines)
 
 
 def report(rows: list[dict[str, str]]) -> str:
@@ -178,7 +178,7 @@ def report(rows: list[dict[str, str]]) -> str:
         for error in DECADES:
             pair = [best(group, error, peer) for peer in (False, True)]
             if any(pair):
-                lines.append([problem_words(group[0]), f"{error:.0e}", *map(words, pair)])
+                lines.append([problem_words(group[0]), decade(error), *map(words, pair)])
     failed = [f"{row['script']} {row['flags']}: {row['status']}, {row['message']}" for row in rows if failure(row)]
     header = ["kappa, m", "error in force", "package: s (mesh s), dofs, linearisations", "NGSolve: the same"]
     return "\n".join([markdown(header, lines), "", short, "", *failed])

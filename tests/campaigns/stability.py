@@ -15,7 +15,7 @@ from pathlib import Path
 
 import campaign
 import numpy as np
-from campaign import case, markdown, select, value
+from campaign import case, decade, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "stability"
 COLUMNS = ("stepsPerModel", "rounds", "masterForce", "approach")
@@ -609,7 +609,7 @@ def laws_table(rows: list[dict]) -> str:
             good = row and row["status"] == "converged"
             cells.append(f"{row['adaptations']} / {row['newton']}" if good else row["status"] if row else "")
         lines.append([f"`{method}`" + (f", T0 = {start}" if start else ""), *cells])
-    words = [f"κ={law['kappa']:g}, m={law['m']}" if law["law"] == "power" else law["law"] for law in CHOSEN]
+    words = [f"κ={decade(law['kappa'])}, m={law['m']}" if law["law"] == "power" else law["law"] for law in CHOSEN]
     return markdown(["method", *words], lines)
 
 
