@@ -15,6 +15,7 @@ from pathlib import Path
 
 import campaign
 import numpy as np
+import reference
 from campaign import case, decade, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "stability"
@@ -166,6 +167,12 @@ def extreme() -> list[campaign.Case]:
         add("flat punch", scene="flat-punch", laws=STIFF + OTHER, h=h, order=2)
     for order in (1, 2):
         add("u0 three times", laws=STIFF + OTHER, u0=3 * U0, h=0.1, order=order)
+    for (scene, kappa, m), known in reference.values().items():
+        law = {"law": "power", "kappa": kappa, "m": m} if np.isfinite(kappa) else HARD
+        for mesh in ({"h": 0.5, "order": 2}, {"h": 1.0, "order": 4}, {"h": 0.5, "order": 4, "grading": 60}):
+            if scene == "disc-on-block":
+                merged = {"method": "xnewton", "tol": TOL, **law, **mesh, "ends": round(known["halfWidth"], 3)}
+                found.append(case("ends", weight=weight(**mesh), **merged))
     add("stiff disc", scene="meshed-disc", Eratio=1e6, h=0.25, order=2)
     add("equal bodies", scene="meshed-disc", Eratio=1, h=0.25, order=2)
     return found
@@ -532,6 +539,7 @@ PARTS = {
     "no start": "the same without the half-plane's start",
     "threshold": "the same from T⁰ = 0 and T⁰ = d0",
     "load": "overlaps from 1e-12 of the size to twice the paper's load",
+    "ends": "meshes that shrink to the ends of contact, `-ends`",
     "u0 three times": "three times the paper's load",
     "scene": "the scenes of the plane",
     "E": "E from 1e-6 to 1e12",
