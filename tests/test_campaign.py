@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import peers
 import pytest
 import reference
 import stability
+import tables
 from campaign import Case, case, read_rows, value
 
 from postprocess import figures
@@ -282,7 +284,7 @@ def peer_row(seconds, error, script="edp/main.edp", flags="-h 1", **cells):
     }
     common |= {"status": "converged", "message": "", "ndof": "10", "newton": "3", "kernelNewton": "4"}
     common |= {"seconds_assembly": str(seconds), "seconds_factorisation": "0", "seconds_contact": "0"}
-    return common | {"seconds_mesh": "0.5", "forceError": str(error)} | cells
+    return common | {"seconds_mesh": "0.5", "forceError": str(error), "secondsBefore": ""} | cells
 
 
 def test_report_of_the_peers():
@@ -292,11 +294,20 @@ def test_report_of_the_peers():
     rows += [peer_row(0.01, 1e-9, peers.PEER, "-h 4", status="not converged", message="stood still", kappa="1000.0")]
     lines = peers.report(rows).splitlines()
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:7]]
-    assert [row[2:] for row in cells[:2]] == [
-        ["1e-03", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
-        ["1e-04", "2.000 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+    assert [row[1:] for row in cells[:2]] == [
+        ["1e-3", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+        ["1e-4", "2.000 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
     ]
-    assert cells[2][3] == "-" and lines[-1].endswith("not converged, stood still")
+    assert cells[2][2] == "-" and lines[-1].endswith("not converged, stood still")
+    last = peers.table(rows).splitlines()[-1]
+    assert last == "| 1e3, 3 | 0.5 P2 / 0.1 P2 | 2 P2 / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 |"
+
+
+def test_a_run_that_needs_another_is_charged_with_it():
+    """Seconds of a run with `-ends` shall include those of the coarse run before it."""
+    rows = [peer_row(0.2, 1e-6), peer_row(0.1, 1e-6, flags="-h 1 -ends 4", secondsBefore="0.15")]
+    assert "0.2 P2 /" in peers.table(rows)
+    assert "0.15 P2, `-ends` /" in peers.table([rows[0], rows[1] | {"secondsBefore": "0.05"}])
 
 
 def test_peers_without_the_other_code(monkeypatch, tmp_path, capsys):
@@ -325,6 +336,7 @@ def test_peer(tmp_path):
 
 def test_markdown():
     """A table shall have a header, a rule and a line a row."""
+    assert list(map(campaign.decade, (1e-2, 1.0, 1e12))) == ["1e-2", "1", "1e12"]
     assert campaign.markdown(["a", "b"], [[1, 2]]) == "| a | b |\n| --- | --- |\n| 1 | 2 |"
 
 
@@ -364,6 +376,54 @@ def test_parts_of_the_stability_map(capsys):
     with pytest.raises(SystemExit):
         stability.main(["nowhere"])
     assert "no such part: nowhere" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------- the documentation's tables
+
+TEXT = "before\n<!-- table: {} -->\nold\n<!-- end -->\nbetween\n<!-- table: peers -->\nkept\n<!-- end -->\nafter\n"
+
+
+def test_markers_of_the_tables():
+    """Every marker of the README shall be a table that there is, opened and closed once; none shall be missing."""
+    text = tables.DOCUMENT.read_text()
+    names = [found.group(2) for found in tables.MARKED.finditer(text)]
+    assert sorted(names) == sorted(tables.TABLES)
+    assert text.count("<!-- table:") == text.count("<!-- end -->") == len(names)
+    assert {csv for csv, _ in tables.TABLES.values()} == set(tables.LISTS)
+
+
+def test_only_what_is_between_markers_is_written():
+    """The writer shall change what stands between a table's markers, nothing else; an unknown table is refused."""
+    new = tables.written(TEXT.format("growth"), {"growth": "| a |\n", "cost": "| b |"})
+    assert new == TEXT.format("growth").replace("old", "| a |")
+    assert tables.written(new, {"growth": "| a |\n"}) == new
+    with pytest.raises(ValueError, match=r"no such table: nowhere; there are: .*growth"):
+        tables.written(TEXT.format("nowhere"), {})
+
+
+@pytest.mark.filterwarnings("ignore:divide by zero")  # made-up results
+def test_tables_are_written(campaigns, tmp_path, capsys):
+    """From whole tables of results all shall be written, twice the same; from a part of one only when that is asked."""
+    document, results = tmp_path / "README.md", tmp_path / "results"
+    kept = tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text())
+    document.write_text(kept)
+    options = ["--document", str(document), "--results"]
+    assert tables.main([*options, str(campaigns)]) == 0
+    assert f"{len(tables.TABLES)} of {len(tables.TABLES)} tables" in capsys.readouterr().out
+    text = document.read_text()
+    assert tables.MARKED.sub(r"\1\4", text) == kept
+    for found in tables.MARKED.finditer(text):
+        heads = [line.count("|") for line in found.group(3).splitlines() if line.startswith("|")]
+        assert len(heads) > 2 and len(set(heads)) == 1 and " runs, " in found.group(3), found.group(2)
+    assert tables.main([*options, str(campaigns)]) == 0 and document.read_text() == text
+    shutil.copytree(campaigns, results)
+    lines = (results / "bench" / "growth.csv").read_text().splitlines(keepends=True)
+    (results / "bench" / "growth.csv").write_text("".join(lines[:-1]))
+    document.write_text(kept)
+    assert tables.main([*options, str(results)]) == 0
+    assert "growth.csv" in capsys.readouterr().err and "<!-- table: growth -->\n<!-- end -->" in document.read_text()
+    assert tables.main([*options, str(results), "--partial"]) == 0
+    assert f" of {len(lines) - 1} runs" in document.read_text()
 
 
 # ---------------------------------------------------------------- figures
@@ -465,7 +525,7 @@ def test_the_quick_campaign_keeps_the_counts(quick):
 def test_summary_of_the_quick_campaign(quick):
     """The report shall name each part and count the failures."""
     text = stability.report(quick, [])
-    assert "failures of xnewton: 0" in text and "| load |" in text
+    assert "failures of xnewton: 0" in text and f"| {stability.PARTS['load']} | P1 |" in text
 
 
 def test_checks_find_a_wrong_answer():

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from postprocess import style
 from postprocess.campaign import (
     Campaign,
+    Row,
     contact_seconds,
     draw_failures,
     elastic_seconds,
@@ -22,32 +23,33 @@ READ = read_campaign
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
-    """Contact run and linear elastic solve, with fitted exponents; memory; the ratio of the two."""
-    columns = "name status method kappa m ndof memory costRatio seconds_assembly seconds_factorisation seconds_contact"
+    """Contact run and linear elastic solve, with fitted exponents; memory; the ratio of the two. Plane and space."""
+    columns = "name scene status kappa m ndof memory costRatio seconds_assembly seconds_factorisation seconds_contact"
     rows = select(runs[0].rows("growth", columns), name="growth")
     if not any(map(good, rows)):
         raise ResultsError(runs[0].path / "growth.csv", "no run of it converged")
-    laws = list(dict.fromkeys((number(row, "kappa"), number(row, "m")) for row in rows))
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
+    problems = list(dict.fromkeys(map(problem, rows)))
+    figure = Figure(figsize=(style.PAGE, 0.45 * style.PAGE), layout="constrained")
     seconds, memory, ratio = figure.subplots(1, 3, sharex=True)
-    for index, (kappa, m) in enumerate(laws):
-        group = sorted(select(rows, kappa=kappa, m=m), key=lambda row: number(row, "ndof"))
+    texts = []
+    for index, which in enumerate(problems):
+        group = sorted([row for row in rows if problem(row) == which], key=lambda row: number(row, "ndof"))
         done = [row for row in group if good(row)]
         dofs = numbers(done, "ndof")
-        label = rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
         ours = np.array([contact_seconds(row) for row in done])
-        seconds.plot(dofs, ours, **style.curve(index), label=label)
+        seconds.plot(dofs, ours, **style.curve(index), label=words(which))
         memory.plot(dofs, numbers(done, "memory") / 1024, **style.curve(index))
         ratio.plot(dofs, numbers(done, "costRatio"), **style.curve(index))
         for axes in (seconds, memory, ratio):
             draw_failures(axes, numbers([row for row in group if not good(row)], "ndof"), style.curve(index)["color"])
-        if index == 0:
+        if which[0] not in {other[0] for other in problems[:index]}:
             elastic = np.array([elastic_seconds(row) for row in done])
-            seconds.plot(dofs, elastic, color=style.BLACK, linestyle=(0, (4, 2)), label="linear elastic solve")
+            label = None if index else "linear elastic solve"
+            seconds.plot(dofs, elastic, color=style.BLACK, linewidth=0.8, linestyle=(0, (4, 2)), label=label)
             if len(done) > 2:
-                texts = [f"contact: $\\propto n^{{{exponent(dofs, ours):.2f}}}$"]
-                texts.append(f"elastic: $\\propto n^{{{exponent(dofs, elastic):.2f}}}$")
-                seconds.text(0.97, 0.05, "\n".join(texts), transform=seconds.transAxes, ha="right", fontsize=8)
+                powers = f"$n^{{{exponent(dofs, ours):.2f}}}$, elastic $n^{{{exponent(dofs, elastic):.2f}}}$"
+                texts.append(f"{'sphere' if index else 'plane'}: {powers}")
+    seconds.text(0.97, 0.04, "\n".join(texts), transform=seconds.transAxes, ha="right", fontsize=7.5)
     for axes, title in ((seconds, "CPU seconds"), (memory, "memory [GB]"), (ratio, "cost ratio")):
         axes.set_xscale("log")
         axes.set_title(title, loc="left")
@@ -57,8 +59,19 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     memory.set_yscale("log")
     ratio.axhline(2, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
     ratio.set_ylim(1, max(2.2, 1.1 * np.nanmax(numbers([row for row in rows if good(row)], "costRatio"))))
-    figure.legend(loc="outside upper center", ncols=5)
+    figure.legend(loc="outside upper center", ncols=3)
     return figure
+
+
+def problem(row: Row) -> tuple[str, float, float]:
+    return row["scene"], number(row, "kappa"), number(row, "m")
+
+
+def words(which: tuple[str, float, float]) -> str:
+    """A problem for the legend."""
+    scene, kappa, m = which
+    place = "sphere" if scene == "sphere-on-block" else "plane"
+    return rf"{place}, $\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
 
 
 def exponent(sizes: np.ndarray, seconds: np.ndarray) -> float:

@@ -1,4 +1,4 @@
-"""errors against the independent reference over meshes, against run time (results/bench)"""
+"""errors against the independent reference over meshes, against seconds, by degree of the elements (results/bench)"""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -7,7 +7,8 @@ from postprocess import style
 from postprocess.campaign import (
     NAMES,
     Campaign,
-    draw_failures,
+    Row,
+    contact_seconds,
     good,
     look,
     method,
@@ -16,52 +17,89 @@ from postprocess.campaign import (
     read_campaign,
     select,
 )
+from postprocess.results import ResultsError
 
 RUNS = (1, 1)
 READ = read_campaign
 
-ERRORS = {"forceError": "force", "pressureMaxError": "greatest pressure", "profileError": "pressure profile"}
-SHOWN = ("xnewton", "newton", "paper 0")
+ERRORS = {
+    "forceError": "force",
+    "pressureMaxError": "greatest pressure",
+    "halfWidthError": "half-width",
+    "profileError": "pressure profile",
+}
+PROBLEMS = {
+    r"$\kappa = 10^3$": {"scene": "disc-on-block", "kappa": 1e3, "m": 3.0},
+    r"$\kappa = 10^{12}$": {"scene": "disc-on-block", "kappa": 1e12, "m": 3.0},
+    "sphere": {"scene": "sphere-on-block"},
+}
+ELEMENTS = ("P1", "P2", "P4", "P4, -ends")
+RIVALS = ("newton", "linesearch", "paper 0", "paper d0", "incremental", "ipopt")
+COLUMNS = "flags status method T0 scene kappa m order h seconds_assembly seconds_factorisation seconds_contact"
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
-    """A panel per quantity: the paper's case; solid P2, dashed P1; a point per mesh."""
-    rows = runs[0].rows("meshes", f"status method T0 kappa m order h cpu {' '.join(ERRORS)}")
-    rows = select(rows, kappa=1e3, m=3.0)
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    panels = figure.subplots(1, len(ERRORS), sharex=True)
-    for axes, (column, title) in zip(panels, ERRORS.items(), strict=True):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        for name in SHOWN:
-            for order, dashes in ((1, (0, (4, 2))), (2, "-")):
-                group = sorted(select([row for row in rows if method(row) == name], order=order), key=size)
-                done = [row for row in group if good(row)]
-                face = {"markerfacecolor": "white"} if order == 1 else {}
-                axes.plot(numbers(done, "cpu"), numbers(done, column), linestyle=dashes, **look(name), **face)
-                failed = [row for row in group if not good(row)]
-                draw_failures(axes, numbers(failed, "cpu"), look(name)["color"])
-        axes.set_title(f"{title}, relative error", loc="left")
-        axes.set_xlabel("CPU seconds, whole run")
-        axes.grid(color="0.9", linewidth=0.5)
-        axes.margins(0.16, 0.1)  # room for the sizes
-    mark_sizes(panels[0], rows)
-    for name in SHOWN:
-        panels[0].plot([], [], **look(name), label=NAMES[name])
-    for order, dashes in ((1, (0, (4, 2))), (2, "-")):
-        panels[0].plot([], [], color=style.GREY, linestyle=dashes, label=f"P{order}")
+    """A row per problem, a panel per quantity: a curve per element, a point per mesh; the rivals' runs as points."""
+    rows = [row for row in runs[0].rows("meshes", f"{COLUMNS} {' '.join(ERRORS)}") if good(row)]
+    if not rows:
+        raise ResultsError(runs[0].path / "meshes.csv", "no run of it converged")
+    figure = Figure(figsize=(style.PAGE, 0.85 * style.PAGE), layout="constrained")
+    grid = figure.subplots(len(PROBLEMS), len(ERRORS), sharex="row", squeeze=False)
+    for line, (title, wanted) in zip(grid, PROBLEMS.items(), strict=True):
+        group = select(rows, **wanted)
+        for axes, (column, quantity) in zip(line, ERRORS.items(), strict=True):
+            known = [row for row in group if number(row, column) > 0]
+            if not known:
+                axes.set_visible(False)
+                continue
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            for place, name in enumerate(ELEMENTS):
+                draw_front(
+                    [row for row in known if method(row) == "xnewton" and element(row) == name], column, axes, place
+                )
+            for name in RIVALS:
+                rival = [row for row in known if method(row) == name]
+                axes.plot(seconds(rival), numbers(rival, column), **rival_look(name))
+            axes.set_title(f"{title}: {quantity}", loc="left", fontsize=8)
+            axes.grid(color="0.9", linewidth=0.5)
+    for axes in (*grid[-1, :2], *grid[-2, 2:]):
+        axes.set_xlabel("CPU seconds")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("relative error")
+    for place, name in enumerate(ELEMENTS):
+        grid[0, 0].plot([], [], **style.curve(place), label=f"xnewton, {name}")
+    for name in RIVALS:
+        if any(method(row) == name for row in rows):
+            grid[0, 0].plot([], [], **rival_look(name), label=NAMES[name])
     figure.legend(loc="outside upper center", ncols=5)
     return figure
 
 
-def size(row: dict) -> float:
-    return -number(row, "h")
+def draw_front(rows: list[Row], column: str, axes, place: int) -> None:
+    """The runs of one element, as points; the line joins what none of them beats."""
+    points = sorted(zip(seconds(rows), numbers(rows, column), strict=True))
+    looks = style.curve(place)
+    axes.plot([x for x, _ in points], [y for _, y in points], **{**looks, "linestyle": ""})
+    front = [point for at, point in enumerate(points) if all(point[1] < y for _, y in points[:at])]
+    axes.plot([x for x, _ in front], [y for _, y in front], color=looks["color"], linewidth=1)
 
 
-def mark_sizes(axes, rows: list[dict]) -> None:
-    """The element sizes, beside the points of the default method with P2."""
-    for row in select([row for row in rows if good(row)], method="xnewton", order=2):
-        at = (number(row, "cpu"), number(row, "forceError"))
-        if np.isfinite(at).all():
-            text = f"$h = {style.number(number(row, 'h'))}$"
-            axes.annotate(text, at, xytext=(-3, -9), textcoords="offset points", fontsize=7, ha="right")
+def element(row: Row) -> str:
+    """One of ELEMENTS."""
+    return f"P{number(row, 'order'):g}" + (", -ends" if " -ends " in row["flags"] else "")
+
+
+def seconds(rows: list[Row]) -> np.ndarray:
+    return np.array([contact_seconds(row) for row in rows])
+
+
+def rival_look(name: str) -> dict:
+    """A method's marker, open and grey: the colours are the elements'."""
+    return {
+        "marker": look(name)["marker"],
+        "linestyle": "",
+        "color": style.GREY,
+        "markerfacecolor": "white",
+        "markersize": 3,
+    }

@@ -12,7 +12,10 @@ READ = read_campaign
 
 CODES = ("this package", "NGSolve")
 COLORS = (style.BLUE, style.VERMILION)
-COLUMNS = "script flags status scene kappa m order forceError seconds_assembly seconds_factorisation seconds_contact"
+COLUMNS = (
+    "script flags status scene kappa m order forceError secondsBefore "
+    "seconds_assembly seconds_factorisation seconds_contact"
+)
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
@@ -60,13 +63,13 @@ def name_of(scene: str, kappa: float, m: float) -> str:
 
 
 def draw_code(axes, rows: list[Row], color: str) -> None:
-    """The runs of one code: medians over the rounds, and the best of them joined."""
+    """The runs of one code: medians over the rounds, what must come before added; the best joined."""
     groups: dict[str, list[Row]] = {}
     for row in rows:
         groups.setdefault(row["flags"], []).append(row)
     points = []
     for group in groups.values():
-        seconds = float(np.median([contact_seconds(row) for row in group]))
+        seconds = float(np.median([contact_seconds(row) + float(row["secondsBefore"] or 0) for row in group]))
         points.append((seconds, number(group[0], "forceError"), round(number(group[0], "order"))))
     for degree in sorted({point[2] for point in points}):
         x, y = zip(*[point[:2] for point in points if point[2] == degree], strict=True)

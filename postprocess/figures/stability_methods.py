@@ -24,7 +24,7 @@ from postprocess.campaign import (
 RUNS = (1, 1)
 READ = read_campaign
 
-MESH = {"h": 0.1, "order": 1}
+MESH = {"h": 0.5, "order": 2}
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:

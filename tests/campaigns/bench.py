@@ -1,12 +1,13 @@
 """Error against run time, cost growth, and what each ingredient of the method saves: `make bench`, results/bench/.
 
 work_precision.csv: on one mesh, error of the iteration against seconds, factorisations and back-substitutions.
-meshes.csv: over meshes, error against the independent reference solution, against seconds.
-growth.csv: seconds, memory and cost ratio over the number of degrees of freedom, and over stiffness at one size.
-ingredients.csv: the default method with each of its ingredients exchanged in turn, scene by scene.
+meshes.csv: over meshes and degrees of elements, error against the independent reference solution, against seconds.
+growth.csv: seconds, memory and cost ratio over the number of degrees of freedom; at one size over stiffness, degree and
+method. ingredients.csv: the default method with each of its ingredients exchanged in turn, scene by scene.
 
-Timed runs are repeated five times, one at a time. Failed runs are kept. Interrupted and started again, it goes on where
-it was. A part can be run alone: `python tests/campaigns/bench.py growth`.
+One run at a time. The default method's are repeated three times, unless they are long; the rivals are run once. Failed
+runs are kept. Interrupted and started again, it goes on where it was. A part can be run alone: `python
+tests/campaigns/bench.py growth`.
 """
 
 import argparse
@@ -14,17 +15,19 @@ import dataclasses
 import functools
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import campaign
 import numpy as np
 import reference
-from campaign import case, markdown, select, value
+from campaign import case, decade, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "bench"
-REPEATS = 5
+REPEATS = 3
 
 CASES = [(1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3)]  # kappa, m: the paper's, an extreme one, two stiff ones
+ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # in force, of which the price is asked
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
 RIVALS = [
     {"method": "xnewton"},
@@ -35,6 +38,26 @@ RIVALS = [
     {"method": "incremental", "steps": 5},
 ]
 IPOPT = {"method": "ipopt"}
+
+SPHERE = "sphere-on-block"
+# Series of meshes: the flags that they share, and their h (length).
+PLANE = [
+    ({"order": 1}, (0.5, 0.25, 0.1, 0.05)),
+    ({"order": 2}, (1.0, 0.5, 0.25, 0.1, 0.05)),
+    ({"order": 4, "grading": 60}, (2.0, 1.0, 0.5, 0.25)),
+]
+SPACE = [
+    ({"order": 1}, (1.0, 0.6, 0.4, 0.3)),
+    ({"order": 2, "layers": 1, "grading": 10}, (2.0, 1.5, 1.0, 0.75)),
+    ({"order": 2, "layers": 1, "grading": 5}, (1.5, 0.75)),
+]
+RIVALS_PLANE = [({"order": 1}, (0.5, 0.1)), ({"order": 2}, (0.5, 0.25, 0.1)), ({"order": 4, "grading": 60}, (1.0, 0.5))]
+RIVALS_SPACE = [({"order": 1}, (0.6,)), ({"order": 2, "layers": 1, "grading": 10}, (2.0, 1.5))]
+GROWTH = {"disc-on-block": (0.235, 0.13, 0.071, 0.0405, 0.0222), SPHERE: (1.2, 0.8, 0.55, 0.4, 0.28)}  # h, with P2
+GROWTH_LAWS = [CASES[0], CASES[3]]
+# h of 100 000 degrees of freedom in the plane, 60 000 in space, by degree
+ONE_SIZE = {"disc-on-block": {1: 0.0355, 2: 0.0711, 4: 0.146}, SPHERE: {1: 0.25, 2: 0.585}}
+LONG = 20  # seconds of a run that is not repeated
 
 EXPONENTS = (1.05, 2, 3, 3.3, 10, 20, 30)
 KAPPAS = (1e-2, 1.0, 1e3, 1e6, 1e9, 1e12, 1e30)
@@ -80,46 +103,71 @@ def work_precision(root: Path) -> list[campaign.Case]:
             for tol in (1e-4, 1e-8) if rival["method"] == "incremental" else TOLERANCES:
                 flags = {**rival, "law": "power", "kappa": kappa, "m": m, "h": 0.2, "order": 2, "tol": tol, "eps": tol}
                 seconds = {"xnewton": 0.3, "incremental": 7, "ipopt": 5}.get(rival["method"], 1.5)
-                found.append(case("work_precision", repeats=REPEATS, weight=seconds, timeout=120, **flags))
+                repeats = REPEATS if rival["method"] == "xnewton" else 1
+                found.append(case("work_precision", repeats=repeats, weight=seconds, timeout=120, **flags))
     return found
 
 
-def meshes(_root: Path) -> list[campaign.Case]:
-    """P1 and P2 over h; the rivals up to 200 000 degrees of freedom."""
+def meshes(root: Path) -> list[campaign.Case]:
+    """Every degree over h; the rivals on the paper's case, and two of them in space."""
     found = []
-    sizes = {1: (1.0, 0.5, 0.25, 0.1, 0.05, 0.025, 0.02), 2: (1.0, 0.5, 0.25, 0.1, 0.05, 0.03)}
-    for kappa, m in CASES[:2]:
-        for order, steps in sizes.items():
-            for h in steps:
-                dofs = 512 * (order / h) ** 2 / 4
-                for method in ("xnewton", "newton", "paper"):
-                    if method != "xnewton" and (dofs > 2.1e5 or (method == "paper" and m != 3)):
-                        continue
-                    seconds = 1e-5 * dofs * (1 if method == "xnewton" else 10)
-                    flags = {"method": method, "law": "power", "kappa": kappa, "m": m, "h": h, "order": order}
-                    flags |= {"tol": 1e-8}
-                    found.append(case("meshes", repeats=REPEATS, weight=0.1 + seconds, timeout=300, **flags))
+
+    def add(scene, law, method, lines):
+        kappa, m = law
+        for flags, sizes in lines:
+            for h in sizes:
+                ours = method["method"] == "xnewton"
+                merged = {**method, "law": "power", "kappa": kappa, "m": m, "h": h, **flags, "tol": 1e-8}
+                dofs = 1.6e4 / h**2.5 if scene == SPHERE else 520 * (flags["order"] / h) ** 2 / 4 + 3000
+                repeats = REPEATS if ours else 1
+                seconds = dofs * (2e-5 if ours else 2e-4)
+                found.append(case("meshes", scene, 300, repeats, 0.2 + seconds, **merged))
+
+    for law in CASES:
+        add("disc-on-block", law, RIVALS[0], PLANE)
+        if law[0] >= 1e9:
+            add("disc-on-block", law, RIVALS[0], [({**PLANE[2][0], "ends": ends(*law)}, PLANE[2][1])])
+    for rival in rivals(root)[1:]:
+        add("disc-on-block", CASES[0], rival, RIVALS_PLANE)
+    add(SPHERE, CASES[0], RIVALS[0], SPACE)
+    for rival in RIVALS[2:4]:
+        add(SPHERE, CASES[0], rival, RIVALS_SPACE)
     return found
 
 
-def growth(root: Path) -> list[campaign.Case]:
-    """Sizes from 1e4 to 1e6; the whole map of stiffness at 1e5, with the rivals' cost there."""
+def ends(kappa: float, m: float) -> float:
+    """Half the contact's width (length) to three decimals, as a coarse run gives it about."""
+    return round(reference.values()["disc-on-block", kappa, m]["halfWidth"], 3)
+
+
+def growth(_root: Path) -> list[campaign.Case]:
+    """Sizes up to 1e6 in the plane, 4e5 in space; at one size the map of stiffness, every degree, the rivals."""
     found = []
-    for h in (0.225, 0.13, 0.0714, 0.041, 0.0225):  # 1e4, 3e4, 1e5, 3e5, 1e6 degrees of freedom
-        for kappa, m in CASES:
-            flags = {"method": "xnewton", "law": "power", "kappa": kappa, "m": m, "h": h, "order": 2, "tol": 1e-8}
-            repeats = REPEATS if (kappa, m) == CASES[0] or h > 0.05 else 1
-            found.append(case("growth", repeats=repeats, weight=1.3e-5 * 512 / h**2, timeout=600, **flags))
+
+    def add(name, scene, law, h, order, method=RIVALS[0], repeats=REPEATS):
+        dofs = 5.5e3 * order**3 / 8 / h**3 * 2.2 if scene == SPHERE else 520 * (order / h) ** 2 / 4
+        seconds = 0.2 + dofs * (1e-4 if scene == SPHERE else 3e-5) * (1 if method == RIVALS[0] else 10)
+        flags = {**method, "law": "power", "kappa": law[0], "m": law[1], "h": h, "order": order, "tol": 1e-8}
+        repeats = repeats if seconds < LONG else 1
+        found.append(case(name, scene, 900, repeats, seconds, **flags))
+
+    for scene, sizes in GROWTH.items():
+        for h in sizes:
+            for law in GROWTH_LAWS if h > 0.3 or scene != SPHERE else GROWTH_LAWS[:1]:
+                add("growth", scene, law, h, 2)
     for kappa in KAPPAS:
         for m in EXPONENTS:
-            flags = {"method": "xnewton", "law": "power", "kappa": kappa, "m": m, "h": 0.0714, "order": 2, "tol": 1e-8}
-            found.append(case("cost", repeats=3, weight=1.5, timeout=300, **flags))
-    for kappa, m in CASES:
-        for rival in rivals(root)[1:]:
-            if rival["method"] == "incremental" and (kappa, m) != CASES[0]:
-                continue
-            flags = {**rival, "law": "power", "kappa": kappa, "m": m, "h": 0.0714, "order": 2, "tol": 1e-8}
-            found.append(case("cost", repeats=1, weight=20, timeout=600, **flags))
+            add("cost", "disc-on-block", (kappa, m), ONE_SIZE["disc-on-block"][2], 2, repeats=1)
+    for scene, sizes in ONE_SIZE.items():
+        for order, h in sizes.items():
+            for law in GROWTH_LAWS:
+                if (scene, order) != ("disc-on-block", 2):
+                    add("cost", scene, law, h, order)
+                if (scene, order) == ("disc-on-block", 2) or law == CASES[0]:
+                    add("cost", scene, law, h, order, RIVALS[3])
+    for law in GROWTH_LAWS:
+        for rival in (RIVALS[1], RIVALS[2], RIVALS[4], *(RIVALS[5:] if law == CASES[0] else [])):
+            add("cost", "disc-on-block", law, ONE_SIZE["disc-on-block"][2], 2, rival)
     return found
 
 
@@ -129,7 +177,7 @@ def ingredients(_root: Path) -> list[campaign.Case]:
         for law in LAWS:
             for variant in VARIANTS:
                 flags = {"method": "xnewton", **scene, **law, "tol": 1e-8, **variant}
-                found.append(case("ingredients", repeats=REPEATS, weight=0.6, timeout=120, **flags))
+                found.append(case("ingredients", weight=0.6, timeout=120, **flags))
     return found
 
 
@@ -158,21 +206,6 @@ def iteration_error(sources: Path, processes: campaign.Processes) -> campaign.Me
             "forceError": abs(summary["force"] / force - 1),
             "pressureError": norm(contact["weight"], contact["pressure"] - pressure)
             / norm(contact["weight"], pressure),
-        }
-
-    return measure
-
-
-def discretisation_error(*_) -> campaign.Measure:
-    """Relative differences to the reference: force, greatest pressure, and the profile (L2)."""
-
-    def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
-        law = float(item.parameters["kappa"]), float(item.parameters["m"])
-        known = reference.values()["disc-on-block", *law]
-        return {
-            "forceError": abs(summary["force"] / known["force"] - 1),
-            "pressureMaxError": abs(summary["pressureMax"] / known["pressureMax"] - 1),
-            "profileError": reference.profile_error(*law, campaign.read_contact(folder)),
         }
 
     return measure
@@ -209,8 +242,8 @@ def report_work_precision(rows: list[dict]) -> str:
                 good = row["status"] == "converged"
                 lines.append(
                     [
-                        f"{kappa:g}, {m}",
-                        method + (f", T0 = {start}" if method == "paper" else ""),
+                        f"{decade(kappa)}, {m}",
+                        method_words(row),
                         row["newton"] if good else row["status"],
                         row["factorisations"],
                         row["backsolves"],
@@ -219,7 +252,7 @@ def report_work_precision(rows: list[dict]) -> str:
                     ]
                 )
     header = [
-        "kappa, m",
+        "κ, m",
         "method (tol 1e-8)",
         "linearisations",
         "factorisations",
@@ -230,83 +263,124 @@ def report_work_precision(rows: list[dict]) -> str:
     return markdown(header, lines)
 
 
+def problem(row: dict[str, str]) -> tuple[str, float, float]:
+    """Scene, kappa and m of a run."""
+    return row["scene"], value(row, "kappa"), value(row, "m")
+
+
+def problem_words(row: dict[str, str]) -> str:
+    return ("sphere, " if row["scene"] == SPHERE else "") + f"{decade(value(row, 'kappa'))}, {value(row, 'm'):g}"
+
+
+def method_words(row: dict[str, str]) -> str:
+    return row["method"] + (f", T0 = {row['T0']}" if row["method"] == "paper" else "")
+
+
+def element(row: dict[str, str]) -> str:
+    """P and the degree; with the meshes that shrink to the ends of contact said."""
+    return f"P{value(row, 'order'):g}" + (", `-ends`" if " -ends " in row["flags"] else "")
+
+
 def report_meshes(rows: list[dict]) -> str:
+    """Every run: errors and seconds."""
     lines = []
-    for row in select(rows, method="xnewton"):
-        cells = [row["kappa"] + ", " + row["m"], "P" + row["order"], row["h"], row["ndof"], f"{value(row, 'cpu'):.2f}"]
-        cells += [f"{value(row, name):.1e}" for name in ("forceError", "pressureMaxError", "profileError")]
-        cells = ["-" if cell == "nan" else cell for cell in cells]
-        times = []
-        for method in ("newton", "paper"):
-            other = select(
-                rows, method=method, kappa=float(row["kappa"]), m=float(row["m"]), order=row["order"], h=row["h"]
-            )
-            good = other and other[0]["status"] == "converged"
-            times.append(f"{value(other[0], 'cpu'):.2f}" if good else "-")
-        lines.append([*cells, *times])
-    header = ["kappa, m", "element", "h", "dofs", "CPU s", "force", "greatest p", "profile", "newton, s", "paper, s"]
+    for row in rows:
+        cells = [problem_words(row), method_words(row), element(row), row["h"], row["ndof"]]
+        cells += [f"{contact_seconds(row):.2f}"]
+        cells += [f"{value(row, name):.1e}" for name in reference.COLUMNS]
+        lines.append(["-" if cell == "nan" else cell for cell in cells] + [row["status"]])
+    header = ["kappa, m", "method", "element", "h", "dofs", "CPU s", *reference.ERRORS.values(), "profile", "status"]
     return markdown(header, lines)
 
 
-def report_growth(rows: list[dict]) -> str:
+def meshes_table(rows: list[dict]) -> str:
+    """Least CPU seconds to an error in force, by element; of the rivals, whatever their element, the best."""
+    groups: dict = {}
+    for row in rows:
+        ours = row["method"] == "xnewton"
+        key = problem_words(row), method_words(row), element(row) if ours else "best"
+        groups.setdefault(key, []).append(row)
+    lines = []
+    for key, group in groups.items():
+        cells = []
+        for error in ERRORS:
+            best = cheapest(group, error, contact_seconds)
+            cells.append(
+                "–"
+                if best is None
+                else f"{contact_seconds(best):.2f}" + (f" {element(best)}" if key[2] == "best" else "")
+            )
+        lines.append([*key, *cells])
+    lines.sort(key=lambda line: line[1] != "xnewton")
+    return markdown(["κ, m", "method", "element", *(decade(error) for error in ERRORS)], lines)
+
+
+def cheapest(rows: list[dict], error: float, seconds: Callable[[dict], float]) -> dict | None:
+    """The converged run of least seconds among those at least as close in force as `error`, relative; None: none is."""
+    close = [row for row in rows if row["status"] == "converged" and value(row, "forceError") <= error]
+    return min(close, key=seconds, default=None)
+
+
+def growth_table(rows: list[dict]) -> str:
+    lines = []
+    for row in select(rows, name="growth"):
+        good = row["status"] == "converged"
+        counts = [row["newton"], row["backsolves"]] if good else [row["status"], "-"]
+        seconds = [f"{elastic_seconds(row):.2f}", f"{contact_seconds(row):.2f}", f"{value(row, 'costRatio'):.2f}"]
+        lines.append(
+            [problem_words(row), row["ndof"], *counts, *(seconds if good else "---"), f"{value(row, 'memory'):.0f}"]
+        )
+    header = "κ, m|dofs|linearisations|back-substitutions|elastic solve, s|contact, s|cost ratio|MB"
+    return markdown(header.split("|"), lines)
+
+
+def exponents_table(rows: list[dict]) -> str:
+    """Exponents of seconds over degrees of freedom, problem by problem."""
     lines = []
     sizes = select(rows, name="growth", status="converged")
-    for row in sizes:
-        lines.append(
-            [
-                row["kappa"] + ", " + row["m"],
-                row["ndof"],
-                row["newton"],
-                row["backsolves"],
-                f"{elastic_seconds(row):.2f}",
-                f"{contact_seconds(row):.2f}",
-                f"{value(row, 'costRatio'):.2f}",
-                f"{value(row, 'memory'):.0f}",
-            ]
-        )
-    header = [
-        "kappa, m",
-        "dofs",
-        "linearisations",
-        "back-substitutions",
-        "elastic, s",
-        "contact, s",
-        "cost ratio",
-        "MB",
-    ]
-    parts = [markdown(header, lines)]
-    for kappa, m in CASES:
-        group = select(sizes, kappa=kappa, m=m)
+    for which in dict.fromkeys(map(problem, sizes)):
+        group = [row for row in sizes if problem(row) == which]
         if len(group) > 2:
             dofs = np.array([value(row, "ndof") for row in group])
-            ours = exponent(dofs, np.array([contact_seconds(row) for row in group]))
-            elastic = exponent(dofs, np.array([elastic_seconds(row) for row in group]))
-            parts.append(
-                f"kappa = {kappa:g}, m = {m}: seconds ~ dofs^{ours:.2f}, linear elastic solve dofs^{elastic:.2f}"
-            )
-    cost = select(rows, name="cost")
-    grid = [
-        [f"{kappa:g}"]
-        + [
-            f"{value(row, 'costRatio'):.2f}"
-            for m in EXPONENTS
-            for row in select(cost, method="xnewton", kappa=kappa, m=m)
-        ]
-        for kappa in KAPPAS
+            found = [exponent(dofs, np.array(list(map(what, group)))) for what in (contact_seconds, elastic_seconds)]
+            found.append(exponent(dofs, np.array([value(row, "memory") for row in group])))
+            lines.append([problem_words(group[0]), len(group), *(f"{number:.2f}" for number in found)])
+    return markdown(["κ, m", "sizes", "contact", "elastic solve", "memory"], lines)
+
+
+def cost_map(rows: list[dict]) -> str:
+    """Cost ratio of the default method over stiffness and exponent: the plane, P2."""
+    rows = select(rows, name="cost", method="xnewton", scene="disc-on-block", order=2)
+    grid = []
+    for kappa in KAPPAS:
+        cells = [select(rows, kappa=kappa, m=m) for m in EXPONENTS]
+        grid.append([decade(kappa), *(f"{value(cell[0], 'costRatio'):.2f}" if cell else "–" for cell in cells)])
+    return markdown(["κ \\ m", *map(str, EXPONENTS)], grid)
+
+
+def cost_table(rows: list[dict]) -> str:
+    """Method by problem and degree: cost ratio (linearisations)."""
+    rows = select(rows, name="cost")
+    places = [(scene, order, law) for scene, sizes in ONE_SIZE.items() for order in sizes for law in GROWTH_LAWS]
+    lines = []
+    for method in dict.fromkeys(map(method_words, rows)):
+        cells = []
+        for scene, order, (kappa, m) in places:
+            group = select([row for row in rows if method_words(row) == method], scene=scene, order=order)
+            group = select(group, kappa=kappa, m=m)
+            good = group and group[0]["status"] == "converged"
+            ratio = f"{value(group[0], 'costRatio'):.3g} ({group[0]['newton']})" if good else ""
+            cells.append(ratio if good or not group else group[0]["status"])
+        lines.append([method, *cells])
+    words = [
+        ("sphere, " if scene == SPHERE else "") + f"P{order}: {decade(kappa)}, {m:g}"
+        for scene, order, (kappa, m) in places
     ]
-    parts.append(markdown(["kappa \\ m", *map(str, EXPONENTS)], grid))
-    rival = [
-        [
-            row["kappa"] + ", " + row["m"],
-            row["method"] + (f", T0 = {row['T0']}" if row["method"] == "paper" else ""),
-            row["newton"],
-            f"{value(row, 'costRatio'):.1f}" if row["status"] == "converged" else row["status"],
-        ]
-        for row in cost
-        if row["method"] != "xnewton"
-    ]
-    parts.append(markdown(["kappa, m", "method", "linearisations", "cost ratio"], rival))
-    return "\n".join(parts)
+    return markdown(["method", *words], lines)
+
+
+def report_growth(rows: list[dict]) -> str:
+    return "\n\n".join(part(rows) for part in (growth_table, exponents_table, cost_map, cost_table))
 
 
 def variant_of(row: dict[str, str]) -> str:
@@ -346,7 +420,12 @@ def law_of(row: dict[str, str]) -> str:
 # part: (its cases, further columns, what fills them, its summary)
 PARTS = {
     "work_precision": (work_precision, ("forceError", "pressureError"), iteration_error, report_work_precision),
-    "meshes": (meshes, ("forceError", "pressureMaxError", "profileError"), discretisation_error, report_meshes),
+    "meshes": (
+        meshes,
+        reference.COLUMNS,
+        reference.errors,
+        lambda rows: f"{report_meshes(rows)}\n\n{meshes_table(rows)}",
+    ),
     "growth": (growth, (), None, report_growth),
     "ingredients": (ingredients, (), None, report_ingredients),
 }

@@ -518,6 +518,12 @@ def read_contact(folder: Path) -> dict[str, np.ndarray]:
     return dict(zip(names, values.T, strict=True))
 
 
+def decade(number: float) -> str:
+    """A power of ten, short: 1e-3, 1, 1e12."""
+    mantissa, exponent = f"{number:.0e}".split("e")
+    return f"{mantissa}e{int(exponent)}" if int(exponent) else mantissa
+
+
 def markdown(header: list[str], rows: list[list[object]]) -> str:
     """A table for a README."""
     lines = [header, ["---"] * len(header), *rows]

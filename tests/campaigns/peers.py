@@ -3,7 +3,8 @@
 Both solve the same problems, a run of the one after a run of the other, in ROUNDS rounds: a row each, and medians over
 the rounds in what is printed and drawn. Seconds are CPU seconds of one thread from the mesh that has been read to the
 displacement, `seconds_assembly + seconds_factorisation + seconds_contact`; the mesh's own stand in `seconds_mesh`.
-Errors are relative to tests/data/references.csv. Interrupted and started again, it goes on where it was.
+Errors are relative to tests/data/references.csv. A run that is told half the contact's width, `-ends`, is charged with
+the coarse run that would tell it: `secondsBefore`. Interrupted and started again, it goes on where it was.
 
 NGSolve is no part of the package: it has a virtual environment of its own, .venv-peers (requirements-peers.txt).
 """
@@ -17,8 +18,8 @@ from pathlib import Path
 import campaign
 import numpy as np
 import reference
-from bench import FOLDER, contact_seconds
-from campaign import case, markdown, value
+from bench import FOLDER, cheapest, contact_seconds, element, ends, problem, problem_words
+from campaign import case, decade, markdown, value
 
 PEER = "ngsolve_contact.py"
 PYTHON = campaign.ROOT / ".venv-peers" / "bin" / "python"
@@ -29,12 +30,22 @@ TOL = 1e-8  # of the residual, for both
 LAWS = [(1e3, 3), (1e9, 3), (1e12, 3), (1e3, 10), (1e3, 20)]  # kappa, m
 # Series of runs: flags, and the sizes h (length) that they are run with. A further element or mesh is a further line.
 PACKAGE_PLANE = [
-    ({"order": 1}, (0.5, 0.25, 0.1, 0.05)),
+    ({"order": 1}, (0.25, 0.1)),
     ({"order": 2}, (0.5, 0.25, 0.1)),
+    ({"order": 4, "grading": 60, "corners": 0.1}, (1, 0.5, 0.25)),
+    ({"order": 4, "grading": 120, "corners": 0.1}, (0.5,)),
 ]
-PACKAGE_PLANE_FIRST = [({"order": 2}, (0.05,))]  # with the first law alone
+# With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
+PACKAGE_PLANE_ENDS = [
+    ({"order": 4, "grading": 60, "corners": 0.1}, (1.5, 1)),
+    ({"order": 4, "grading": 60, "corners": 0.02}, (1.5, 0.5)),
+    ({"order": 4, "grading": 120, "corners": 0.02}, (0.5,)),
+]
+STIFF = 1e9
+COARSE = {"order": 2, "h": 0.5}
 PACKAGE_SPACE = [
-    ({}, (0.8, 0.6, 0.45)),
+    ({"order": 2, "layers": 1, "grading": 10}, (2, 1.5, 1, 0.75)),
+    ({"order": 2, "layers": 1, "grading": 5}, (1.5, 0.75)),
 ]
 PEER_PLANE = [
     ({"order": 1, "corners": 2}, (0.2, 0.1)),
@@ -55,8 +66,7 @@ PEER_SPACE = [
     ({"order": 3, "mesh": "tetrahedra", "reuse": 1}, (2, 1.5, 1)),
     ({"order": 3, "mesh": "hexes", "corners": 1, "reuse": 1}, (2, 1.5)),
 ]
-ERRORS = {"forceError": "force", "pressureMaxError": "pressureMax", "halfWidthError": "halfWidth"}
-COLUMNS = [*ERRORS, "profileError"]
+COLUMNS = [*reference.COLUMNS, "secondsBefore"]
 
 
 def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
@@ -66,7 +76,9 @@ def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
         for kappa, m in LAWS:
             ours, theirs = PACKAGE_PLANE, PEER_PLANE
             if (kappa, m) == LAWS[0]:
-                ours, theirs = ours + PACKAGE_PLANE_FIRST, theirs + PEER_PLANE_FIRST
+                theirs = theirs + PEER_PLANE_FIRST
+            if kappa >= STIFF:
+                ours = ours + [({**flags, "ends": ends(kappa, m)}, sizes) for flags, sizes in PACKAGE_PLANE_ENDS]
             found += alternating(
                 series("disc-on-block", ours, place, kappa, m), series("disc-on-block", theirs, place, kappa, m, PEER)
             )
@@ -100,19 +112,20 @@ def alternating(ours: list, theirs: list) -> list:
 # ---------------------------------------------------------------- errors
 
 
-def reference_error(*_) -> campaign.Measure:
-    """Relative differences to the reference: force, greatest pressure, half-width, and the plane's profile (L2)."""
+def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
+    """COLUMNS: errors, and of a run with `-ends` the seconds of a coarse run without, mesh to displacement."""
+    errors = reference.errors(sources, processes)
 
     def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
-        scene, (kappa, m) = summary["scene"], (float(item.parameters[name]) for name in ("kappa", "m"))
-        known = reference.values()[scene, kappa, m]
-        errors = {}
-        for column, name in ERRORS.items():
-            if name in known and summary.get(name) is not None:
-                errors[column] = abs(summary[name] / known[name] - 1)
-        if scene == "disc-on-block":
-            errors["profileError"] = reference.profile_error(kappa, m, campaign.read_contact(folder))
-        return errors
+        found = errors(item, summary, folder)
+        if "ends" in item.parameters:
+            flags = {"law": "power", "kappa": item.parameters["kappa"], "m": item.parameters["m"], "tol": TOL}
+            coarse = case("coarse", method="xnewton", **COARSE, **flags)
+            row = campaign.run_case(coarse, sources, processes)
+            if row["status"] != "converged":
+                raise RuntimeError(f"{coarse.flags}: {row['message']}")
+            found["secondsBefore"] = contact_seconds(row) + row["seconds_mesh"]
+        return found
 
     return measure
 
@@ -129,41 +142,63 @@ def medians(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
     for group in groups.values():
         good = [row for row in group if row["status"] == "converged"]
         first = dict((good or group)[0])
-        first["seconds"] = float(np.median([contact_seconds(row) for row in good])) if good else float("nan")
+        first["seconds"] = float(np.median([seconds(row) for row in good])) if good else float("nan")
         first["mesh"] = float(np.median([value(row, "seconds_mesh") for row in good])) if good else float("nan")
         found.append(first)
     return found
 
 
-def report(rows: list[dict[str, str]]) -> str:
-    """The cheapest run of each code to each error in force, problem by problem; then what failed."""
+def seconds(row: dict[str, str]) -> float:
+    """CPU seconds from the mesh to the displacement, with those of the run that must come before."""
+    return contact_seconds(row) + float(row["secondsBefore"] or 0)
+
+
+def table(rows: list[dict[str, str]]) -> str:
+    """Least seconds to each error in force and the element that took them, package / NGSolve, problem by problem."""
     rows = medians(rows)
     lines = []
-    problem = {id(row): (row["scene"], value(row, "kappa"), value(row, "m")) for row in rows}
-    for scene, kappa, m in dict.fromkeys(problem.values()):
-        group = [row for row in rows if problem[id(row)] == (scene, kappa, m)]
+    for which in dict.fromkeys(map(problem, rows)):
+        group = [row for row in rows if problem(row) == which]
+        cells = []
         for error in DECADES:
-            cells = [cheapest(group, error, peer) for peer in (False, True)]
-            if any(cell != "-" for cell in cells):
-                lines.append([scene, f"{kappa:g}, {m:g}", f"{error:.0e}", *cells])
+            pair = [best(group, error, peer) for peer in (False, True)]
+            words = ["–" if row is None else f"{row['seconds']:.2g} {element(row)}" for row in pair]
+            cells.append(" / ".join(words))
+        lines.append([problem_words(group[0]), *cells])
+    return markdown(["κ, m", *(decade(error) for error in DECADES)], lines)
+
+
+def report(rows: list[dict[str, str]]) -> str:
+    """The cheapest run of each code to each error in force, problem by problem; then what failed."""
+    short = table(rows)
+    rows = medians(rows)
+    lines = []
+    for which in dict.fromkeys(map(problem, rows)):
+        group = [row for row in rows if problem(row) == which]
+        for error in DECADES:
+            pair = [best(group, error, peer) for peer in (False, True)]
+            if any(pair):
+                lines.append([problem_words(group[0]), decade(error), *map(words, pair)])
     failed = [f"{row['script']} {row['flags']}: {row['status']}, {row['message']}" for row in rows if failure(row)]
-    header = ["scene", "kappa, m", "error in force", "package: s (mesh s), dofs, linearisations", "NGSolve: the same"]
-    return "\n".join([markdown(header, lines), *failed])
+    header = ["kappa, m", "error in force", "package: s (mesh s), dofs, linearisations", "NGSolve: the same"]
+    return "\n".join([markdown(header, lines), "", short, "", *failed])
 
 
 def failure(row: dict) -> bool:
     return row["status"] != "converged"
 
 
-def cheapest(rows: list[dict], error: float, peer: bool) -> str:
-    """The run of least seconds among those of one code that are at least as close as this; "-": there is none."""
-    close = [row for row in rows if not failure(row) and (row["script"] == PEER) == peer]
-    close = [row for row in close if value(row, "forceError") <= error]
-    if not close:
+def best(rows: list[dict], error: float, peer: bool) -> dict | None:
+    """The cheapest run of one code to this error in force."""
+    return cheapest([row for row in rows if (row["script"] == PEER) == peer], error, lambda row: row["seconds"])
+
+
+def words(row: dict | None) -> str:
+    """A run's seconds, size and linearisations, its element and mesh; "-" where there is none."""
+    if row is None:
         return "-"
-    best = min(close, key=lambda row: row["seconds"])
-    steps = int(best["newton"]) + (int(best["kernelNewton"] or 0) if peer else 0)
-    return f"{best['seconds']:.3f} ({best['mesh']:.2f}), {best['ndof']}, {steps}: P{best['order']}, h = {best['h']}"
+    steps = int(row["newton"]) + (int(row["kernelNewton"] or 0) if row["script"] == PEER else 0)
+    return f"{row['seconds']:.3f} ({row['mesh']:.2f}), {row['ndof']}, {steps}: {element(row)}, h = {row['h']}"
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -175,7 +210,7 @@ def main(argv: list[str] | None = None) -> int:
     files = {PEER: (campaign.ROOT / "tests" / "campaigns" / PEER).read_text()}
     try:
         rows = campaign.run(
-            cases(), arguments.out / "peers.csv", columns=COLUMNS, measure=reference_error, files=files, title="peers"
+            cases(), arguments.out / "peers.csv", columns=COLUMNS, measure=measures, files=files, title="peers"
         )
     except KeyboardInterrupt:
         print("\ninterrupted; started again, it goes on from here", file=sys.stderr)

@@ -7,10 +7,13 @@ import csv
 import functools
 from pathlib import Path
 
+import campaign
 import numpy as np
 from numpy.polynomial.chebyshev import Chebyshev
 
 DATA = Path(__file__).resolve().parents[1] / "data"
+ERRORS = {"forceError": "force", "pressureMaxError": "pressureMax", "halfWidthError": "halfWidth"}
+COLUMNS = [*ERRORS, "profileError"]
 
 
 @functools.cache
@@ -59,3 +62,20 @@ def profile_error(kappa: float, m: float, contact: dict[str, np.ndarray]) -> flo
     expected = expected_pressure(pieces, contact["x"])
     root = np.sqrt(contact["weight"])
     return float(np.linalg.norm(root * (contact["pressure"] - expected)) / np.linalg.norm(root * expected))
+
+
+def errors(*_) -> campaign.Measure:
+    """COLUMNS of a run, relative differences to the reference: the plane's profile in L2, the others as they are."""
+
+    def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
+        scene, (kappa, m) = summary["scene"], (float(item.parameters[name]) for name in ("kappa", "m"))
+        known = values()[scene, kappa, m]
+        found = {}
+        for column, name in ERRORS.items():
+            if name in known and summary.get(name) is not None:
+                found[column] = abs(summary[name] / known[name] - 1)
+        if scene == "disc-on-block":
+            found["profileError"] = profile_error(kappa, m, campaign.read_contact(folder))
+        return found
+
+    return measure

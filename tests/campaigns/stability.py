@@ -15,7 +15,8 @@ from pathlib import Path
 
 import campaign
 import numpy as np
-from campaign import case, markdown, select, value
+import reference
+from campaign import case, decade, markdown, select, value
 
 FOLDER = campaign.ROOT / "results" / "stability"
 COLUMNS = ("stepsPerModel", "rounds", "masterForce", "approach")
@@ -29,6 +30,7 @@ OTHER = [
     {"law": "barrier", "p0": 1},
     {"law": "barrier", "p0": 1e-4},
 ]
+HARD = {"law": "signorini"}
 LAWS = POWER + OTHER
 TABLE = {"law": "table", "table": "table.csv"}
 SAMPLE = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1e3, 1e12) for m in (1.05, 3, 20)] + OTHER
@@ -38,9 +40,17 @@ STIFF = [
 
 TOL = 1e-8
 GAP, D0, U0, SIZE = 0.5, -0.25, 2.5, 40.0  # the paper's test
-COARSE = [{"h": 0.5, "order": 1}, {"h": 0.5, "order": 2}, {"h": 0.1, "order": 1}, {"h": 0.1, "order": 2}]
+COARSE = [
+    {"h": h, "order": order} for order, steps in {1: (0.5, 0.1), 2: (0.5, 0.1), 4: (1.0, 0.5)}.items() for h in steps
+]
 FINE = [{"h": h, "order": order, "grading": 80} for h in (0.05, 0.025) for order in (1, 2)]
-SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 0.8}  # a guess of one xnewton run
+FINE += [{"h": h, "order": 4, "grading": 80} for h in (0.1, 0.05)]
+FINEST = [mesh for mesh in FINE if mesh["h"] == (0.05 if mesh["order"] == 4 else 0.025)]  # for SAMPLE and STIFF
+RIVALS = {"h": 0.5, "order": 2}  # the mesh that all methods are run on
+COMPARED = COARSE[:3]  # every law by plain Newton; on the other coarse meshes SAMPLE
+# a guess of one xnewton run
+SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 1.0, (1.0, 4): 0.35, (0.5, 4): 0.4, (0.1, 4): 2.0}
+SECONDS |= {(0.05, 1): 0.8, (0.05, 2): 2.5, (0.025, 1): 2.0, (0.025, 2): 5.5, (0.05, 4): 5.5}
 LOADS = {
     "overlap 1e-12 of the size": GAP + D0 + 1e-12 * SIZE,
     "overlap 1e-6 of the size": GAP + D0 + 1e-6 * SIZE,
@@ -57,11 +67,11 @@ STEEL_KAPPA = [(20.0, 2.0), (1e3, 3.0), (1e9, 3.0)]  # kappa scaled: p/E = kappa
 
 
 def weight(h: float = 0.25, order: int = 1, **_) -> float:
-    return SECONDS.get((h, order), {1: 1.0, 2: 2.5}[order])
+    return SECONDS.get((h, order), 0.5 * order)
 
 
 def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
-    """The whole map, for the scenes and methods that `root` has; the extreme cases come first."""
+    """The whole map, for the scenes and methods that `root` has: the default method first, its grid before all."""
     found = extreme() + steel() + further() + bodies()
 
     def add(name, *parts, factor=1.0, **flags):
@@ -72,10 +82,15 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         found.append(case(name, weight=factor * weight(**merged), **{"method": "xnewton", **merged}))
 
     # the grid: every law, stiffness and mesh; then other first thresholds, no start
+    for mesh in COARSE + FINE:
+        add("grid", HARD, mesh, T0="auto")
+        if mesh in COMPARED:
+            add("grid", HARD, mesh, method="signorini", factor=5)
     for law in LAWS:
         for mesh in COARSE + FINE:
-            add("grid", law, mesh, T0="auto")
-            if mesh in COARSE or law in SAMPLE:
+            if mesh not in FINEST or law in SAMPLE + STIFF:
+                add("grid", law, mesh, T0="auto")
+            if mesh in COARSE or (law in SAMPLE and mesh not in FINEST):
                 add("no start", law, mesh, T0="auto", start="none", factor=1.3)
         for mesh in COARSE:
             for start in STARTS.values():
@@ -83,15 +98,14 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     # the same laws by the other methods, on one mesh; plain Newton on all the coarse ones, to compare with
     for law in LAWS:
         for mesh in COARSE:
-            if mesh != {"h": 0.1, "order": 2} or law in SAMPLE:
+            if mesh in COMPARED or (law in SAMPLE and mesh != COARSE[-1]):
                 add("rival", law, mesh, method="newton", factor=10)
-        mesh = {"h": 0.1, "order": 1}
-        add("rival", law, mesh, method="linesearch", factor=10)
-        add("rival", law, mesh, method="paper", T0="0", factor=10)
-        add("rival", law, mesh, method="paper", T0="d0", factor=10)
-        add("rival", law, mesh, method="incremental", steps=5, factor=25)
+        add("rival", law, RIVALS, method="linesearch", factor=10)
+        add("rival", law, RIVALS, method="paper", T0="0", factor=10)
+        add("rival", law, RIVALS, method="paper", T0="d0", factor=10)
+        add("rival", law, RIVALS, method="incremental", steps=5, factor=25)
         if campaign.has_ipopt(root):
-            add("rival", law, {"h": 0.5, "order": 1}, method="ipopt", factor=10)
+            add("rival", law, RIVALS, method="ipopt", factor=10)
     # loads
     for u0 in LOADS.values():
         for law in SAMPLE:
@@ -121,7 +135,7 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         for kappa in (1.0, 1e3):
             add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2)
             add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2, method="newton")
-    return found
+    return sorted(found, key=lambda item: (item.parameters["method"] != "xnewton", item.name != "grid"))
 
 
 def extreme() -> list[campaign.Case]:
@@ -153,6 +167,12 @@ def extreme() -> list[campaign.Case]:
         add("flat punch", scene="flat-punch", laws=STIFF + OTHER, h=h, order=2)
     for order in (1, 2):
         add("u0 three times", laws=STIFF + OTHER, u0=3 * U0, h=0.1, order=order)
+    for (scene, kappa, m), known in reference.values().items():
+        law = {"law": "power", "kappa": kappa, "m": m} if np.isfinite(kappa) else HARD
+        for mesh in ({"h": 0.5, "order": 2}, {"h": 1.0, "order": 4}, {"h": 0.5, "order": 4, "grading": 60}):
+            if scene == "disc-on-block":
+                merged = {"method": "xnewton", "tol": TOL, **law, **mesh, "ends": round(known["halfWidth"], 3)}
+                found.append(case("ends", weight=weight(**mesh), **merged))
     add("stiff disc", scene="meshed-disc", Eratio=1e6, h=0.25, order=2)
     add("equal bodies", scene="meshed-disc", Eratio=1, h=0.25, order=2)
     return found
@@ -185,18 +205,26 @@ BODY_LAWS += [*OTHER, {"law": "signorini"}]
 SPACE = ("two-spheres", "sphere-on-plane", "sphere-on-block", "patch-test-3d")
 RATIOS = (1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9)
 POINTS = ("segment", "nodal")
-CURVED = {"two-cylinders": {"d0": -0.01, "h": 0.1}, "two-spheres": {"d0": -0.01, "h": 0.2, "layers": 2}}
-CURVED |= {"sphere-on-plane": {"d0": -0.01, "h": 0.2, "layers": 2}}
+CURVED = {
+    ("two-cylinders", 1): {"d0": -0.01, "h": 0.1},
+    ("two-cylinders", 2): {"d0": -0.01, "h": 0.1},
+    ("two-spheres", 1): {"d0": -0.01, "h": 0.2, "layers": 2},
+    ("two-spheres", 2): {"d0": -0.01, "h": 0.4, "layers": 1},
+    ("sphere-on-plane", 1): {"d0": -0.01, "h": 0.2, "layers": 2},
+    ("sphere-on-plane", 2): {"d0": -0.01, "h": 0.4, "layers": 1},
+}
 
 
 def bodies() -> list[campaign.Case]:
     """Two meshed bodies, curved or flat, and contact in space; each beside another method on the same problem."""
     found = []
 
-    def add(scene, **flags):
+    def add(scene, others=True, **flags):
         for law in BODY_LAWS:
             common = {"tol": TOL, **law, **flags}
             found.append(case(scene, scene=scene, weight=0.4, method="xnewton", **common))
+            if not others:
+                continue
             if law["law"] == "power":
                 found.append(case(scene, scene=scene, weight=1.5, method="newton", **common))
                 if (law["kappa"], law["m"]) == (1.0, 20):  # under a prescribed force plain Newton creeps there
@@ -206,18 +234,25 @@ def bodies() -> list[campaign.Case]:
             else:
                 found.append(case(scene, scene=scene, weight=1.5, method="paper", T0="d0", eps=1e-12, **common))
 
-    for scene, flags in CURVED.items():
+    for (scene, order), flags in CURVED.items():
         for load in ({}, {"force": 0}):
             for points in POINTS if scene != "sphere-on-plane" else (None,):
-                add(scene, **flags, **load, **({"points": points} if points else {}))
+                add(scene, order=order, **flags, **load, **({"points": points} if points else {}))
     for ratio in RATIOS:
-        add("patch-test", Eratio=ratio)
-        add("patch-test-3d", Eratio=ratio)
+        for order in (1, 2):
+            add("patch-test", others=order == 1, order=order, Eratio=ratio)
+            add("patch-test-3d", others=order == 1, order=order, Eratio=ratio)
     for ratio in (1.0, 1e3, 1e6, 1e9):
         for points in POINTS:
-            add("meshed-disc", Eratio=ratio, points=points, h=0.5)
-    add("rough", h=0.25)
-    add("sphere-on-block", h=1.0)
+            for order in (1, 2):
+                add("meshed-disc", others=order == 1, order=order, Eratio=ratio, points=points, h=0.5)
+    add("meshed-disc", order=4, h=1.0)
+    for order in (1, 2):
+        add("rough", order=order, h=0.25)
+    for symmetry in ("quarter", "whole"):
+        add("sphere-on-block", order=1, h=1.0, symmetry=symmetry)
+    add("sphere-on-block", order=2, h=1.5, layers=2)
+    add("sphere-on-block", others=False, order=2, h=1.0)
     return found
 
 
@@ -296,6 +331,16 @@ def law_table() -> str:
 
 PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
 NOTHING = 1e-150  # a force or pressure below is none: its square underflows
+BODIES = (
+    "two-cylinders",
+    "two-spheres",
+    "sphere-on-plane",
+    "sphere-on-block",
+    "patch-test",
+    "patch-test-3d",
+    "meshed-disc",
+    "rough",
+)
 PRESCRIBED = {"two-cylinders": 8.631, "two-spheres": 14.652014652, "sphere-on-plane": 14.652014652}  # scenes' -force
 MORE_PROBLEM = ("-force", "-distance", "-Eratio", "-points", "-layers")  # flags without a column
 
@@ -462,7 +507,7 @@ def reactions(rows: list[dict]) -> list[dict]:
 
 
 def counts(rows: list[dict]) -> list[dict]:
-    """Counts with a limit: two bodies, rough surface and space; the true distance."""
+    """Counts with a limit: the grid with P2 and P4; two bodies, rough surface and space; the true distance."""
     found = []
 
     def at_most(what, row, name, limit):
@@ -471,7 +516,10 @@ def counts(rows: list[dict]) -> list[dict]:
 
     parts = {item.name for item in bodies()}
     for row in select(rows, method="xnewton"):
-        if row["name"] == "exact distance":
+        if row["name"] == "grid" and row["order"] in ("2", "4"):
+            at_most(f"linearisations, P{row['order']}", row, "newton", 4)
+            at_most(f"back-substitutions, P{row['order']}", row, "backsolves", 20)
+        elif row["name"] == "exact distance":
             at_most("rounds of the true distance", row, "rounds", 6)
             at_most("linearisations, true distance", row, "newton", 25)
         elif row["name"] in SPACE:
@@ -486,48 +534,112 @@ def counts(rows: list[dict]) -> list[dict]:
 # ---------------------------------------------------------------- what came out
 
 
-def worst(rows: list[dict], name: str) -> str:
-    """The greatest count among the rows, or a dash."""
-    values = [value(row, name) for row in rows if row["status"] == "converged"]
-    return f"{max(values):.0f}" if values else "-"
+PARTS = {
+    "grid": "every law and stiffness, hard contact",
+    "no start": "the same without the half-plane's start",
+    "threshold": "the same from T⁰ = 0 and T⁰ = d0",
+    "load": "overlaps from 1e-12 of the size to twice the paper's load",
+    "ends": "meshes that shrink to the ends of contact, `-ends`",
+    "u0 three times": "three times the paper's load",
+    "scene": "the scenes of the plane",
+    "E": "E from 1e-6 to 1e12",
+    "d0": "d0 from -1e-12 to -5",
+    "aspect": "elements flattened 1:10 and 1:100",
+    "offset": "disc near the block's edge",
+    "20 contacts": "20 contacts, `wavy`",
+    "exact": "`confined-block`",
+    "steel SI": "a steel bearing in SI units",
+    "steel twin": "the same without units",
+    "exact distance": "true distance, all rounds together",
+}
+DEGREES = ("1", "2", "4")
+
+
+def degree(row: dict[str, str]) -> str:
+    """The degree of the elements, as text; a run that does not tell it was refused or crashed."""
+    return row["order"] or flags_of(row).get("-order", "")
+
+
+def greatest(rows: list[dict], name: str) -> str:
+    """The greatest count, for each degree that was run: "3 / 4", a dash where no run converged."""
+    found = []
+    for order in DEGREES:
+        group = [row for row in rows if degree(row) == order]
+        good = [value(row, name) for row in group if row["status"] == "converged"]
+        if group:
+            found.append(f"{max(good):.0f}" if good else "–")
+    return " / ".join(found)
+
+
+def parts_table(rows: list[dict]) -> str:
+    """Worst counts of the default method by part of the map; the degrees of the elements in turn."""
+    lines = []
+    rows = select(rows, method="xnewton")
+    names = list(dict.fromkeys([*PARTS, *(row["name"] for row in rows)]))
+    for name in names:
+        group = select(rows, name=name)
+        if group:
+            failed = sum(row["status"] != "converged" for row in group)
+            degrees = " / ".join(f"P{order}" for order in DEGREES if any(degree(row) == order for row in group))
+            word = PARTS.get(name, f"`{name}`" if name in BODIES else name)
+            counts = [greatest(group, count) for count in ("newton", "kernelNewton", "backsolves", "adaptations")]
+            lines.append([word, degrees, len(group), failed, *counts])
+    header = "part|elements|runs|failed|linearisations|on the kernel|back-substitutions|adaptations"
+    return markdown(header.split("|"), lines)
+
+
+def methods_table(rows: list[dict]) -> str:
+    """The other methods: runs, failures, linearisations."""
+    lines = []
+    for method in dict.fromkeys(row["method"] for row in rows if row["method"] != "xnewton"):
+        group = select(rows, method=method)
+        good = [value(row, "newton") for row in group if row["status"] == "converged"]
+        counts = [f"{np.median(good):.0f}", f"{max(good):.0f}"] if good else ["–", "–"]
+        lines.append([f"`{method}`", len(group), len(group) - len(good), *counts])
+    return markdown(["method", "runs", "failed", "linearisations, median", "most"], lines)
+
+
+CHOSEN = [
+    {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e-2, 3), (1.0, 2), (1e3, 3), (1e12, 3), (1e3, 20))
+]
+CHOSEN += [OTHER[0], OTHER[2]]
+
+
+def laws_table(rows: list[dict]) -> str:
+    """Method by law on one mesh: adaptations / linearisations, or how it failed."""
+    rows = select([*select(rows, name="grid"), *select(rows, name="rival")], **RIVALS)
+    lines = []
+    for method, start in dict.fromkeys((row["method"], row["T0"] * (row["method"] == "paper")) for row in rows):
+        group = [row for row in select(rows, method=method) if method != "paper" or row["T0"] == start]
+        cells = []
+        for law in CHOSEN:
+            (row, *_) = select(group, **law) or [None]
+            good = row and row["status"] == "converged"
+            cells.append(f"{row['adaptations']} / {row['newton']}" if good else row["status"] if row else "")
+        lines.append([f"`{method}`" + (f", T0 = {start}" if start else ""), *cells])
+    words = [f"κ={decade(law['kappa'])}, m={law['m']}" if law["law"] == "power" else law["law"] for law in CHOSEN]
+    return markdown(["method", *words], lines)
+
+
+def checks_table(verified: list[dict]) -> str:
+    lines = []
+    for kind in sorted({entry["check"] for entry in verified}):
+        group = [entry for entry in verified if entry["check"] == kind]
+        failed = sum(not entry["passed"] for entry in group)
+        allowed, most = max(entry["tolerance"] for entry in group), max(entry["error"] for entry in group)
+        lines.append([kind, len(group), failed, f"{allowed:.0e}" if allowed else "0", f"{most:.1e}"])
+    return markdown(["compared", "comparisons", "not passed", "allowed", "greatest error"], lines)
 
 
 def report(rows: list[dict], verified: list[dict]) -> str:
     """Worst counts by part of the map and by method, failures and failed checks."""
-    parts = []
-    counts = "newton kernelNewton backsolves adaptations".split()
-    header = ["part", "runs", "failed", "linearisations", "on the kernel model", "back-substitutions", "adaptations"]
-    lines = []
-    named = defaultdict(list)
-    for row in rows:
-        label = row["name"]
-        if label in ("grid", "no start"):
-            label += f", P{row['order']}, h = {row['h']}"
-        elif label == "threshold":
-            label += f" {row['T0'] if row['T0'] == 'd0' else '0'}"
-        elif label == "rival":
-            start = f", T0 = {row['T0']}" if row["method"] == "paper" else ""
-            label = f"{row['method']}{start}, P{row['order']}, h = {row['h']}"
-        if row["name"] != "rival" and row["method"] != "xnewton":
-            label += f" ({row['method']})"
-        named[label].append(row)
-    for label, group in sorted(named.items()):
-        failed = sum(row["status"] != "converged" for row in group)
-        lines.append([label, len(group), failed, *(worst(group, name) for name in counts)])
-    parts.append(markdown(header, lines))
+    parts = [parts_table(rows), methods_table(rows), laws_table(rows)]
     failures = [row for row in rows if row["method"] == "xnewton" and row["status"] != "converged"]
     parts.append(f"{len(rows)} runs; failures of xnewton: {len(failures)}")
     parts += [f"  {row['status']}: {row['script']} {row['flags']}: {row['message']}" for row in failures]
     bad = [entry for entry in verified if not entry["passed"]]
-    kinds = sorted({entry["check"] for entry in verified})
     parts.append(f"{len(verified)} checks of xnewton's answers, {len(bad)} not passed")
-    table = []
-    for kind in kinds:
-        group = [entry for entry in verified if entry["check"] == kind]
-        table.append(
-            [kind, len(group), sum(not entry["passed"] for entry in group), f"{max(e['error'] for e in group):.1e}"]
-        )
-    parts.append(markdown(["check", "comparisons", "not passed", "greatest error"], table))
+    parts.append(checks_table(verified))
     parts += [f"  {e['check']}: {e['found']!r}, expected {e['expected']!r}: {e['flags']}" for e in bad[:40]]
     return "\n".join(parts)
 

@@ -1,0 +1,97 @@
+"""The documentation's tables of the campaigns, written from their CSV files: `make tables`.
+
+A table stands in README.md between `<!-- table: NAME -->` and `<!-- end -->`, NAME one of TABLES; nothing else is
+touched. One whose CSV is not there, or has not been run whole, is left as it is, and said so: `--partial` writes it all
+the same.
+"""
+
+import argparse
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import bench
+import campaign
+import peers
+import stability
+
+DOCUMENT = campaign.ROOT / "README.md"
+MARKED = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->)", re.S)
+
+Rows = list[dict[str, str]]
+
+# The list of cases of each CSV below results/: its number of rows when it has been run whole
+LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
+    f"bench/{name}": part[0] for name, part in bench.PARTS.items()
+}
+LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases}
+# name: (CSV below results/, its rows to the table)
+TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
+    "work-precision": ("bench/work_precision", bench.report_work_precision),
+    "meshes": ("bench/meshes", bench.meshes_table),
+    "growth": ("bench/growth", bench.growth_table),
+    "exponents": ("bench/growth", bench.exponents_table),
+    "cost": ("bench/growth", bench.cost_table),
+    "cost-map": ("bench/growth", bench.cost_map),
+    "ingredients": ("bench/ingredients", bench.report_ingredients),
+    "peers": ("bench/peers", peers.table),
+    "counts": ("stability/stability", stability.parts_table),
+    "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
+    "methods": ("stability/stability", stability.methods_table),
+    "laws": ("stability/stability", stability.laws_table),
+}
+
+
+def written(text: str, tables: dict[str, str]) -> str:
+    """The text with these tables, name to markdown, between their markers; the other markers keep what they have."""
+
+    def replaced(found: re.Match) -> str:
+        begin, name, old, end = found.groups()
+        if name not in TABLES:
+            raise ValueError(f"no such table: {name}; there are: {', '.join(TABLES)}")
+        return begin + (tables[name].rstrip("\n") + "\n" if name in tables else old) + end
+
+    return MARKED.sub(replaced, text)
+
+
+def told(rows: Rows, whole: int) -> str:
+    """One line below a table: how many runs, of how many, each how often, and on what."""
+    repeats = sorted({int(row["repeats"]) for row in rows})
+    often = " or ".join(map(str, repeats)) + (" repeat" if repeats == [1] else " repeats")
+    count = f"{len(rows)} runs" if len(rows) >= whole else f"{len(rows)} of {whole} runs"
+    last = rows[-1]
+    return f"*{count}, {often}; {last['machine']}, {last['cores']} cores, {last['threads']} BLAS thread.*"
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--partial", action="store_true", help="also from a CSV that has not been run whole")
+    parser.add_argument("--results", type=Path, default=campaign.ROOT / "results", help="folder of the CSV files")
+    parser.add_argument("--document", type=Path, default=DOCUMENT, help="the text that has the markers")
+    arguments = parser.parse_args(argv)
+    text = arguments.document.read_text(encoding="utf-8")
+    tables: dict[str, str] = {}
+    wanted = [found.group(2) for found in MARKED.finditer(text)]
+    for csv in dict.fromkeys(TABLES[name][0] for name in wanted if name in TABLES):
+        rows = campaign.read_rows(arguments.results / f"{csv}.csv")
+        whole = len({item.key for item in LISTS[csv](campaign.ROOT)})
+        if not rows or (len(rows) < whole and not arguments.partial):
+            print(f"{csv}.csv: {len(rows)} of {whole} runs: its tables are left as they are", file=sys.stderr)
+            continue
+        for name in wanted:
+            if name in TABLES and TABLES[name][0] == csv:
+                tables[name] = f"{TABLES[name][1](rows)}\n\n{told(rows, whole)}"
+    try:
+        new = written(text, tables)
+    except ValueError as error:
+        print(f"{arguments.document.name}: {error}", file=sys.stderr)
+        return 1
+    if new != text:
+        arguments.document.write_text(new, encoding="utf-8")
+    print(f"{arguments.document.name}: {len(tables)} of {len(wanted)} tables written")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
