@@ -75,11 +75,14 @@ def included(name, space=None):
 def boundaries(scene):
     """The names of a scene's boundary: groups of its .geo one dimension below the body's, or labels of its script."""
     text = included(script(scene).removeprefix("edp/"))
-    geo = re.search(r'gmshMesh\("([\w-]+)"', text)
-    if geo is None:
+    geos = re.findall(r'gmshMesh\("([\w-]+)"', text)
+    if not geos:
         mesh = text.partition("runStart = clock();")[2]
         return set(re.findall(r"^int (\w+) = \d+; *(?://.*)?$", mesh, re.M)) - {"block", "lower", "upper"}
-    source = (ROOT / "meshes" / f"{geo[1]}.geo").read_text()
+    space = re.search(r"^mesh3 Th\b", text, re.M) and "macro threeDimensional" in text
+    far = re.search(r"^macro fineContact\b", text, re.M) is not None
+    fits = [geo for geo in geos if ("far" in geo) == far and ("3d" in geo or not space)]
+    source = (ROOT / "meshes" / f"{(fits or geos)[0]}.geo").read_text()
     for name in re.findall(r'Include "([\w.-]+)"', source):
         source += (ROOT / "meshes" / name).read_text()
     kind = "Surface" if re.search(r"^mesh3 Th\b", text, re.M) else "Curve"
