@@ -141,7 +141,7 @@ def ends(kappa: float, m: float) -> float:
 
 
 def growth(_root: Path) -> list[campaign.Case]:
-    """Sizes up to 1e6 in the plane, 4e5 in space; at one size the map of stiffness, every degree, the rivals."""
+    """Sizes up to 1e6 in the plane, 3.4e5 in space; at one size the map of stiffness, every degree, the rivals."""
     found = []
 
     def add(name, scene, law, h, order, method=RIVALS[0], repeats=REPEATS):
