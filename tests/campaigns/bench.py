@@ -308,7 +308,7 @@ def meshes_table(rows: list[dict]) -> str:
             cells.append(
                 "–"
                 if best is None
-                else f"{contact_seconds(best):.2f}" + (f" {element(best)}" if key[2] == "best" else "")
+                else f"{contact_seconds(best):.2g}" + (f" {element(best)}" if key[2] == "best" else "")
             )
         lines.append([*key, *cells])
     lines.sort(key=lambda line: line[1] != "xnewton")
