@@ -293,14 +293,16 @@ def test_report_of_the_peers():
     rows += [peer_row(0.5, 5e-4, flags="-h 2"), peer_row(0.1, 1e-9, peers.PEER, "-h 3")]
     rows += [peer_row(0.01, 1e-9, peers.PEER, "-h 4", status="not converged", message="stood still", kappa="1000.0")]
     lines = peers.report(rows).splitlines()
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:7]]
-    assert [row[1:] for row in cells[:2]] == [
-        ["1e-3", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:8]]
+    assert [row[1:] for row in (cells[0], cells[2])] == [
+        ["2e-3", "0.500 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
         ["1e-4", "2.000 (0.50), 10, 3: P2, h = 1", "0.100 (0.50), 10, 7: P2, h = 1"],
     ]
-    assert cells[2][2] == "-" and lines[-1].endswith("not converged, stood still")
+    assert cells[3][2] == "-" and lines[-1].endswith("not converged, stood still")
     last = peers.table(rows).splitlines()[-1]
-    assert last == "| 1e3, 3 | 0.5 P2 / 0.1 P2 | 2 P2 / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 |"
+    assert (
+        last == "| 1e3, 3 | 0.5 P2 / 0.1 P2 | 0.5 P2 / 0.1 P2 | 2 P2 / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 | – / 0.1 P2 |"
+    )
 
 
 def test_a_run_that_needs_another_is_charged_with_it():

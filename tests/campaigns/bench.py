@@ -141,7 +141,7 @@ def ends(kappa: float, m: float) -> float:
 
 
 def growth(_root: Path) -> list[campaign.Case]:
-    """Sizes up to 1e6 in the plane, 4e5 in space; at one size the map of stiffness, every degree, the rivals."""
+    """Sizes up to 1e6 in the plane, 3.4e5 in space; at one size the map of stiffness, every degree, the rivals."""
     found = []
 
     def add(name, scene, law, h, order, method=RIVALS[0], repeats=REPEATS):
@@ -308,7 +308,7 @@ def meshes_table(rows: list[dict]) -> str:
             cells.append(
                 "–"
                 if best is None
-                else f"{contact_seconds(best):.2f}" + (f" {element(best)}" if key[2] == "best" else "")
+                else f"{contact_seconds(best):.2g}" + (f" {element(best)}" if key[2] == "best" else "")
             )
         lines.append([*key, *cells])
     lines.sort(key=lambda line: line[1] != "xnewton")
