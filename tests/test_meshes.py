@@ -19,6 +19,11 @@ MESHES = {
     "two-discs": ([], {"lower": HALF_DISC, "upper": HALF_DISC}),
     "two-bodies": ([], {"lower": 111.5867, "upper": 44.4231}),
     "block-3d": (["h", 0.03, "patch", 0.09], {"block": BLOCK}),
+    "block-far": (
+        ["depth", 0.5, "h", 0.003, "left", 0.3, "right", 0.7, "fineLeft", 0.45, "fineRight", 0.55],
+        {"block": BLOCK},
+    ),
+    "block-far-3d": (["h", 0.01, "fine", 0.03, "patch", 0.09], {"block": BLOCK}),
     "quarter-spheres": (["h", 0.05, "layers", 2], {"lower": QUARTER, "upper": QUARTER}),
 }
 
@@ -48,7 +53,7 @@ def mesh(request, tmp_path_factory):
     """(bodies' sizes, names, nodes, elements of the bodies, elements of their boundary, dimension)."""
     numbers, sizes = MESHES[request.param]
     path = tmp_path_factory.mktemp("mesh") / "a.msh"
-    dimension = 3 if request.param in ("block-3d", "quarter-spheres") else 2
+    dimension = 3 if request.param in ("block-3d", "block-far-3d", "quarter-spheres") else 2
     flags = [
         word for name, value in zip(numbers[::2], numbers[1::2], strict=True) for word in ("-setnumber", name, value)
     ]
