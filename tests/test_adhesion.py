@@ -9,6 +9,11 @@ import pytest
 from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, table
 from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
+from postprocess import style
+from postprocess.figures import attraction, attraction_profiles
+from postprocess.loop import Loop, along_path
+from postprocess.results import read_run
+
 E, NU, R, GAP = 100, 0.3, 10, 1e-3  # the scene's defaults, GAP the gap at rest
 MODULUS = E / (1 - NU**2)
 SPHERE = "adhesive-sphere"
@@ -298,6 +303,23 @@ def test_waves_snap_in_one_after_the_other():
     assert len(closing) >= 3
     assert len({jump["approach"] for jump in closing}) == len(closing)
     assert all(jump["dissipated"] > 0 for jump in done.jumps)
+
+
+def test_figures_and_movie(tmp_path):
+    """A path's figures and movie shall be drawn from its run, with an arrow a jump and the least force where it is."""
+    done, rows, unit = follow(2)
+    (axes,) = attraction.draw([read_run(done.folder)], style.Units()).axes
+    arrows = [text for text in axes.texts if text.arrow_patch is not None]
+    assert len(arrows) == len(done.jumps) == 2
+    drawn = np.concatenate([line.get_ydata() for line in axes.lines if line.get_color() == style.CURVES[0]])
+    assert drawn.min() == pytest.approx(done.pullOff / unit, rel=2e-3)
+    profiles = attraction_profiles.draw([read_run(done.folder)], style.Units())
+    assert all(len(axes.lines) > 3 for axes in profiles.axes)
+    movie = Loop(read_run(done.folder), style.Units())
+    assert along_path(read_run(done.folder))
+    assert movie.count == len(rows)
+    movie.draw(int(np.nonzero(rows["jump"])[0][0]))
+    assert "jumped" in movie.title(int(np.nonzero(rows["jump"])[0][0]))
 
 
 # ---------------------------------------------------------------- refusals and warnings

@@ -22,6 +22,11 @@ MESHES = {
     "block-3d half": (["h", 0.03, "patch", 0.09, "mirrors", 1], {"block": BLOCK / 2}),
     "block-3d quarter": (["h", 0.03, "patch", 0.09, "mirrors", 2], {"block": BLOCK / 4}),
     "block punch": (["sharp", 1], {"block": BLOCK}),
+    "block-far": (
+        ["depth", 0.5, "h", 0.003, "left", 0.3, "right", 0.7, "fineLeft", 0.45, "fineRight", 0.55],
+        {"block": BLOCK},
+    ),
+    "block-far-3d": (["h", 0.01, "fine", 0.03, "patch", 0.09], {"block": BLOCK}),
     "quarter-spheres": (["h", 0.05, "layers", 2], {"lower": QUARTER, "upper": QUARTER}),
 }
 
@@ -63,7 +68,7 @@ def mesh(request, tmp_path_factory):
     numbers, sizes = MESHES[request.param]
     path = tmp_path_factory.mktemp("mesh") / "a.msh"
     source = request.param.split()[0]
-    dimension = 3 if source in ("block-3d", "quarter-spheres") else 2
+    dimension = 3 if source in ("block-3d", "block-far-3d", "quarter-spheres") else 2
     names, nodes, elements = made(path, source, dimension, *numbers)
     inner, outer = (TETRAHEDRON, TRIANGLE) if dimension == 3 else (TRIANGLE, EDGE)
     return sizes, names, nodes, elements[inner], elements[outer], dimension

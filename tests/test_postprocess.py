@@ -469,6 +469,7 @@ class TestFigures:
         drawn_from_real_runs = {"hertz", "series"}  # test_hertz_figures.py
         drawn_from_real_runs |= {"sphere", "patch", "punch", "waves", "rigid", "hertz_error"}  # test_scene_figures.py
         drawn_from_real_runs |= {"equilibrium", "overshoot", "cost"}  # test_labs.py
+        drawn_from_real_runs |= {"attraction", "attraction_profiles"}  # test_adhesion.py
         assert of_runs - drawn_from_real_runs == set(FIGURES)  # those of campaigns: test_campaign.py
 
     @pytest.mark.parametrize(("name", "names"), [(name, names) for name in FIGURES for names in FIGURES[name]])
