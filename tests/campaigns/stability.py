@@ -608,6 +608,7 @@ CHOSEN += [OTHER[0], OTHER[2]]
 def laws_table(rows: list[dict]) -> str:
     """Method by law on one mesh: adaptations / linearisations, or how it failed."""
     rows = select([*select(rows, name="grid"), *select(rows, name="rival")], **RIVALS)
+    rows = [row for row in rows if row["law"] != "signorini"]
     lines = []
     for method, start in dict.fromkeys((row["method"], row["T0"] * (row["method"] == "paper")) for row in rows):
         group = [row for row in select(rows, method=method) if method != "paper" or row["T0"] == start]
