@@ -96,9 +96,9 @@ case.xnewton          := edp/main.edp -method xnewton -h 0.25 -order 2
 case.hertz-line       := edp/scenes/hertz-line.edp -width 160 -depth 80 -grading 160 -order 2 -axis 1
 case.two-cylinders    := edp/scenes/two-cylinders.edp -R1 40 -R2 40 -force 2.158 -grading 80 -order 2 -axis 1
 case.hertz-sphere     := edp/main.edp -geometry axisymmetric -law signorini -force 10 -reach 2 -h 0.044 -grading 40 -order 2 -axis 1
-case.sphere           := edp/scenes/sphere-on-block.edp -law signorini -force 14.652014652 -patch 1.6 -layers 4 -h 0.1 -grading 80 -d0 0 -gap 0
-case.sphere-on-plane  := edp/scenes/sphere-on-plane.edp -h 0.07 -layers 6
-case.two-spheres      := edp/scenes/two-spheres.edp -h 0.07 -layers 6
+case.sphere           := edp/scenes/sphere-on-block.edp -law signorini -force 14.652014652 -patch 1.6 -layers 2 -h 0.2 -grading 40 -d0 0 -gap 0
+case.sphere-on-plane  := edp/scenes/sphere-on-plane.edp -h 0.14 -layers 3
+case.two-spheres      := edp/scenes/two-spheres.edp -h 0.14 -layers 3
 case.rough-series     := edp/scenes/rough.edp -kappa 1e9 -history 1 -steps 20
 STICKY                := edp/scenes/adhesive-sphere.edp -w 0.003108162 -h 0.00707 -fine 0.38 -grading 283
 case.attraction-path  := $(STICKY) -path "-0.0041 0.0017 -0.0041" -steps 10
@@ -131,7 +131,7 @@ part       = $(word $(2),$(subst -, ,$(1)))
 ERRORS := \
   $(foreach scene,hertz-line two-cylinders axisymmetric,$(foreach order,1 2,$(foreach h,0.2 0.1428572 0.1 0.0714286 0.05,\
     $(call error_case,$(scene),p$(order)-$(h),-order $(order) -h $(h))))) \
-  $(foreach scene,sphere-on-block sphere-on-plane two-spheres,$(foreach size,0.2-2 0.14-3 0.1-4 0.07-6,\
+  $(foreach scene,sphere-on-block sphere-on-plane two-spheres,$(foreach size,0.4-1 0.28-2 0.2-2 0.14-3,\
     $(call error_case,$(scene),$(size),-h $(call part,$(size),1) -layers $(call part,$(size),2))))
 
 # figure.<name>: the cases that it draws.

@@ -342,7 +342,7 @@ BODIES = (
     "rough",
 )
 PRESCRIBED = {"two-cylinders": 8.631, "two-spheres": 14.652014652, "sphere-on-plane": 14.652014652}  # scenes' -force
-MORE_PROBLEM = ("-force", "-distance", "-Eratio", "-points", "-layers")  # flags without a column
+MORE_PROBLEM = ("-force", "-distance", "-Eratio", "-points", "-layers", "-ends", "-symmetry")  # flags without a column
 
 
 def problem(row: dict[str, str]) -> tuple[str, ...]:
