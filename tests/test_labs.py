@@ -216,7 +216,7 @@ def test_no_contact(tmp_path):
             "slope",
             ("? soft : stiff)", "? 2 * soft : 2 * stiff)"),
             "slope, against differences of the pressure",
-            (41, 5, 33),
+            (41, 6, 33),
         ),
         ("inverse", ("/ stiff;", "/ stiff / 3;"), "inverse of pressure, against s", None),
         ("potential", ("W[i] = 0.5", "W[i] = 3 * 0.5"), "pressure, against differences of the potential", (1, 1, 4)),

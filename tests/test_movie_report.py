@@ -411,7 +411,7 @@ class TestReport:
         assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
         for words in ("150.02947", "22.559747", "4.927623", "make results/figures/figure1.pdf", "make bench"):
             assert words in page
-        assert "FreeFem++ -nw -v 0 edp/main.edp -method paper -h 0.5 -states 1 -vtu 0 -out" in page
+        assert "FreeFem++ -nw -v 0 edp/main.edp -method paper -order 1 -h 0.5 -states 1 -vtu 0 -out" in page
         assert "T⁰ = d0" in page and "-T0 &lt;d0&gt;" in page  # the campaign's failed run, escaped
         text = re.sub(r"<[^>]*>", " ", page)
         for residual in read_run(film).history["residual"]:
@@ -505,7 +505,7 @@ def test_the_command_makes_the_run_again(tmp_path, scene, flags):
     found = read_run(run(scene, *flags).folder)
     words = shlex.split(command(found))
     assert words[:4] == FREEFEM and words[4] == script(scene) and words[-2] == "-out"
-    assert set(words[5:-2:2]) - {"-vtu"} == set(flags[::2])
+    assert set(words[5:-2:2]) - {"-vtu"} == {*flags[::2], "-order"}
     again = run_in(ROOT, words[4], *words[5:-2], out=tmp_path / "again").summary
     for name in ("force", "newton", "backsolves", "energy", "ndof"):
         assert again[name] == found.summary[name], name
