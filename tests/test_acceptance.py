@@ -51,6 +51,7 @@ def test_the_papers_count_on_two_meshed_bodies():
 CEILINGS = [
     (DISC, ["-method", "paper", "-h", 1], 3, 12),
     (DISC, ["-method", "paper", "-h", 0.25], 4, 13),
+    (DISC, ["-method", "paper", "-h", 0.1, "-corners", 0], 4, 16),
     (DISC, ["-method", "paper", "-h", 0.1], 5, 17),
     (DISC, ["-method", "paper", *FINE], 6, 21),
     (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.5], 3, 13),

@@ -277,12 +277,10 @@ def test_path_goes_on(tmp_path):
     kept = len(table(again / "path.csv"))
     done = run_in(ROOT, script(SPHERE), *given, "-vtu", 0, out=again)
     assert f"goes on after state {kept}" in done.stdout or "complete" in done.stdout
-    # the increments after the interruption may be others, for they follow the number of Newton steps: not the states
-    mine, other = (table(folder / "path.csv") for folder in (again, tmp_path / "whole"))
-    np.testing.assert_array_equal(mine["force"][:kept], other["force"][:kept])
-    assert mine["force"][-1] == pytest.approx(other["force"][-1], rel=1e-6)
-    assert len(done.jumps) == len(whole.jumps) == 2
-    assert done.summary["dissipated"] == pytest.approx(whole.summary["dissipated"], rel=0.05)
+    np.testing.assert_allclose(
+        table(again / "path.csv")["force"], table(tmp_path / "whole" / "path.csv")["force"], rtol=1e-6
+    )
+    assert done.summary["dissipated"] == pytest.approx(whole.summary["dissipated"], rel=1e-6)
     assert done.summary["newton"] < whole.summary["newton"]
 
 

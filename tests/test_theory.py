@@ -364,8 +364,9 @@ def test_preconditioned_spectrum(problem, scene, flags, low, high):
 def test_local_stiffness(problem):
     """k shall be 1/(C_ii w_i) within a factor of 4."""
     for scene, flags, high in (
-        (DISC, ("-h", 0.1), 1.25),
+        (DISC, ("-h", 0.1), 1.1),
         (DISC, ("-h", 0.5, "-order", 4), 1.25),
+        (SPHERE, ("-h", 1, "-layers", 2, "-symmetry", "whole"), 1.1),
         (SPHERE, ("-h", 1, "-layers", 2), 1.25),
         (SPHERE, ("-h", 1.5, "-layers", 2, "-order", 2), 1.5),
     ):
