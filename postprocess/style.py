@@ -68,6 +68,22 @@ def add_units(parser) -> None:
     )
 
 
+def add_picture(parser, name: str) -> None:
+    """The arguments of a command that draws one run into its own folder."""
+    parser.add_argument("folder", metavar="RUN", help="a run's result folder")
+    parser.add_argument("--out", metavar="FILE.pdf", help=f"where to write (default: RUN/{name}.pdf)")
+    parser.add_argument("--scale", type=float, default=1.0, metavar="S", help="draw the displacements S times")
+    parser.add_argument(
+        "--view",
+        nargs=2,
+        type=float,
+        metavar=("AZIMUTH", "ELEVATION"),
+        default=(-125.0, 22.0),
+        help="in space: where the eye is, degrees from x towards y, and above; default -125 22",
+    )
+    add_units(parser)
+
+
 @contextlib.contextmanager
 def look():
     """Within this context figures are drawn and saved in the package's style, whatever the user's own settings."""
@@ -198,3 +214,8 @@ def surface(run: Run) -> Triangulation:
 def panel(index: int) -> str:
     """(a), (b), (c) ..."""
     return f"({next(itertools.islice('abcdefghijklmnopqrstuvwxyz', index, None))})"
+
+
+def shades(share: np.ndarray) -> np.ndarray:
+    """(n, 3) colours of viridis for numbers in [0, 1]."""
+    return mpl.colormaps["viridis"](np.clip(share, 0, 1))[:, :3]

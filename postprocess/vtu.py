@@ -1,7 +1,7 @@
-"""solution.vtu of a run in space, read and checked, and cut by a plane."""
+"""The .vtu files of a run, read and checked: the bodies, the contact surface, and a section by a plane."""
 
 import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -9,22 +9,68 @@ import numpy as np
 from postprocess.results import ResultsError, check_file
 
 TYPES = {"Float64": "<f8", "Int64": "<i8"}
-TRIANGLE, TETRAHEDRON = 5, 10  # VTK's numbers
+CORNERS = {3: 2, 5: 3, 10: 4}  # of VTK's lines, triangles and tetrahedra
+MOVE, PRESSURE, STRESS = "displacement[length]", "contactPressure[pressure]", "vonMises[pressure]"
+NONE = np.empty(0, int)
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Bodies: points, move (n, 3) lengths; cells (m, 4) and their surface (k, 3) from 0; stress (n,) von Mises'."""
+    """Bodies: points, move (n, 3) lengths; cells (m, c) and their surface (k, c - 1) from 0; stress (n,) von Mises'.
+
+    c = 4 in space, 3 in the plane. body (m,) and label (k,): numbers of the region and of the group on the boundary.
+    """
 
     points: np.ndarray
     move: np.ndarray
     cells: np.ndarray
     surface: np.ndarray
     stress: np.ndarray
+    body: np.ndarray = field(default_factory=lambda: NONE)
+    label: np.ndarray = field(default_factory=lambda: NONE)
+
+    @property
+    def space(self) -> bool:
+        return self.cells.shape[1] == 4
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Where contact is possible: points, move (n, 3) lengths; cells (k, 2 or 3) from 0; pressure and overlap (n,)."""
+
+    points: np.ndarray
+    move: np.ndarray
+    cells: np.ndarray
+    pressure: np.ndarray
+    overlap: np.ndarray
 
 
 def read_grid(path: Path) -> Grid:
-    """The grid of a run in space; ResultsError for a file that is missing, truncated, or no grid of tetrahedra."""
+    """solution.vtu; ResultsError for a file that is missing, truncated, or no grid of bodies."""
+    found = read_arrays(path)
+    points, move, stress, types = wanted(path, found, "a run's solution", MOVE, STRESS)
+    solid = 10 if np.any(types == 10) else 5
+    shell = 5 if solid == 10 else 3
+    if not np.isin(types, (solid, shell)).all() or not np.any(types == solid):
+        raise ResultsError(path, "is not a grid of bodies and their surface")
+    cells, surface = (corners(path, found, kind) for kind in (solid, shell))
+    label = found.get(("CellData", "Label"), np.zeros(len(types), int))
+    if len(label) != len(types):
+        raise ResultsError(path, "is truncated: its labels are not as many as its cells")
+    return Grid(points, move, cells, surface, stress, label[types == solid], label[types == shell])
+
+
+def read_surface(path: Path) -> Surface:
+    """contact.vtu; ResultsError for a file that is missing, truncated, or no contact surface."""
+    found = read_arrays(path)
+    points, move, pressure, overlap, types = wanted(path, found, "a contact surface", MOVE, PRESSURE, "overlap[length]")
+    if len(types) == 0 or len(set(types)) > 1:
+        raise ResultsError(path, "is not one surface")
+    return Surface(points, move, corners(path, found, types[0]), pressure, overlap)
+
+
+def read_arrays(path: Path) -> dict:
+    """All arrays of a file, by part and name; the points by their part alone."""
     check_file(path, "; run the scene with -vtu 1")
     head, mark, numbers = path.read_bytes().partition(b'<AppendedData encoding="raw">')
     try:
@@ -33,33 +79,36 @@ def read_grid(path: Path) -> Grid:
         raise ResultsError(path, "is not XML, or is truncated") from None
     numbers = numbers.lstrip()[1:]
     found = {}
-    for part in ("Points", "Cells", "PointData"):
+    for part in ("Points", "Cells", "PointData", "CellData"):
         for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
             found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
-    names = {
-        "points": ("Points", None),
-        "move": ("PointData", "displacement[length]"),
-        "corners": ("Cells", "connectivity"),
-        "ends": ("Cells", "offsets"),
-        "types": ("Cells", "types"),
-        "stress": ("PointData", "vonMises[pressure]"),
-    }
-    missing = [name[1] or name[0] for name in names.values() if name not in found]
+    return found
+
+
+def wanted(path: Path, found: dict, what: str, *fields: str) -> list[np.ndarray]:
+    """The points, the fields at them, the displacement (n, 3), and the cells' types; all of the right length."""
+    names = [("Points", None), *(("PointData", name) for name in fields)]
+    cells = [("Cells", name) for name in ("connectivity", "offsets", "types")]
+    missing = [name[1] or name[0] for name in (*names, *cells) if name not in found]
     if missing:
-        raise ResultsError(path, f"is not a run's solution: no {', '.join(missing)}")
-    points, move, corners, ends, types, stress = (found[name] for name in names.values())
-    if not np.any(types == TETRAHEDRON) or not np.isin(types, (TRIANGLE, TETRAHEDRON)).all():
-        raise ResultsError(path, "is not a grid of tetrahedra and their surface; the run is not one in space")
-    wanted = np.cumsum(np.where(types == TETRAHEDRON, 4, 3))
-    whole = len(points) == len(move) == 3 * len(stress)
-    if not whole or not np.array_equal(ends, wanted) or len(corners) != wanted[-1]:
+        raise ResultsError(path, f"is not {what}: no {', '.join(missing)}")
+    points = len(found["Points", None]) // 3
+    values = [found[name].reshape(-1, 3) if name[1] in (None, MOVE) else found[name] for name in names]
+    corner, ends, types = (found[name] for name in cells)
+    if not np.isin(types, list(CORNERS)).all():
+        raise ResultsError(path, "is not a grid of lines, triangles and tetrahedra")
+    whole = np.array_equal(ends, np.cumsum([CORNERS[kind] for kind in types.tolist()]))
+    if any(len(value) != points for value in values) or not whole or len(corner) != (ends[-1] if len(ends) else 0):
         raise ResultsError(path, "is truncated: its fields are not as long as its points and cells")
-    if corners.min() < 0 or corners.max() >= len(points) // 3:
+    if len(corner) and (corner.min() < 0 or corner.max() >= points):
         raise ResultsError(path, "has a cell with a point that is not there")
-    solid, shell = (wanted[types == kind] for kind in (TETRAHEDRON, TRIANGLE))
-    cells = corners[solid[:, None] + np.arange(-4, 0)].astype(int)
-    surface = corners[shell[:, None] + np.arange(-3, 0)].astype(int)
-    return Grid(points.reshape(-1, 3), move.reshape(-1, 3), cells, surface, stress)
+    return [*values, types]
+
+
+def corners(path: Path, found: dict, kind: int) -> np.ndarray:
+    """The cells of one kind (n, corners)."""
+    ends = found["Cells", "offsets"][found["Cells", "types"] == kind]
+    return found["Cells", "connectivity"][ends[:, None] + np.arange(-CORNERS[kind], 0)].astype(int)
 
 
 def array(path: Path, element: ElementTree.Element, numbers: bytes) -> np.ndarray:

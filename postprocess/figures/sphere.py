@@ -99,7 +99,10 @@ def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
     The bodies' mean planes are d0 apart where hard contact is: they touch only in runs with -d0 0.
     """
     path = run.path / "solution.vtu"
-    pieces, stress, outline = cut(read_grid(path), middle[1] + 1e-3 * run.value("h"))
+    grid = read_grid(path)
+    if not grid.space:
+        raise ResultsError(path, "is not a grid of tetrahedra; the run is not one in space")
+    pieces, stress, outline = cut(grid, middle[1] + 1e-3 * run.value("h"))
     near = np.hypot(*(pieces.mean(axis=1) - (middle[0], height)).T) < 4 * a
     if not near.any():
         raise ResultsError(path, "has no element at the middle of the contact")
