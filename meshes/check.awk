@@ -1,24 +1,10 @@
-# check.awk: a mesh of two bodies as FreeFEM can read it: LC_ALL=C awk -f check.awk < FILE.msh > COPY.msh
-# Needs: gmsh's version 2 text format; the physical curves contact, clamped (on the lower body), master, pushed (on the upper one),
+# check.awk: a mesh of two bodies as FreeFEM can read it: LC_ALL=C awk -f msh.awk -f check.awk < FILE.msh > COPY.msh
+# Needs: msh.awk; the physical curves contact, clamped (on the lower body), master, pushed (on the upper one),
 #        the physical surfaces lower, upper. Other groups, sections, nodes of no triangle and edges of no triangle are left out.
 # Gives: the mesh with lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), its nodes numbered from
 #        1 in the file's order, each edge and triangle once, the groups numbered as in the table below; exit code 0. Or one
 #        line that says which node, element or group is wrong, and exit code 1: FreeFEM itself would end without a word, run out
 #        of memory or solve another problem.
-function fail(what) {
-  # `exit` leads to END, and out of it
-  if (finishing) print what
-  reason = what
-  exit 1
-}
-function element(what) { fail("element " $1 " (line " NR "): " what) }
-function number(t) { return t ~ /^[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?$/ && t + 0 < 1e150 && t + 0 > -1e150 }
-function root(i) { while (parent[i] != i) i = parent[i] = parent[parent[i]]; return i }
-function node(t) {
-  if (t !~ /^[0-9]+$/ || !((t + 0) in x)) element("a node that is missing: " t)
-  return t + 0
-}
-
 BEGIN {
   split("clamped contact master pushed", curve, " ")
   split("lower upper", surface, " ")
@@ -26,50 +12,13 @@ BEGIN {
   for (k in surface) surfaceNumber["\"" surface[k] "\""] = k
   bodyOf[1] = bodyOf[2] = 1
   bodyOf[3] = bodyOf[4] = 2
-  section = ""
 }
-{ sub(/\r$/, "") }
-NR == 1 && substr($1, 1, 1) != "$" { fail("not gmsh's version 2 text format") }
-section != "" && $1 == "$End" section {
-  if (section in rows && rows[section] != count) fail("$" section " has " count " lines, and says " rows[section] ": cut off?")
-  section = ""
-  next
-}
-section == "" {
-  if (substr($1, 1, 1) != "$") next
-  section = substr($1, 2)
-  count = -1
-  if (section ~ /^(MeshFormat|PhysicalNames|Nodes|Elements)$/) {
-    if (section in rows) fail("a second $" section " (line " NR ")")
-    rows[section] = 1
-    if (section == "MeshFormat") count = 0
-  }
-  next
-}
-!(section in rows) || NF == 0 { next }
-count < 0 {
-  if ($0 !~ /^[ \t]*[0-9]+[ \t]*$/) fail("line " NR ": the number of lines of $" section " is no number")
-  rows[section] = $1 + 0
-  count = 0
-  next
-}
-{ count++ }
-section == "MeshFormat" && ($1 + 0 < 2 || $1 + 0 >= 3 || $2 != "0") { fail("not gmsh's version 2 text format: version " $1 ", binary " $2) }
 section == "PhysicalNames" {
   name = $0
   sub(/^[^"]*/, "", name)
   if ($1 == 1 && name in curveNumber) { curveOf[$2] = curveNumber[name]; found[name] = 1 }
   if ($1 == 2 && name in surfaceNumber) { surfaceOf[$2] = surfaceNumber[name]; found[name] = 1 }
   has = has " " name ($1 == 1 ? "" : ($1 == 2 ? " (surface)" : " (of dimension " $1 ")"))
-}
-section == "Nodes" {
-  if ($1 !~ /^[0-9]+$/ || $1 + 0 < 1) fail("line " NR ": the node " $1 "; node numbers start at 1")
-  if (NF != 4) fail("node " $1 " (line " NR "): " NF - 1 " coordinates for 3")
-  for (k = 2; k <= 4; k++) if (!number($k)) fail("node " $1 " (line " NR "): the coordinate " $k " is no number")
-  i = $1 + 0
-  if (i in x) fail("node " i " (line " NR ") is there twice")
-  x[i] = $2 + 0; y[i] = $3 + 0; z[i] = $4 + 0
-  inOrder[++nodes] = i
 }
 section == "Elements" {
   if ($2 == 3 || $2 == 10 || $2 == 16) element("a quadrangle; only triangles, they are elements that are no triangles of first order")
@@ -204,14 +153,7 @@ function write(   i, j, k, n, m) {
   print "$EndElements"
 }
 END {
-  if (reason == "") {
-    if (NR == 0) reason = "an empty file, not gmsh's version 2 text format"
-    else if (!("MeshFormat" in rows)) reason = "not gmsh's version 2 text format"
-    else if (section != "" || !("Nodes" in rows) || !("Elements" in rows)) reason = "cut off" (section ? " in $" section : "")
-    else if (!("PhysicalNames" in rows)) reason = "no physical groups"
-  }
-  if (reason != "") { print reason; exit 1 }
-  finishing = 1
+  complete()
   checkGroups()
   checkTriangles()
   checkLines()

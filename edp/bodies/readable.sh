@@ -1,13 +1,17 @@
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER
-# Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text.
-# Gives: FOLDER/mesh.msh, see meshes/check.awk. FOLDER is new, and goes when the run has ended, however it ended: the run takes it
-#        away itself if it can.
-# Exit codes: 0 done, 1 refused: FOLDER/mesh.msh has one line that says why, 2 FOLDER cannot be made.
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER [CASE SPACE]
+# Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text; with a case file
+#        CASE: SPACE, 1 for bodies in space, 0 for the plane.
+# Gives: FOLDER/mesh.msh, see meshes/check.awk; with a case file, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk,
+#        with the regions of meshes/parts.awk behind it, and FOLDER/middles. FOLDER is new, and goes when the run has ended, however
+#        it ended: the run takes it away itself if it can.
+# Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused.
 . "${0%/*}/../case/process.sh"
 run=$1
 file=$2
 folder=$3
-check=${0%/*}/../../meshes/check.awk
+case_=$4
+space=$5
+meshes=${0%/*}/../../meshes
 (umask 077 && mkdir "$folder") || exit 2
 (
     trap '' HUP INT TERM
@@ -16,14 +20,14 @@ check=${0%/*}/../../meshes/check.awk
 ) < /dev/null > /dev/null 2>&1 &
 
 no() {
-    echo "$1" > "$folder/mesh.msh"
-    exit 1
+    echo "$1" > "$folder/why"
+    exit "${2:-1}"
 }
 
 test -d "$file" && no "a folder, no mesh"
 test -r "$file" || no "may not be read"
 how=
-case $file in *.geo) how=-2 ;; esac
+case $file in *.geo) how=-$((2 + ${space:-0})) ;; esac
 # the second line of gmsh's format: version, 0 for text or 1 for binary, size of a real
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
 if test -n "$how"; then
@@ -33,8 +37,22 @@ if test -n "$how"; then
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
     file=$folder/converted.msh
 fi
-awk -f "$check" < "$file" > "$folder/mesh.msh" 2> /dev/null
-code=$?
+if test -n "$case_"; then
+    tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' > "$folder/names"
+    test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
+    CASE=$case_ SPACE=$space awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$case_" > "$folder/case" 2> "$folder/log"
+    code=$?
+    test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
+    test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
+    CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles \
+        awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
+    code=$?
+    cat "$folder/regions" >> "$folder/case" 2> /dev/null
+else
+    awk -f "$meshes/msh.awk" -f "$meshes/check.awk" < "$file" > "$folder/mesh.msh" 2> /dev/null
+    code=$?
+    test $code -ne 1 || mv "$folder/mesh.msh" "$folder/why"
+fi
 test $code -le 1 || no "cannot be checked: is awk there, and room in /tmp?"
 test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in /tmp"
 exit $code

@@ -1,0 +1,322 @@
+# case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk -f case-file.awk NAMES FILE
+# Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages.
+# Gives: a plain table for bodies/parts.idp: "units" and its text, "state" and its word, "thickness" and its number; "groups", how many,
+#        then dimension and name of each group that is used, a line each: its number is its place; "statements", how many, then a
+#        line each: word, line of the file, its groups' numbers (two, 0: none), shape, what moves an obstacle, law (none: without)
+#        and 16 numbers (see put()). Or one line that says what is wrong where, and exit code 1.
+# The grammar is the table of usages below; words that stand for a number are looked at in number().
+function no(what) {
+  if (!finishing) what = "line " FNR ": " what
+  print "-case " ENVIRON["CASE"] ", " what
+  failed = 1
+  exit 1
+}
+function usageOf(word) { return "allowed: " usage[word] }
+
+# how many letters must be put in, left out or exchanged to make one word of the other
+function distance(a, b,   i, j, d, cost) {
+  for (i = 0; i <= length(a); i++) d[i, 0] = i
+  for (j = 0; j <= length(b); j++) d[0, j] = j
+  for (i = 1; i <= length(a); i++)
+    for (j = 1; j <= length(b); j++) {
+      d[i, j] = d[i - 1, j] < d[i, j - 1] ? d[i - 1, j] + 1 : d[i, j - 1] + 1
+      cost = d[i - 1, j - 1] + (substr(a, i, 1) != substr(b, j, 1))
+      if (cost < d[i, j]) d[i, j] = cost
+      if (i > 1 && j > 1 && substr(a, i, 1) == substr(b, j - 1, 1) && substr(a, i - 1, 1) == substr(b, j, 1) && d[i - 2, j - 2] + 1 < d[i, j])
+        d[i, j] = d[i - 2, j - 2] + 1
+    }
+  return d[length(a), length(b)]
+}
+# of the words between "|", the one that was meant, if that can be guessed
+function meant(word, words,   list, n, k, off, least, found) {
+  n = split(words, list, "|")
+  least = 2 + int(length(word) / 4)
+  for (k = 1; k <= n; k++) {
+    off = distance(tolower(word), tolower(list[k]))
+    if (off < least) { least = off; found = list[k] }
+  }
+  return found == "" ? "" : "did you mean " found "? "
+}
+
+# the line's words: word[1] ... word[words], blanks kept between quotes, # begins a comment
+function splitLine(   rest, at) {
+  words = 0
+  rest = $0
+  while (1) {
+    sub(/^[ \t\r]+/, "", rest)
+    if (rest == "" || substr(rest, 1, 1) == "#") return
+    words++
+    if (substr(rest, 1, 1) == "\"") {
+      at = index(substr(rest, 2), "\"")
+      if (!at) no(rest ": a quote that does not end; allowed: \"name\"")
+      word[words] = substr(rest, 2, at - 1)
+      rest = substr(rest, at + 2)
+      if (rest ~ /^[^ \t\r#]/) no("\"" word[words] "\"" rest ": no blank after the quote; allowed: a blank between two words")
+      if (word[words] == "") no("\"\": an empty name; " usageOf(word[1]))
+    } else {
+      match(rest, /^[^ \t\r#"]+/)
+      word[words] = substr(rest, 1, RLENGTH)
+      rest = substr(rest, RLENGTH + 1)
+      if (substr(rest, 1, 1) == "\"") no(word[words] rest ": a quote inside a word; allowed: a blank between two words")
+    }
+  }
+}
+function spells(t) { return t ~ /^[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?$/ }
+# the next word of the line, as a number above `low`, below `high`
+function number(what, low, high,   t, v, mantissa) {
+  if (at >= words) no(what " is missing after " word[words] "; " usageOf(word[1]))
+  t = word[++at]
+  if (!spells(t)) no(t ": " what " is no number; " usageOf(word[1]))
+  v = t + 0
+  mantissa = t
+  sub(/[eE].*/, "", mantissa)
+  if (mantissa ~ /[1-9]/ && (v < 1e-40 && v > -1e-40 || v > 1e40 || v < -1e40))
+    no(t ": " what " cannot be computed with; allowed: 0, and magnitudes from 1e-40 to 1e40")
+  if (v <= low || v >= high) no(t ": " what " is out of range; allowed: " (high < 1e300 ? "between " low " and " high : "above " low))
+  return v
+}
+function any(what) { return number(what, -1e300, 1e300) }
+function vector(what, k, into, from) {
+  for (k = 0; k < 3; k++) into[from + k] = k < 2 + space ? any(what) : 0
+}
+function nonzero(what, into, from) {
+  if (into[from] == 0 && into[from + 1] == 0 && into[from + 2] == 0) no(what " is 0 in every direction; " usageOf(word[1]))
+}
+# the next word, which must be this one
+function keyword(name) {
+  if (at >= words) no(name " is missing after " word[words] "; " usageOf(word[1]))
+  if (word[++at] != name) no(word[at] ": not allowed here; " usageOf(word[1]))
+}
+
+# the number of the group of a dimension that the next word names
+function group(dimension,   name, key, k, other) {
+  if (at >= words) no("a name is missing after " word[words] "; " usageOf(word[1]))
+  name = word[++at]
+  key = dimension SUBSEP name
+  if (!(key in there)) {
+    for (k = 0; k <= 3; k++) if (k != dimension && (k SUBSEP name) in there) other = k
+    if (other != "") no(name ": a " kind[other] " of the mesh; allowed for " word[1] ": its " kind[dimension] "s:" listed(dimension, " "))
+    no(name ": no physical " kind[dimension] " of the mesh; " meant(name, listed(dimension, "|")) "allowed:" listed(dimension, " "))
+  }
+  if (!(key in place)) { place[key] = ++groups; groupLine[groups] = dimension " " name; nameOf[groups] = name }
+  return place[key]
+}
+function listed(dimension, between,   k, all) {
+  for (k = 1; k <= names; k++) if (dimOf[k] == dimension) all = all between nameIn[k]
+  return all == "" ? " none" : (between == "|" ? substr(all, 2) : all)
+}
+function once(key, what) {
+  if (key in seen) no(what ": stated before, in line " seen[key] "; allowed: once")
+  seen[key] = FNR
+}
+# a boundary is held in one way
+function holds(g) {
+  if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: one of clamp, symmetry, move, rotate, force")
+  heldBy[g] = word[1]
+  heldIn[g] = FNR
+}
+# law NAME and its parameters: kappa m p0 beta d0, all of those that it takes
+function readLaw(v,   name, list, n, k, given, taken) {
+  if (at >= words) no("a law's name is missing; allowed: " lawNames)
+  name = word[++at]
+  if (!(name in takes)) no(name ": unknown law; " meant(name, lawWords) "allowed: " lawNames)
+  while (at < words && word[at + 1] in parameter) {
+    k = word[++at]
+    if (index(" " takes[name] " ", " " k " ") == 0)
+      no(k ": not a parameter of the law " name "; allowed: " (takes[name] == "" ? "none" : takes[name]))
+    if (k in given) no(k ": given twice; allowed: once")
+    given[k] = 1
+    v[parameter[k]] = number(k, low[k], high[k])
+  }
+  n = split(takes[name], list, " ")
+  for (k = 1; k <= n; k++) if (!(list[k] in given)) no("law " name ": " list[k] " is missing; allowed: law " name " with " takes[name])
+  return name
+}
+# kappa m p0 beta d0, point (3), direction (3), radius, inside, the obstacle's move or force (3);  of others, in this order:
+# body: E nu;  move, force, traction, weight: a vector;  rotate: centre, axis, angle;  pressure: the pressure
+function put(a, b, shape, load, law, v,   k, line) {
+  line = word[1] " " FNR " " a " " b " " shape " " load " " law
+  for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
+  table[++statements] = line
+}
+function readShape(v,   shape) {
+  if (at >= words) no("a shape is missing after " word[words] "; " usageOf("obstacle"))
+  shape = word[++at]
+  if (!(shape in isShape)) no(shape ": unknown shape; " meant(shape, shapeWords) "allowed: " shapeNames)
+  vector("the obstacle's place", 0, v, 5)
+  if (shape == "plane" || shape == "cylinder") {
+    vector("the obstacle's direction", 0, v, 8)
+    nonzero("the obstacle's direction", v, 8)
+  }
+  if (shape != "plane") {
+    keyword("R")
+    v[11] = number("the radius", 0, 1e300)
+  }
+  if (shape != "plane" && at < words && word[at + 1] == "inside") { at++; v[12] = 1 }
+  return shape
+}
+function readObstacle(   g, v, shape, load, law, next_) {
+  g = group(dim - 1)
+  for (k = 0; k < 16; k++) v[k] = 0
+  shape = readShape(v)
+  load = law = "none"
+  while (at < words) {
+    next_ = word[++at]
+    if (next_ == "law" && law == "none") law = readLaw(v)
+    else if ((next_ == "move" || next_ == "force") && load == "none") {
+      load = next_
+      vector("the obstacle's " load, 0, v, 13)
+      if (load == "force") nonzero("the obstacle's force", v, 13)
+    } else no(next_ ": not allowed here; " usageOf("obstacle"))
+  }
+  shape_ = shape
+  for (k = 5; k < 13; k++) shape_ = shape_ " " v[k]
+  once("obstacle" SUBSEP g SUBSEP shape_, "this obstacle of " nameOf[g])
+  if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
+  touches[g] = FNR; slaves[g] = FNR
+  if (load != "force") supported = 1
+  put(g, 0, shape, load, law, v)
+}
+function readContact(   a, b, v, law, pair) {
+  a = group(dim - 1)
+  b = group(dim - 1)
+  if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
+  once("contact" SUBSEP (a < b ? a SUBSEP b : b SUBSEP a), "contact of " nameOf[a] " and " nameOf[b])
+  for (k = 0; k < 16; k++) v[k] = 0
+  law = "none"
+  if (at < words) { keyword("law"); law = readLaw(v) }
+  slaves[a] = FNR
+  touches[a] = touches[b] = FNR
+  put(a, b, "none", "none", law, v)
+}
+function readBody(   g, v) {
+  g = group(dim)
+  once("body" SUBSEP g, "body " nameOf[g])
+  keyword("E")
+  v[0] = number("Young's modulus", 0, 1e300)
+  keyword("nu")
+  v[1] = number("Poisson's ratio", -1, 0.5)
+  put(g, 0, "none", "none", "none", v)
+}
+# clamp, symmetry, move, rotate, force, pressure, traction, weight: a group and a few numbers
+function readOther(   g, v, what) {
+  what = word[1]
+  g = group(what == "weight" ? dim : dim - 1)
+  if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
+  else once(what SUBSEP g, what " of " nameOf[g])
+  if (what ~ /^(clamp|symmetry|move|rotate)$/) supported = 1
+  if (what ~ /^(move|force|traction|weight)$/) vector("the " what, 0, v, 0)
+  if (what == "force") nonzero("the force", v, 0)
+  if (what == "rotate") {
+    if (axial) no("rotate: a ring cannot turn; allowed with state axisymmetric: clamp, symmetry, move, force")
+    vector("the centre", 0, v, 0)
+    v[3] = v[4] = 0; v[5] = 1
+    if (space) { vector("the axis", 0, v, 3); nonzero("the axis", v, 3) }
+    v[6] = number("the angle", -0.5, 0.5)
+  }
+  if (what == "pressure") { v[0] = any("the pressure"); loadLine[g] = FNR; loadWord[g] = what }
+  if (what == "traction") { loadLine[g] = FNR; loadWord[g] = what }
+  if (axial && what ~ /^(force|weight)$/ && v[0] != 0) no(word[2] ": a " what " off the axis; allowed with state axisymmetric: along y")
+  put(g, 0, "none", "none", "none", v)
+}
+function single(   text, k) {
+  once(word[1], word[1])
+  if (word[1] == "units") {
+    if (words != 3) no("units: " words - 1 " words after it; " usageOf("units"))
+    units = word[2] " " word[3]
+    at = words
+    return
+  }
+  if (space) no(word[1] ": only in the plane; allowed in space: nothing of the kind")
+  if (word[1] == "thickness") { thickness = number("the thickness", 0, 1e300); return }
+  if (statements) no(word[1] ": after line " firstLine "; allowed: before all statements but units and thickness")
+  if (words < 2) no("state: a word is missing; " usageOf("state"))
+  state = word[++at]
+  if (state !~ /^(strain|stress|axisymmetric)$/) no(state ": unknown; " meant(state, "strain|stress|axisymmetric") usageOf("state"))
+  axial = state == "axisymmetric"
+}
+
+BEGIN {
+  space = ENVIRON["SPACE"] + 0
+  dim = 2 + space
+  split("curve surface volume", kind, " ")
+  kind[0] = "point"
+  at3 = space ? " z" : ""
+  usage["units"] = "units LENGTH PRESSURE, as units mm MPa"
+  usage["state"] = "state strain, stress or axisymmetric"
+  usage["thickness"] = "thickness NUMBER"
+  usage["body"] = "body NAME E number nu number"
+  lawWords = "power|exponential|barrier|signorini"
+  lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, signorini"
+  usage["contact"] = "contact SLAVE MASTER, then nothing or law NAME with its parameters: " lawNames
+  shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
+  shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
+  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [law NAME ...], SHAPE one of: " shapeNames
+  usage["clamp"] = "clamp NAME"
+  usage["symmetry"] = "symmetry NAME"
+  usage["move"] = "move NAME x y" at3
+  usage["rotate"] = space ? "rotate NAME, centre x y z, axis x y z, angle in radians" : "rotate NAME, centre x y, angle in radians"
+  usage["force"] = "force NAME x y" at3
+  usage["pressure"] = "pressure NAME number"
+  usage["traction"] = "traction NAME x y" at3
+  usage["weight"] = "weight NAME x y" at3
+  for (k in usage) statementWords = statementWords "|" k
+  statementWords = substr(statementWords, 2)
+  statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight"
+  takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""
+  parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
+  low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
+  high["kappa"] = high["p0"] = high["beta"] = 1e300; high["m"] = 1000; high["d0"] = 0
+  split(shapeWords, list, "|")
+  for (k in list) isShape[list[k]] = 1
+  units = "none"
+  state = space ? "none" : "strain"
+  thickness = 1
+}
+FILENAME == ARGV[1] {
+  name = $0
+  sub(/^[^"]*"/, "", name)
+  sub(/"[^"]*$/, "", name)
+  there[$1, name] = 1
+  dimOf[++names] = $1
+  nameIn[names] = name
+  next
+}
+{
+  if (FNR == 1) sub(/^\357\273\277/, "")
+  splitLine()
+  if (!words) next
+  at = 1
+  if (!(word[1] in usage)) no(word[1] ": unknown statement; " meant(word[1], statementWords) "allowed: " statementNames)
+  if (word[1] ~ /^(units|state|thickness)$/) single()
+  else {
+    if (!firstLine) firstLine = FNR
+    if (word[1] == "body") readBody()
+    else if (word[1] == "contact") readContact()
+    else if (word[1] == "obstacle") readObstacle()
+    else readOther()
+  }
+  if (at < words) no(word[at + 1] ": more than the statement takes; " usageOf(word[1]))
+}
+END {
+  if (failed) exit 1
+  finishing = 1
+  if (!statements) no("it has no statement; allowed: at least body and contact or obstacle")
+  for (k = 1; k <= names; k++)
+    if (dimOf[k] == dim && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))
+      no("nothing says what the " kind[dim] " " nameIn[k] " is made of; allowed: a line body " nameIn[k] " E number nu number")
+  for (g in slaves)
+    if (g in heldBy) no("line " slaves[g] ": " nameOf[g] ": a slave that line " heldIn[g] " holds (" heldBy[g] "); allowed: the other surface as slave")
+  for (g in loadLine)
+    if (g in heldBy && heldBy[g] != "force")
+      no("line " loadLine[g] ": " nameOf[g] ": a " loadWord[g] " on what line " heldIn[g] " holds (" heldBy[g] ") does nothing; allowed: on another group")
+  for (g in touches) any_ = 1
+  if (!any_) no("no contact; allowed: at least one line contact or obstacle")
+  if (!supported) no("nothing is held: no clamp, symmetry, move, rotate, and no obstacle that stands or is moved; allowed: at least one of them")
+  if (axial && thickness != 1) no("line " seen["thickness"] ": thickness with state axisymmetric; allowed: with strain and stress")
+  print "units " units "\nstate " state "\nthickness " sprintf("%.17g", thickness)
+  print "groups " groups
+  for (k = 1; k <= groups; k++) print groupLine[k]
+  print "statements " statements
+  for (k = 1; k <= statements; k++) print table[k]
+}

@@ -1,0 +1,225 @@
+# parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE
+#        LC_ALL=C awk -f msh.awk -f parts.awk < FILE.msh
+# Needs: msh.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
+#        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
+# Gives: MESH, first order, lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), nodes numbered from 1
+#        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
+#        "regions", how many, then of each the number of its body in the table and of its part: a part is what hangs together, also
+#        several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
+#        order, the place of its middle node, in space of three, each opposite a corner. Exit code 0. Or one line that says what
+#        is wrong, and exit code 1.
+function measure(i,   a, b, c, d) {
+  # of element i: twice the area, six times the volume; and of its longest reach
+  a = corner[i, 1]; b = corner[i, 2]; c = corner[i, 3]
+  bx = x[b] - x[a]; by = y[b] - y[a]; bz = z[b] - z[a]
+  cx = x[c] - x[a]; cy = y[c] - y[a]; cz = z[c] - z[a]
+  reach = bx * bx + by * by + bz * bz
+  if (cx * cx + cy * cy + cz * cz > reach) reach = cx * cx + cy * cy + cz * cz
+  if (!space) return bx * cy - by * cx
+  d = corner[i, 4]
+  dx = x[d] - x[a]; dy = y[d] - y[a]; dz = z[d] - z[a]
+  if (dx * dx + dy * dy + dz * dz > reach) reach = dx * dx + dy * dy + dz * dz
+  return bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx)
+}
+function key(p, q, r,   t) {
+  # of a side, whatever the order of its nodes; in the plane r is 0
+  if (p > q) { t = p; p = q; q = t }
+  if (!space) return p " " q
+  if (q > r) { t = q; q = r; r = t }
+  if (p > q) { t = p; p = q; q = t }
+  return p " " q " " r
+}
+function group(dimension, tag) {
+  tag = tag < 0 ? -tag : tag + 0
+  return (dimension SUBSEP tag) in groupOf ? groupOf[dimension, tag] : 0
+}
+
+BEGIN {
+  space = ENVIRON["SPACE"] + 0
+  dim = 2 + space
+  while ((getline line < ENVIRON["CASE"]) > 0 && line !~ /^groups /);
+  groups = substr(line, 8) + 0
+  for (k = 1; k <= groups; k++) {
+    getline line < ENVIRON["CASE"]
+    numberOf[substr(line, 1, 1), substr(line, 3)] = k
+    name[k] = substr(line, 3)
+    dimOf[k] = substr(line, 1, 1)
+  }
+  getline line < ENVIRON["CASE"]
+  while ((getline line < ENVIRON["CASE"]) > 0) {
+    split(line, w, " ")
+    if (w[1] == "contact" || w[1] == "obstacle") touched[w[3]] = touched[w[4]] = 1
+  }
+  bodyKind = space ? "tetrahedron" : "triangle"
+  sideKind = space ? "triangle" : "edge"
+  # type of element: dimension, corners
+  split("1 8 2 9 4 11 15", types, " ")
+  split("1 1 2 2 3 3 0", dims, " ")
+  split("2 2 3 3 4 4 1", cornersOf, " ")
+  split("2 3 3 6 4 10 1", nodesOf, " ")
+  for (k = 1; k <= 7; k++) { typeAt[types[k]] = k; order[types[k]] = 1 + (types[k] ~ /^(8|9|11)$/) }
+}
+section == "PhysicalNames" {
+  word = $0
+  sub(/^[^"]*"/, "", word)
+  sub(/"[^"]*$/, "", word)
+  if (($1 SUBSEP word) in numberOf) groupOf[$1, $2] = numberOf[$1, word]
+}
+section == "Elements" {
+  if (!($2 in typeAt)) element("of gmsh's type " $2 ": allowed: triangles, in space tetrahedra, of first or second order (no quadrangles, no Recombine)")
+  type = typeAt[$2]
+  if ($3 !~ /^[0-9]+$/ || NF != 3 + $3 + nodesOf[type]) element(NF " numbers; cut off, or more than it should have?")
+  if (dims[type] > dim) element("a tetrahedron: allowed in the plane: triangles; edp/parts-3d.edp is for bodies in space")
+  if (dims[type] < dim - 1) next
+  g = $3 + 0 == 0 ? 0 : group(dims[type], $4)
+  first = 3 + $3
+  if (dims[type] == dim) {
+    if (!g) element("a " bodyKind " in no body: allowed: every one in a physical " (space ? "volume" : "surface"))
+    i = ++elements
+    for (k = 1; k <= dim + 1; k++) corner[i, k] = node($(first + k))
+    elementNumber[i] = $1
+    bodyOf[i] = g
+    parent[i] = i
+    size_ = measure(i)
+    small = size_ < 0 ? -size_ : size_
+    if (small <= 1e-10 * reach * (space ? sqrt(reach) : 1)) element("a " bodyKind " without " (space ? "volume" : "area"))
+    if (small * (space ? 1e18 / 6 : 0.5e12) < 1e-7) element("a " bodyKind " too small: another unit of length helps")
+    if (size_ < 0) { k = corner[i, 2]; corner[i, 2] = corner[i, 3]; corner[i, 3] = k }
+    next
+  }
+  if (!g) next
+  s = ++sides
+  for (k = 1; k <= dim; k++) side[s, k] = node($(first + k))
+  sideGroup[s] = g
+  sideNumber[s] = $1
+  if (order[$2] == 2) {
+    curved++
+    # gmsh: the middles of sides 1-2, 2-3, 3-1; here each opposite a corner
+    if (!space) middle[s, 1] = node($(first + 3))
+    else { middle[s, 1] = node($(first + 5)); middle[s, 2] = node($(first + 6)); middle[s, 3] = node($(first + 4)) }
+  }
+}
+function widen(p) {
+  if (x[p] < lowX) lowX = x[p]
+  if (x[p] > highX) highX = x[p]
+  if (y[p] < lowY) lowY = y[p]
+  if (y[p] > highY) highY = y[p]
+  if (z[p] < lowZ) lowZ = z[p]
+  if (z[p] > highZ) highZ = z[p]
+}
+# of element i the side opposite its corner k, its nodes so that the element lies on one side of it
+function sideOf(i, k) {
+  p = corner[i, k % (dim + 1) + 1]
+  q = corner[i, (k + 1) % (dim + 1) + 1]
+  r = space ? corner[i, (k + 2) % (dim + 1) + 1] : 0
+  return key(p, q, r)
+}
+function beside(p, q, r, v) {
+  # on which side of it the corner v lies
+  if (!space) return (x[q] - x[p]) * (y[v] - y[p]) - (y[q] - y[p]) * (x[v] - x[p])
+  bx = x[q] - x[p]; by = y[q] - y[p]; bz = z[q] - z[p]
+  cx = x[r] - x[p]; cy = y[r] - y[p]; cz = z[r] - z[p]
+  return (x[v] - x[p]) * (by * cz - bz * cy) + (y[v] - y[p]) * (bz * cx - bx * cz) + (z[v] - z[p]) * (bx * cy - by * cx)
+}
+function join(i, k,   s, a, b) {
+  s = sideOf(i, k)
+  if (!(s in owner)) { owner[s] = i; tip[s] = corner[i, k]; return }
+  if (s in second) fail("elements " elementNumber[owner[s]] ", " elementNumber[second[s]] " and " elementNumber[i] " share one side: they overlap")
+  second[s] = i
+  if ((beside(p, q, r, tip[s]) > 0) == (beside(p, q, r, corner[i, k]) > 0))
+    fail("elements " elementNumber[owner[s]] " and " elementNumber[i] " lie on the same side of a common " sideKind ": they overlap")
+  a = root(i); b = root(owner[s])
+  if (a != b) parent[a] = b
+}
+function checkElements(   i, k, p) {
+  if (!elements) fail("no " bodyKind "s")
+  p = corner[1, 1]
+  lowX = highX = x[p]; lowY = highY = y[p]; lowZ = highZ = z[p]
+  for (i = 1; i <= elements; i++) for (k = 1; k <= dim + 1; k++) widen(corner[i, k])
+  size = highX - lowX + highY - lowY + highZ - lowZ
+  if (lowX < -1e9 * size || highX > 1e9 * size || lowY < -1e9 * size || highY > 1e9 * size || lowZ < -1e9 * size || highZ > 1e9 * size)
+    fail("the bodies are too far from the origin for their size: their coordinates have no digits left")
+  if (!space && (highZ > 1e-9 * size || lowZ < -1e-9 * size)) fail("z goes from " lowZ " to " highZ "; a plane mesh has z = 0 everywhere")
+  for (i = 1; i <= elements; i++) for (k = 1; k <= dim + 1; k++) join(i, k)
+  for (i = 1; i <= elements; i++) {
+    if (!(root(i) in partNumber)) partNumber[root(i)] = ++parts
+    part = partNumber[root(i)]
+    if (!((part, bodyOf[i]) in regionAt)) { regionAt[part, bodyOf[i]] = ++regions; region[regions] = bodyOf[i] " " part }
+    inRegion[i] = regionAt[part, bodyOf[i]]
+    has[bodyOf[i]] = 1
+    for (k = 1; k <= dim + 1; k++) {
+      p = corner[i, k]
+      if (p in partOf && partOf[p] != part)
+        fail("node " p ": two pieces hang together by it alone, which is a hinge; allowed: a common " sideKind ", or nodes of their own")
+      partOf[p] = part
+    }
+  }
+}
+function checkSides(   s, k, where, g) {
+  for (s = 1; s <= sides; s++) {
+    g = sideGroup[s]
+    where = key(side[s, 1], side[s, 2], space ? side[s, 3] : 0)
+    if (!(where in owner)) fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" that no " bodyKind " has")
+    if (where in second)
+      fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" inside the bodies, which share its nodes; allowed: each body's own nodes where they touch (no Coherence, BooleanFragments there)")
+    if (where in isIn && isIn[where] != g)
+      fail("element " sideNumber[s] ": " sideKind " in two physical groups of the case, \"" name[isIn[where]] "\" and \"" name[g] "\"; allowed: one of them")
+    if (where in isIn) { sideGroup[s] = 0; continue }
+    isIn[where] = g
+    has[g] = 1
+    kept[++keptSides] = s
+  }
+  for (g = 1; g <= groups; g++) if (!(g in has)) fail("the physical group \"" name[g] "\" has no " (dimOf[g] == dim ? bodyKind : sideKind) " of a body")
+}
+function place(p) { return sprintf("%.9f %.9f %.9f", (x[p] - lowX) / size, (y[p] - lowY) / size, (z[p] - lowZ) / size) }
+# two sides of one body in the same place, and no contact there: what is meant as one body would open
+function checkCracks(   i, k, s, where) {
+  for (i = 1; i <= elements; i++) for (k = 1; k <= dim + 1; k++) {
+    s = sideOf(i, k)
+    if (s in second || s in isIn && isIn[s] in touched) continue
+    where = bodyOf[i] " " middleOf(p, q, r)
+    if (where in sideAt) fail("elements " elementNumber[sideAt[where]] " and " elementNumber[i] " of \"" name[bodyOf[i]] "\" touch, but share no nodes: a crack, or pieces not joined (in gmsh: Coherence, BooleanFragments); allowed: a contact there")
+    sideAt[where] = i
+  }
+}
+function middleOf(p, q, r,   n) {
+  n = space ? 3 : 2
+  return sprintf("%.9f %.9f %.9f", ((x[p] + x[q] + (space ? x[r] : 0)) / n - lowX) / size,
+    ((y[p] + y[q] + (space ? y[r] : 0)) / n - lowY) / size, ((z[p] + z[q] + (space ? z[r] : 0)) / n - lowZ) / size)
+}
+function spot(p) { return sprintf("%.17g %.17g %.17g", x[p] * 1000000, y[p] * 1000000, (space ? z[p] : 0) * 1000000) }
+function write(   i, j, k, n, m, line, mesh, middles) {
+  mesh = ENVIRON["MESH"]
+  middles = ENVIRON["MIDDLES"]
+  for (k = 1; k <= nodes; k++) if (inOrder[k] in partOf) now[inOrder[k]] = ++n
+  print "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" n > mesh
+  for (k = 1; k <= nodes; k++) if (inOrder[k] in now) print now[inOrder[k]], spot(inOrder[k]) > mesh
+  print "$EndNodes\n$Elements\n" keptSides + elements > mesh
+  for (j = 1; j <= keptSides; j++) {
+    i = kept[j]
+    line = ++m " " (space ? 2 : 1) " 2 " sideGroup[i] " " sideGroup[i]
+    for (k = 1; k <= dim; k++) line = line " " now[side[i, k]]
+    print line > mesh
+    if (curved == sides) {
+      line = spot(middle[i, 1])
+      if (space) line = line " " spot(middle[i, 2]) " " spot(middle[i, 3])
+      print line > middles
+    }
+  }
+  for (i = 1; i <= elements; i++) {
+    line = ++m " " (space ? 4 : 2) " 2 " inRegion[i] " " inRegion[i]
+    for (k = 1; k <= dim + 1; k++) line = line " " now[corner[i, k]]
+    print line > mesh
+  }
+  print "$EndElements" > mesh
+  print "regions " regions > ENVIRON["REGIONS"]
+  for (k = 1; k <= regions; k++) print region[k] > ENVIRON["REGIONS"]
+  print "parts " parts "\nmiddles " (curved == sides ? keptSides : 0) > ENVIRON["REGIONS"]
+}
+END {
+  complete()
+  checkElements()
+  checkSides()
+  checkCracks()
+  write()
+}
