@@ -31,7 +31,8 @@ SUMMARY_KEYS = set(
 )
 SECONDS_KEYS = set("mesh assembly factorisation contact total".split())
 CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold s tau".split())
-SPACE_COLUMNS = ("x", "y", "z", *CONTACT_COLUMNS[2:])
+CONTACT_COLUMNS += tuple("contact chain along normalX normalY".split())
+SPACE_COLUMNS = ("x", "y", "z", *CONTACT_COLUMNS[2:], "normalZ")
 TIMEOUT = 280  # seconds; a run that hangs is a failure, not a hanging suite
 
 
