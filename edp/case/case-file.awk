@@ -138,6 +138,7 @@ function put(a, b, shape, load, law, v,   k, line) {
   line = word[1] " " FNR " " a " " b " " shape " " load " " law
   for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
   table[++statements] = line
+  if (statements > 1000) no("more than 1000 statements; allowed: fewer")
 }
 function readShape(v,   shape) {
   if (at >= words) no("a shape is missing after " word[words] "; " usageOf("obstacle"))
