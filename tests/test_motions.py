@@ -1,0 +1,193 @@
+"""solve/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
+
+import numpy as np
+import pytest
+from freefem import snippet, told
+
+BEGIN = """
+string scene = "synthetic";
+string geometry = "strain";
+bool forceControl = false;
+real prescribedForce = 0;
+macro lawsByContact() 1 //
+macro deformableMaster() 1 //
+include "case/flags.idp"
+include "case/output.idp"
+preset("-law", "signorini");
+preset("-d0", "0");
+include "laws/all.idp"
+include "solve/methods/all.idp"
+include "case/options.idp"
+include "solve/solver.idp"
+flagsDone("A contact problem of given matrices.");
+localCompliance = 1;
+real[int] read(0);
+func int readAll(string name)
+{
+    int n = 0;
+    {
+        ifstream f(name);
+        f >> n;
+    }
+    read.resize(n);
+    ifstream f(name);
+    f >> read;
+    return n;
+}
+macro readInto(field) readAll(Stringification(field)); field.resize(read.n); field = read; //
+points = readAll("pointX");
+ndof = points;
+readInto(pointX)
+readInto(weight)
+readInto(overlapBefore)
+macro none(field) field.resize(points); field = 0; //
+none(pointY) none(pointZ) none(normalX) none(normalY) none(normalZ) none(placeOnEdge) none(displacement) none(bodyLoad)
+normalY = 1;
+paired.resize(points);
+paired = 1;
+along.resize(points);
+along = pointX;
+contactOf.resize(points);
+chainOf.resize(points);
+readAll("contactOf");
+for (int i = 0; i < points; i++) contactOf[i] = lrint(read[i]);
+chainOf = contactOf;
+for (int c = 0; c < CONTACTS; c++) addContact("contact " + c, 0, 0, -1);
+chainClosed.resize(CONTACTS);
+chainClosed = 0;
+contactLength = pointX.max - pointX.min;
+{
+    real[int,int] K(points, points);
+    readAll("K");
+    for (int i = 0; i < points; i++) for (int j = 0; j < points; j++) K(i, j) = read[i * points + j];
+    stiffness = K;
+    halfStorage = false;
+    real[int] one(points);
+    one = 1;
+    overlapMap = [one];
+}
+"""
+
+MOTIONS = """
+addMotions(MOTIONS);
+readAll("field");
+for (int k = 0; k < motions; k++) for (int i = 0; i < points; i++) motionField(i, k) = read[i * motions + k];
+readInto(motionTarget)
+readAll("motionStiffness");
+for (int k = 0; k < motions; k++) for (int l = 0; l < motions; l++) motionStiffness(k, l) = read[k * motions + l];
+"""
+
+END = """
+include "solve/solve.idp"
+tell("q", q);
+tell("overlap", shat);
+tell("Cq", Cq);
+if (motions > 0) tell("motion", motion);
+real[int] fixed(motions);
+for (int k = 0; k < motions; k++) fixed[k] = motionFixed[k];
+if (motions > 0) tell("fixed", fixed);
+tell("converged", converged);
+tell("newton", newtonSteps);
+tell("backsolves", backsolves);
+"""
+
+
+class Problem:
+    """Half-plane contacts side by side, coupled by a random smooth compliance; `motions` of them free."""
+
+    def __init__(self, seed, sizes=(40, 40), motions=2, stiff=0):
+        rng = np.random.default_rng(seed)
+        n = sum(sizes)
+        self.contact = np.repeat(np.arange(len(sizes)), sizes)
+        x = np.concatenate([np.linspace(-1, 1, m) + 0.01 * rng.standard_normal(m) for m in sizes])
+        x = np.concatenate([np.sort(x[self.contact == c]) for c in range(len(sizes))])
+        self.x = x + 10 * self.contact
+        self.weight = np.concatenate([np.gradient(x[self.contact == c]) for c in range(len(sizes))])
+        same = self.contact[:, None] == self.contact[None, :]
+        apart = np.abs(x[:, None] - x[None, :])
+        np.fill_diagonal(apart, self.weight / 2 / np.e)
+        smooth = np.stack(
+            [f(x) * (1 + self.contact) for f in (np.ones_like, np.sin, np.cos, lambda t: t)], axis=1
+        )
+        self.C = np.where(same, np.log(4 / apart), 0) + 0.3 * smooth @ np.diag(rng.uniform(0.1, 1, 4)) @ smooth.T
+        assert np.linalg.eigvalsh(self.C)[0] > 0
+        self.gap = 0.02 * (2 * x**2 + 0.1 * rng.standard_normal(len(sizes))[self.contact])
+        self.G = np.stack([1 + 0 * x, x, 1.0 * (self.contact == 0), x * self.contact], axis=1)[:, :motions]
+        L = rng.standard_normal((motions, motions))
+        self.S = stiff * (L @ L.T)
+        q = np.where(np.abs(x) < 0.5, self.weight * rng.uniform(0.5, 1.5, n), 0) * 0.01
+        self.t = self.G.T @ q
+        self.motions = motions
+
+    def write(self, folder):
+        data = dict(
+            pointX=self.x, weight=self.weight, overlapBefore=-self.gap, contactOf=self.contact, K=np.linalg.inv(self.C),
+            field=self.G, motionTarget=self.t, motionStiffness=self.S,
+        )  # fmt: skip
+        for name, values in data.items():
+            values = np.ravel(values)
+            (folder / name).write_text("\n".join(map(repr, map(float, [len(values), *values]))).replace(".0\n", "\n", 1) + "\n")
+
+    def solve(self, folder, *flags, laws="", expect=0):
+        self.write(folder)
+        text = BEGIN.replace("CONTACTS", str(self.contact[-1] + 1)) + laws
+        if self.motions:
+            text += MOTIONS.replace("MOTIONS", str(self.motions))
+        return snippet(folder, text + END, *flags, "-out", folder / "out", expect=expect)
+
+    def check(self, values, pressure):
+        """pressure(contact, s): p where a law holds, None for hard contact."""
+        q, s = values["q"], values["overlap"]
+        alpha = values["motion"] if self.motions else np.zeros(0)
+        free = -self.gap - pressure_start(pressure, self.contact)
+        np.testing.assert_allclose(s, free - self.C @ q + self.G @ alpha, atol=1e-9 * abs(free).max())
+        if self.motions:
+            off = self.G.T @ q + self.S @ alpha - self.t
+            assert abs(off).max() < 1e-9 * abs(self.t).max()
+        scale = np.abs(q).max()
+        for c in np.unique(self.contact):
+            at = self.contact == c
+            law = pressure[c]
+            if law is None:
+                assert (q[at] > -1e-6 * scale).all()
+                assert (s[at] < 1e-6 * abs(self.gap).max()).all()
+                assert (abs(s[at][q[at] > 1e-4 * scale]) < 1e-5 * abs(self.gap).max()).all()
+            else:
+                np.testing.assert_allclose(q[at], self.weight[at] * law[0](s[at]), atol=1e-5 * scale)
+
+
+def pressure_start(pressure, contact):
+    return np.array([0 if law is None else law[1] for law in pressure])[contact]
+
+
+def power(kappa, m, d0):
+    return lambda s: kappa * np.maximum(s, 0) ** m, d0
+
+
+@pytest.mark.parametrize("stiff", [0, 1])
+@pytest.mark.parametrize("motions", [0, 1, 2, 4])
+@pytest.mark.parametrize("flags", [[], ["-start", "none", "-preconditioner", "diagonal"]], ids=["kernel", "plain"])
+def test_hard_contact(tmp_path, flags, motions, stiff):
+    """Forces, overlaps and motions shall fulfil the conditions of hard contact and balance the loads."""
+    problem = Problem(1, motions=motions, stiff=stiff)
+    if motions == 0:
+        problem.gap -= 0.02
+    values = told(problem.solve(tmp_path, *flags))
+    assert values["converged"] == 1
+    problem.check(values, [None, None])
+
+
+LAWS = """
+real[int] first = [1e5, 3, -0.004];
+real[int] second = [0.02, 800, -0.003];
+"""
+
+
+def test_laws_by_contact(tmp_path):
+    """Each contact shall follow its own law."""
+    problem = Problem(2, sizes=(30, 30, 30), motions=2)
+    laws = LAWS + 'giveLaw(0, "a", "power", first, "");\ngiveLaw(1, "b", "exponential", second, "");\n'
+    values = told(problem.solve(tmp_path, laws=laws))
+    assert values["converged"] == 1
+    exponential = (lambda s: 0.02 * np.expm1(800 * np.maximum(s, 0)), -0.003)
+    problem.check(values, [power(1e5, 3, -0.004), exponential, None])
