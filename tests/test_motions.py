@@ -109,8 +109,8 @@ class Problem:
         smooth = np.stack(
             [f(x) * (1 + self.contact) for f in (np.ones_like, np.sin, np.cos, lambda t: t)], axis=1
         )
-        self.C = np.where(same, np.log(4 / apart), 0) + 0.3 * smooth @ np.diag(rng.uniform(0.1, 1, 4)) @ smooth.T
-        assert np.linalg.eigvalsh(self.C)[0] > 0
+        self.C = np.where(same, np.log(20 / apart), 0) + 0.3 * smooth @ np.diag(rng.uniform(0.1, 1, 4)) @ smooth.T
+        self.C += (1e-3 - min(np.linalg.eigvalsh(self.C)[0], 0)) * np.eye(n)
         self.gap = 0.02 * (2 * x**2 + 0.1 * rng.standard_normal(len(sizes))[self.contact])
         self.G = np.stack([1 + 0 * x, x, 1.0 * (self.contact == 0), x * self.contact], axis=1)[:, :motions]
         L = rng.standard_normal((motions, motions))
