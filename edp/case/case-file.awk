@@ -120,6 +120,12 @@ function readLaw(v,   name, list, n, k, given, taken) {
   if (at >= words) no("a law's name is missing; allowed: " lawNames)
   name = word[++at]
   if (!(name in takes)) no(name ": unknown law; " meant(name, lawWords) "allowed: " lawNames)
+  if (name == "table") {
+    if (at >= words) no("the file of the law table is missing; allowed: " lawNames)
+    lawFile = word[++at]
+    if ((getline line_ < lawFile) <= 0) no(lawFile ": no such file, or empty; allowed: a file of overlap,pressure pairs")
+    close(lawFile)
+  }
   while (at < words && word[at + 1] in parameter) {
     k = word[++at]
     if (index(" " takes[name] " ", " " k " ") == 0)
@@ -138,6 +144,7 @@ function put(a, b, shape, load, law, v,   k, line) {
   line = word[1] " " FNR " " a " " b " " shape " " load " " law
   for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
   table[++statements] = line
+  if (law == "table") { files++; fileLine[files] = statements - 1 " " lawFile }
   if (statements > 1000) no("more than 1000 statements; allowed: fewer")
 }
 function readShape(v,   shape) {
@@ -247,8 +254,8 @@ BEGIN {
   usage["state"] = "state strain, stress or axisymmetric"
   usage["thickness"] = "thickness NUMBER"
   usage["body"] = "body NAME E number nu number"
-  lawWords = "power|exponential|barrier|signorini"
-  lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, signorini"
+  lawWords = "power|exponential|barrier|table|signorini"
+  lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
   usage["contact"] = "contact SLAVE MASTER, then nothing or law NAME with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
@@ -264,7 +271,7 @@ BEGIN {
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
   statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight"
-  takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""
+  takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
   low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
   high["kappa"] = high["p0"] = high["beta"] = 1e300; high["m"] = 1000; high["d0"] = 0
@@ -320,4 +327,6 @@ END {
   for (k = 1; k <= groups; k++) print groupLine[k]
   print "statements " statements
   for (k = 1; k <= statements; k++) print table[k]
+  print "files " files + 0
+  for (k = 1; k <= files; k++) print fileLine[k]
 }
