@@ -1,0 +1,101 @@
+"""Contacts with a known answer, as functions of numbers: Hertz's line and ellipse, a pin in a hole, a press fit.
+
+Moduli are plane: contact_modulus gives them. Lengths, forces and pressures in any consistent units; in the plane a force
+is per unit of thickness. Each is for hard, frictionless contact of elastic bodies.
+"""
+
+import numpy as np
+
+
+def plane_modulus(young: float, poisson: float) -> float:
+    """E/(1 - nu^2): of plane strain, and of a half-space."""
+    return young / (1 - poisson**2)
+
+
+def contact_modulus(first: float, second: float = np.inf) -> float:
+    """E* of two bodies with these plane moduli."""
+    return 1 / (1 / first + 1 / second)
+
+
+def hertz_line(force: float, radius: float, modulus: float) -> tuple[float, float]:
+    """(a, p0): half-width and greatest pressure of two cylinders side by side, 1/radius = 1/R1 + 1/R2.
+
+    Johnson, Contact Mechanics (1985), 4.2.
+    """
+    a = np.sqrt(4 * force * radius / (np.pi * modulus))
+    return a, 2 * force / (np.pi * a)
+
+
+def elliptic(m: float) -> tuple[float, float]:
+    """(K, E): the complete elliptic integrals of the parameter m = k^2, by the arithmetic-geometric mean."""
+    a, b, total, weight = 1.0, np.sqrt(1 - m), 0.5 * m, 0.5
+    for _ in range(12):  # quadratic convergence
+        weight *= 2
+        total += weight * (0.5 * (a - b)) ** 2
+        a, b = 0.5 * (a + b), np.sqrt(a * b)
+    first = np.pi / (2 * a)
+    return first, first * (1 - total)
+
+
+def hertz_ellipse(force: float, radii: tuple[float, float], modulus: float) -> tuple[float, float, float, float]:
+    """(a, b, p0, approach) of a contact with these relative radii of curvature in two planes at a right angle.
+
+    Of crossed cylinders they are the cylinders' own. a >= b. Johnson (1985), 4.1: with e^2 = 1 - (b/a)^2,
+    ((a/b)^2 E - K)/(K - E) = radii' ratio, a^3 = 3 F (K - E)/(2 pi e^2 E* A), A = 1/(2 greater radius).
+    """
+    large, small = max(radii), min(radii)
+    low, high = 0.0, 1 - 1e-15
+    for _ in range(200):
+        m = 0.5 * (low + high)
+        flat, full = elliptic(m)
+        # for a nearly round contact the difference of the integrals is lost in rounding: its series
+        flatness = flat - full if m > 1e-6 else np.pi / 4 * m * (1 + 3 * m / 8)
+        ratio = (full / (1 - m) - flat) / flatness if m > 1e-6 else 1 + 0.75 * m
+        low, high = (m, high) if ratio < large / small else (low, m)
+    a = (3 * force * flatness / m * large / (np.pi * modulus)) ** (1 / 3)
+    b = a * np.sqrt(1 - m)
+    return a, b, 3 * force / (2 * np.pi * a * b), 3 * force * flat / (2 * np.pi * a * modulus)
+
+
+def pin_clearance(half_angle: float) -> float:
+    """E' (R_hole - R_pin)/F of a pin in a hole of an infinite plate of the same material that touch up to this angle.
+
+    E' is the plane modulus of one of them. Persson, On the stress distribution of cylindrical elastic bodies in contact
+    (1964); with b = tan(angle/2) his equation is (2 (1 - b^2) - ln(1 + b^2)/(1 + b^2))/(pi b^2).
+    """
+    b2 = np.tan(half_angle / 2) ** 2
+    return (2 * (1 - b2) - np.log1p(b2) / (1 + b2)) / (np.pi * b2)
+
+
+def pin_angle(clearance: float) -> float:
+    """The half angle of contact for E' (R_hole - R_pin)/F."""
+    low, high = 1e-9, np.pi - 1e-9
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if pin_clearance(middle) > clearance else (low, middle)
+    return middle
+
+
+def pin_pressure(angle: np.ndarray, half_angle: float) -> np.ndarray:
+    """p R/F at these angles from the load's direction; 0 outside the contact."""
+    b = np.tan(half_angle / 2)
+    y = np.tan(np.clip(np.abs(angle), 0, half_angle) / 2)
+    root, s = np.sqrt(np.maximum(b * b - y * y, 0)), np.sqrt(1 + b * b)
+    return 2 / (np.pi * s) * root / (1 + y * y) + np.log((s + root) / (s - root)) / (2 * np.pi * b * b * (1 + b * b))
+
+
+def press_fit(
+    radii: tuple[float, float, float], interference: float, inner: tuple[float, float], outer: tuple[float, float]
+) -> float:
+    """The pressure between two rings: bore, joint and outside radius, radial interference, (E, nu) of each; plane strain.
+
+    Lame; Timoshenko and Goodier, Theory of Elasticity, 28: each ring's joint moves by p r ((q^2 + 1)/(q^2 - 1) -+ nu)/E, q its
+    radii's ratio, E and nu those of plane strain.
+    """
+    bore, joint, outside = radii
+
+    def softness(young: float, poisson: float, ratio: float, sign: float) -> float:
+        plane, effect = plane_modulus(young, poisson), poisson / (1 - poisson)
+        return ((ratio**2 + 1) / abs(ratio**2 - 1) + sign * effect) / plane
+
+    return interference / joint / (softness(*outer, outside / joint, 1) + softness(*inner, joint / bore, -1))
