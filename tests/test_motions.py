@@ -178,8 +178,8 @@ def test_hard_contact(tmp_path, flags, motions, stiff):
 
 
 LAWS = """
-real[int] first = [1e5, 3, -0.004];
-real[int] second = [0.02, 800, -0.003];
+real[int] first = [1e5, 3, 1, 1, -0.004];
+real[int] second = [1, 2, 0.02, 800, -0.003];
 """
 
 
