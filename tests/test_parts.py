@@ -1,0 +1,489 @@
+"""Bodies of any shape: the case file and its refusals, supports and loads, floating bodies, turned problems."""
+
+import itertools
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, Run, execute, flag_text, snippet, told
+
+PLANE_GROUPS = {1: "bottom", 2: "right", 3: "top", 4: "left"}
+SPACE_GROUPS = {1: "back", 2: "front", 3: "left", 4: "right", 5: "bottom", 6: "top"}
+STEEL = "body block E 100 nu 0.3\n"
+
+
+def turn(angle):
+    """The rotation by an angle in the plane, as a matrix."""
+    return np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+
+
+def turn_in_space(seed):
+    """A random rotation."""
+    axes, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    return axes * np.sign(np.linalg.det(axes))
+
+
+class Mesh:
+    """Nodes and elements of several blocks in gmsh's version 2 text format, with named groups."""
+
+    def __init__(self):
+        self.nodes, self.elements, self.names = [], [], []
+
+    def group(self, dimension, name):
+        if (dimension, name) not in self.names:
+            self.names.append((dimension, name))
+        return self.names.index((dimension, name)) + 1
+
+    def add(self, nodes, sides, bodies):
+        """Nodes (n, 3), sides and bodies as (group, corners)."""
+        first = len(self.nodes) + 1
+        self.nodes += [tuple(node) for node in nodes]
+        for name, corners in (*sides, *bodies):
+            inner = len(corners) == (3 if not sides or len(sides[0][1]) == 2 else 4)
+            dimension = len(sides[0][1]) - 1 + inner
+            kind = {2: 1, 3: 2, 4: 4}[len(corners)]
+            tag = self.group(dimension, name)
+            self.elements.append((kind, tag, [first + corner for corner in corners]))
+
+    def text(self, matrix=np.eye(3), order=1):
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(self.names)]
+        lines += [f'{dimension} {k + 1} "{name}"' for k, (dimension, name) in enumerate(self.names)]
+        lines += ["$EndPhysicalNames", "$Nodes", len(self.nodes)]
+        lines += [
+            " ".join([str(k + 1), *map(repr, map(float, matrix @ node))])
+            for k, node in enumerate(np.array(self.nodes, float))
+        ]
+        lines += ["$EndNodes", "$Elements", len(self.elements)]
+        for k, (kind, tag, corners) in enumerate(self.elements):
+            lines.append(" ".join(map(str, (k + 1, kind, 2, tag, tag, *corners))))
+        return "\n".join(map(str, [*lines, "$EndElements", ""]))
+
+
+def block(mesh, size=(3, 2), cells=(12, 8), at=(0, 0), prefix="", name="block"):
+    """A rectangle of triangles with the groups bottom, right, top, left."""
+    nx, ny = cells
+    nodes = [
+        (at[0] + size[0] * i / nx, at[1] + size[1] * j / ny, 0)
+        for j, i in itertools.product(range(ny + 1), range(nx + 1))
+    ]
+
+    def number(i, j):
+        return i + (nx + 1) * j
+
+    sides = [(prefix + "bottom", (number(i, 0), number(i + 1, 0))) for i in range(nx)]
+    sides += [(prefix + "right", (number(nx, j), number(nx, j + 1))) for j in range(ny)]
+    sides += [(prefix + "top", (number(i + 1, ny), number(i, ny))) for i in range(nx)]
+    sides += [(prefix + "left", (number(0, j + 1), number(0, j))) for j in range(ny)]
+    bodies = []
+    for i, j in itertools.product(range(nx), range(ny)):
+        a, b, c, d = number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)
+        bodies += [(name, (a, b, c)), (name, (a, c, d))] if (i + j) % 2 else [(name, (a, b, d)), (name, (b, c, d))]
+    mesh.add(nodes, sides, bodies)
+    return mesh
+
+
+def cube(mesh, size=(2, 2, 1), cells=(4, 4, 2), at=(0, 0, 0), prefix="", name="block"):
+    """A box of tetrahedra with the groups back, front (x), left, right (y), bottom, top (z)."""
+    n = np.array(cells)
+    nodes = [np.array(at) + np.array(size) * index / n for index in itertools.product(*(range(k + 1) for k in n))]
+
+    def number(index):
+        return int(np.ravel_multi_index(index, n + 1))
+
+    sides, bodies = [], []
+    for index in itertools.product(*(range(k) for k in n)):
+        for way in itertools.permutations(range(3)):
+            corner, corners = np.array(index), [number(index)]
+            for axis in way:
+                corner = corner + np.eye(3, dtype=int)[axis]
+                corners.append(number(corner))
+            bodies.append((name, corners))
+    where = np.array(nodes)
+    faces = {}
+    for _, corners in bodies:
+        for face in itertools.combinations(corners, 3):
+            faces[tuple(sorted(face))] = faces.get(tuple(sorted(face)), 0) + 1
+    for face, count in faces.items():
+        if count == 1:
+            place = where[list(face)] - at
+            for axis in range(3):
+                for end, value in ((0, 0), (1, size[axis])):
+                    if (abs(place[:, axis] - value) < 1e-12).all():
+                        sides.append((prefix + list(SPACE_GROUPS.values())[2 * axis + end], face))
+    mesh.add(nodes, sides, bodies)
+    return mesh
+
+
+@pytest.fixture
+def plane(tmp_path):
+    (tmp_path / "block.msh").write_text(block(Mesh()).text())
+    return tmp_path
+
+
+def read(folder, case, mesh="block.msh", space=0):
+    """(exit code, what bodies/readable.sh says) of a case file's text."""
+    (folder / "a.case").write_text(case)
+    out = folder / "copy"
+    done = subprocess.run(
+        ["sh", ROOT / "edp/bodies/readable.sh", str(os.getpid()), folder / mesh, out, "a.case", str(space)], cwd=folder
+    )
+    why = (out / "why").read_text().strip() if (out / "why").exists() else ""
+    table = (out / "case").read_text() if (out / "case").exists() else ""
+    subprocess.run(["rm", "-rf", out], check=True)
+    return done.returncode, why, table
+
+
+GOOD = STEEL + "clamp bottom\nobstacle top circle 1.5 5 R 3 move 0 -0.1\n"
+
+
+def test_case_is_read(plane):
+    """Every statement of the plane, quotes, comments, blanks and the end of a line as other systems have it."""
+    text = (
+        '\ufeff# a comment\r\nunits mm MPa # and another\n\nstate stress\nthickness 2.5\n\tbody "block" E 210e3 nu .3#x\n'
+        "clamp bottom\nmove left 0 -0.05\nobstacle top plane 0 3 0 -1 law power kappa 1e6 m 3 d0 -0.001\n"
+        "pressure right 5\nweight block 0 -7.8e-5\n"
+    )
+    code, why, table = read(plane, text)
+    assert (code, why) == (0, "")
+    lines = table.splitlines()
+    assert lines[:4] == ["units mm MPa", "state stress", "thickness 2.5", "groups 5"]
+    assert "1 top" in lines and "2 block" in lines
+    row = next(line for line in lines if line.startswith("obstacle")).split()
+    assert row[2:7] == [str(lines.index("1 top") - 3), "0", "plane", "none", "power"]
+    assert list(map(float, row[7:])) == [1e6, 3, 0, 0, -0.001, 0, 3, 0, 0, -1, 0, 0, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "case, words",
+    [
+        (GOOD + "clampp left", "line 4: clampp: unknown statement; did you mean clamp? allowed: "),
+        (
+            GOOD + "clamp lfet",
+            "line 4: lfet: no physical curve of the mesh; did you mean left? allowed: bottom right top left",
+        ),
+        (GOOD + "clamp block", "block: a surface of the mesh; allowed for clamp: its curves: bottom right top left"),
+        (GOOD + "weight left 0 1", "left: a curve of the mesh; allowed for weight: its surfaces: block"),
+        (GOOD + "clamp", "a name is missing after clamp; allowed: clamp NAME"),
+        (GOOD + "clamp left 3", "3: more than the statement takes; allowed: clamp NAME"),
+        (GOOD + 'clamp "left', "a quote that does not end"),
+        (GOOD + 'clamp ""', "an empty name"),
+        (GOOD + 'clamp "left"x', "no blank after the quote"),
+        (
+            GOOD + "clamp bottom",
+            "line 4: bottom: clamp after clamp in line 2; allowed: one of clamp, symmetry, move, rotate, force",
+        ),
+        (GOOD + "move bottom 0 1", "bottom: move after clamp in line 2"),
+        (GOOD + "body block E 3 nu 0", "body block: stated before, in line 1; allowed: once"),
+        (GOOD + "units mm", "units: 1 words after it"),
+        (GOOD + "units mm MPa\nunits m Pa", "line 5: units: stated before, in line 4"),
+        (GOOD + "state strain", "state: after line 1; allowed: before all statements"),
+        (
+            "state strian\n" + GOOD,
+            "strian: unknown; did you mean strain? allowed: state strain, stress or axisymmetric",
+        ),
+        ("thickness -1\n" + GOOD, "-1: the thickness is out of range; allowed: above 0"),
+        ("state axisymmetric\nthickness 2\n" + GOOD, "line 2: thickness with state axisymmetric"),
+        ("state axisymmetric\n" + GOOD + "rotate left 0 0 0.1", "rotate: a ring cannot turn"),
+        ("state axisymmetric\n" + GOOD + "weight block 1 0", "off the axis; allowed with state axisymmetric: along y"),
+        (GOOD.replace("E 100", "E -1"), "-1: Young's modulus is out of range; allowed: above 0"),
+        (GOOD.replace("0.3", "0.5"), "0.5: Poisson's ratio is out of range; allowed: between -1 and 0.5"),
+        (GOOD.replace("E 100", "E 1e5x"), "1e5x: Young's modulus is no number; allowed: body NAME E number nu number"),
+        (GOOD.replace("E 100", "E 0x10"), "0x10: Young's modulus is no number"),
+        (GOOD.replace("E 100", "E 1e50"), "1e50: Young's modulus cannot be computed with; allowed: 0, and magnitudes"),
+        (GOOD.replace("E 100", "E 1e-400"), "1e-400: Young's modulus cannot be computed with"),
+        (GOOD.replace("E 100", "100"), "100: not allowed here; allowed: body NAME E number nu number"),
+        (GOOD + "rotate left 0 0 2", "2: the angle is out of range; allowed: between -0.5 and 0.5"),
+        (GOOD + "force left 0 0", "the force is 0 in every direction"),
+        (
+            GOOD.replace("circle", "circel"),
+            "circel: unknown shape; did you mean circle? allowed: plane x y nx ny, circle x y R r",
+        ),
+        (GOOD.replace("circle 1.5 5 R 3", "sphere 0 0 0 R 3"), "sphere: unknown shape"),
+        (GOOD.replace("R 3", "3"), "3: not allowed here; allowed: obstacle SLAVE SHAPE"),
+        (GOOD.replace("R 3", "R 0"), "0: the radius is out of range; allowed: above 0"),
+        (GOOD.replace("circle 1.5 5 R 3", "plane 0 3 0 0"), "the obstacle's direction is 0 in every direction"),
+        (GOOD.replace("move 0 -0.1", "move 0"), "the obstacle's move is missing after 0"),
+        (GOOD + "obstacle top circle 1.5 5 R 3", "this obstacle of top: stated before, in line 3"),
+        (GOOD + "contact left left", "left: slave and master are the same; allowed: two groups"),
+        (GOOD + "contact left right\ncontact right left", "contact of right and left: stated before, in line 4"),
+        (GOOD + "contact left right law powr", "powr: unknown law; did you mean power? allowed: power kappa m d0"),
+        (
+            GOOD + "contact left right law power kappa 1 m 3",
+            "law power: d0 is missing; allowed: law power with kappa m d0",
+        ),
+        (
+            GOOD + "contact left right law power kappa 1 m 0.5 d0 -1",
+            "0.5: m is out of range; allowed: between 1 and 1000",
+        ),
+        (GOOD + "contact left right law barrier kappa 1", "kappa: not a parameter of the law barrier; allowed: p0 d0"),
+        (GOOD + "contact left right law barrier p0 1 p0 2 d0 -1", "p0: given twice"),
+        (GOOD + "contact left right law table none.csv d0 -1", "none.csv: no such file, or empty"),
+        (
+            GOOD + "contact left right kappa 3",
+            "kappa: not allowed here; allowed: contact SLAVE MASTER, then nothing or law",
+        ),
+        (
+            GOOD + "contact bottom right",
+            "line 4: bottom: a slave that line 2 holds (clamp); allowed: the other surface as slave",
+        ),
+        (GOOD + "pressure bottom 3", "line 4: bottom: a pressure on what line 2 holds (clamp) does nothing"),
+        (STEEL + "clamp bottom", "no contact; allowed: at least one line contact or obstacle"),
+        (STEEL + "contact top left", "nothing is held: no clamp, symmetry, move, rotate, and no obstacle that stands"),
+        (
+            "clamp bottom\ncontact top left",
+            "nothing says what the surface block is made of; allowed: a line body block E number",
+        ),
+        ("", "it has no statement; allowed: at least body and contact or obstacle"),
+    ],
+)
+def test_case_is_refused(plane, case, words):
+    """Each mistake: one line that names the file, the line, the word, and what is allowed."""
+    code, why, _ = read(plane, case)
+    assert code == 3
+    assert why.startswith("-case a.case, ") and words in why and "\n" not in why
+    assert "allowed" in why
+
+
+def test_refused_before_anything_is_written(plane):
+    """The script's exit code is 10, and no folder is there."""
+    (plane / "a.case").write_text(GOOD + "clamp lfet")
+    for more in ([], ["-check", 1]):
+        code, stdout = run_parts(plane, "block.msh", "a.case", *more)
+        assert code == 10
+        assert stdout.splitlines()[-1].startswith(f"-case {plane}/a.case, line 4: lfet: no physical curve")
+        assert not (plane / "out").exists()
+    for flags, said in (
+        (["-case", "a.case"], "-mesh none: a mesh is needed"),
+        (["-mesh", plane / "block.msh"], "-case none: a case file is needed"),
+        (["-mesh", plane / "block.msh", "-case", "b.case"], "-case b.case: no such file"),
+        (["-mesh", plane / "block.msh", "-case", plane / "a.case", "-law", "power"], "-law: "),
+    ):
+        code, stdout = execute([*FREEFEM, "edp/parts.edp", *flags])
+        assert code == 10 and said in stdout
+
+
+def run_parts(folder, mesh, case, *flags, script="parts.edp"):
+    files = ["-mesh", folder / mesh, "-case", folder / case, "-out", folder / "out", "-vtu", 0]
+    return execute(list(map(flag_text, [*FREEFEM, f"edp/{script}", *files, *flags])))
+
+
+def solve(folder, mesh, case, *flags, expect=0, script="parts.edp"):
+    """The run of a case's text on a mesh's text."""
+    (folder / "a.msh").write_text(mesh)
+    (folder / "a.case").write_text(case)
+    code, stdout = run_parts(folder, "a.msh", "a.case", *flags, script=script)
+    assert code == expect, stdout[-3000:]
+    return Run(code, stdout, folder / "out")
+
+
+# ---------------------------------------------------------------- supports and loads, on the bodies alone
+
+BODIES = """
+include "case/case-file.idp"
+include "bodies/parts.idp"
+include "bodies/spaces.idp"
+{
+    macro ofElement() include "bodies/stiffness.idp" //
+    include "bodies/elements.idp"
+}
+checkTouched();
+findMotions();
+elasticSolve(bodyLoad, displacement);
+real[int] none(ndof);
+real[int] R(ndof);
+none = 0;
+tell("balance", supportForces(none, R));
+internalForces(displacement, none);
+tell("energy", 0.5 * (none' * displacement));
+real[int] six(6);
+partForces(0, R, six);
+tell("reaction", six);
+partForces(0, wholeLoad, six);
+tell("load", six);
+tell("target", motionTarget);
+for (int m = 0; m < motions; m++) tell("stiffness" + m, motionStiffness(m, m));
+real[int] place(3);
+for (int i = 0; i < caseNodes; i++)
+{
+    place = 0;
+    for (int c = 0; c < components; c++) place[c] = displacement[nodeDofs(i, c)];
+    tell("node" + i, place);
+}
+for (int m = 0; m < motions; m++) cout << "free: " << motionName[m] << endl;
+"""
+
+
+def bodies(folder, mesh, case, *flags, space=False):
+    """What the bodies alone do under a case's supports and loads, without contact: {name: numbers} and the output."""
+    (folder / "a.msh").write_text(mesh)
+    (folder / "a.case").write_text(case)
+    script = (ROOT / "edp/parts.edp").read_text().split('include "case/case-file.idp"')[0]
+    head = 'macro threeDimensional() 1 //\nstring scene = "parts-3d";\n' if space else ""
+    stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)
+    return told(stdout), stdout
+
+
+def moved(result):
+    """The displacements of all nodes (n, 3)."""
+    return np.array([result[name] for name in result if name.startswith("node")])
+
+
+def vector(values, matrix=np.eye(3), dimension=2):
+    return " ".join(map(repr, map(float, (matrix @ np.array([*values, 0, 0])[:3])[:dimension])))
+
+
+PLANE = "obstacle top circle 100 100 R 1\n"
+TURNS = (0.1, 1.0, 2.5)
+
+
+def supports(name, matrix):
+    """Cases without contact: every kind of support and load."""
+    turned = {
+        "symmetries": "symmetry left\nsymmetry bottom\npressure right -3\n",
+        "one symmetry": f"symmetry left\npressure right -3\ntraction top {vector((2, 0), matrix)}\npressure left 1\n",
+        "clamp": f"clamp left\ntraction right {vector((1, 2), matrix)}\nweight block {vector((0, -1), matrix)}\n",
+        "move": f"clamp left\nmove right {vector((0.1, 0.02), matrix)}\n",
+        "rotate": f"clamp left\nrotate right {vector((4, 1), matrix)} 0.05\n",
+        "force": f"clamp left\nforce right {vector((4, 3), matrix)}\nweight block {vector((0, -1), matrix)}\n",
+        "force along": f"symmetry left\nsymmetry bottom\nforce right {vector((4, 0), matrix)}\n",
+        "floating": f"weight block {vector((1, -2), matrix)}\nmove bottom {vector((0, 0), matrix)}\n",
+    }
+    return STEEL + turned[name] + PLANE
+
+
+@pytest.mark.parametrize("name", ["symmetries", "one symmetry", "clamp", "move", "rotate", "force", "force along"])
+def test_turned_supports(tmp_path, name):
+    """A body turned with its supports and loads does the same, in any direction, to rounding."""
+    mesh = block(Mesh())
+    one, _ = bodies(tmp_path, mesh.text(), supports(name, np.eye(3)))
+    assert one["balance"] < 1e-12
+    for angle in TURNS:
+        matrix = turn(angle)
+        other, _ = bodies(tmp_path, mesh.text(matrix), supports(name, matrix))
+        assert other["energy"] == pytest.approx(one["energy"], rel=1e-10)
+        assert other["target"] == pytest.approx(one["target"], rel=1e-9, abs=1e-12)
+        size = abs(moved(one)).max()
+        if name != "one symmetry":  # free along it: grounded elsewhere
+            assert np.sort(np.linalg.norm(moved(other), axis=1)) == pytest.approx(
+                np.sort(np.linalg.norm(moved(one), axis=1)), abs=1e-9 * size
+            )
+
+
+def test_resultants(tmp_path):
+    """Pressure, traction and weight add up to what they say, also as rings about an axis."""
+    loads = "clamp bottom\npressure right 5\ntraction top 0.3 -0.7\nweight block 0 -0.2\n"
+    result, _ = bodies(tmp_path, block(Mesh()).text(), STEEL + loads + PLANE)
+    assert result["load"][[0, 1, 5]] == pytest.approx(
+        [-5 * 2 + 0.3 * 3, -0.7 * 3 - 0.2 * 6, 10 + 0.3 * 3 * -2 - 0.7 * 4.5 - 1.2 * 1.5]
+    )
+    assert result["reaction"][:2] == pytest.approx(-result["load"][:2])
+    ring = "state axisymmetric\n" + STEEL + "clamp bottom\ntraction top 0 -0.7\nweight block 0 -0.2\n"
+    result, _ = bodies(tmp_path, block(Mesh()).text(), ring + PLANE)
+    assert result["load"][1] == pytest.approx(-np.pi * 9 * (0.7 + 0.2 * 2))
+    assert abs(moved(result)[:, 0]).max() > 0
+
+
+def test_lame(tmp_path):
+    """A ring under inner pressure, axisymmetric between two symmetry planes: Lame's displacement."""
+    text = "state axisymmetric\n" + STEEL + "symmetry bottom\nsymmetry top\npressure left 2\n"
+    mesh = block(Mesh(), size=(1, 0.5), cells=(16, 4), at=(1, 0))
+    result, _ = bodies(tmp_path, mesh.text(), text + "obstacle right circle 100 100 R 1\n")
+    # plane strain, a = 1, b = 2: u(a) = (1 + nu)/E p a^2/(b^2 - a^2) ((1 - 2 nu) a + b^2/a)
+    assert moved(result)[:, 0].max() == pytest.approx(1.3 / 100 * 2 / 3 * (0.4 + 4), rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "held, free",
+    [
+        ("symmetry left", ["along y"]),
+        ("symmetry left\nsymmetry bottom", []),
+        ("symmetry left\nsymmetry right", ["along y"]),
+        ("", ["along x", "along y", "rotation"]),
+    ],
+)
+def test_free_motions(tmp_path, held, free):
+    """What the supports leave free, and that it is grounded: no load, no displacement, no singular matrix."""
+    two = block(block(Mesh()), at=(0, 5), prefix="far ", name="other")
+    case = STEEL + "body other E 1 nu 0\nclamp 'far bottom'\n".replace("'", '"') + held + '\ncontact top "far top"\n'
+    result, stdout = bodies(tmp_path, two.text(), case)
+    assert [line[6:] for line in stdout.splitlines() if line.startswith("free: ")] == [
+        f"block: {name}" for name in free
+    ]
+    assert abs(moved(result)).max() == 0
+
+
+def test_nothing_holds(tmp_path):
+    """A body that nothing holds and no contact touches is refused by name, with what is free."""
+    two = block(block(Mesh()), at=(0, 5), prefix="far ", name="other")
+    case = STEEL + 'body other E 1 nu 0\nclamp bottom\nobstacle top plane 0 9 0 -1\nsymmetry "far left"\n'
+    stdout = solve(tmp_path, two.text(), case, expect=10).stdout
+    assert "other: no contact touches it, and nothing holds it (other: along y); allowed: a clamp" in stdout
+
+
+@pytest.mark.parametrize(
+    "held, words",
+    [
+        (
+            "clamp left\nmove bottom 0 1",
+            "move bottom: line 2 moves its node at (0, 0) elsewhere; allowed: the same motion there",
+        ),
+        (
+            "clamp left\nforce bottom 0 1",
+            "force bottom: it cannot follow its force, because line 2 holds its node at (0, 0)",
+        ),
+        (
+            "symmetry left\nforce bottom 1 1",
+            "force bottom: it touches the symmetry left of line 2, across which it cannot follow",
+        ),
+        (
+            "symmetry left\nmove bottom 1 1",
+            "symmetry left: line 3 moves its node at (0, 0) across it; allowed: along it",
+        ),
+    ],
+)
+def test_supports_that_disagree(tmp_path, held, words):
+    """Two statements that hold one node in different places: refused with the place and both lines."""
+    assert words in solve(tmp_path, block(Mesh()).text(), STEEL + held + "\n" + PLANE, expect=10).stdout
+
+
+def test_curved_symmetry(tmp_path):
+    """A symmetry that is not flat has no one direction: refused."""
+    mesh = block(Mesh())
+    mesh.nodes = [(x, y + 0.1 * x * x, z) for x, y, z in mesh.nodes]
+    stdout = solve(tmp_path, mesh.text(), STEEL + "symmetry bottom\n" + PLANE, expect=10).stdout
+    assert "symmetry bottom: curved, or in several planes: its normal is " in stdout
+
+
+SPACE = "obstacle top sphere 100 100 100 R 1\n"
+
+
+@pytest.mark.parametrize("name", ["symmetries", "one symmetry", "rotate", "force"])
+def test_turned_in_space(tmp_path, name):
+    """The same in space, turned by random rotations."""
+
+    def case(matrix):
+        def v(*values):
+            return vector(values, matrix, 3)
+
+        return (
+            STEEL
+            + {
+                "symmetries": "symmetry left\nsymmetry bottom\nsymmetry back\npressure front -3\n",
+                "one symmetry": f"symmetry left\npressure front -3\npressure back -3\npressure top 0.5\npressure bottom 0.5\n",
+                "rotate": f"clamp back\nrotate front {v(3, 1, 0)} {v(1, 2, 0)} 0.05\n",
+                "force": f"symmetry left\nsymmetry back\nforce front {v(1, 0, 0)}\n",
+            }[name]
+            + SPACE.replace("100 100 100", v(100, 100, 100))
+        )
+
+    mesh = cube(Mesh())
+    one, said = bodies(tmp_path, mesh.text(), case(np.eye(3)), space=True)
+    assert one["balance"] < 1e-12
+    for seed in range(3):
+        matrix = turn_in_space(seed)
+        other, _ = bodies(tmp_path, mesh.text(matrix), case(matrix), space=True)
+        assert other["energy"] == pytest.approx(one["energy"], rel=1e-9)
+        assert len(np.atleast_1d(other["target"])) == len(np.atleast_1d(one["target"]))
+        assert other["balance"] < 1e-11
