@@ -320,7 +320,6 @@ END {
       no("line " loadLine[g] ": " nameOf[g] ": a " loadWord[g] " on what line " heldIn[g] " holds (" heldBy[g] ") does nothing; allowed: on another group")
   for (g in touches) any_ = 1
   if (!any_) no("no contact; allowed: at least one line contact or obstacle")
-  if (!supported) no("nothing is held: no clamp, symmetry, move, rotate, and no obstacle that stands or is moved; allowed: at least one of them")
   if (axial && thickness != 1) no("line " seen["thickness"] ": thickness with state axisymmetric; allowed: with strain and stress")
   print "units " units "\nstate " state "\nthickness " sprintf("%.17g", thickness)
   print "groups " groups

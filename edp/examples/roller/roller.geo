@@ -45,7 +45,7 @@ Physical Surface("lower") = {20};
 
 // elements grow away from the two places of contact; the plates' are finer, so that no two meshes match
 Field[1] = MathEval;
-Field[1].F = Sprintf("%g*(0.865+0.135*Tanh(1e3*(%g-Abs(y))))*(1+0.2*Sqrt(x*x+(Abs(y)-%g)^2)/%g)", size, radius, radius, 4 * size);
+Field[1].F = Sprintf("%g*(0.865+0.135*Tanh(1e3*(%g-Abs(y))))*(1+0.15*Sqrt(x*x+(Abs(y)-%g)^2)/%g)", size, radius, radius, size);
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
