@@ -182,7 +182,6 @@ function readObstacle(   g, v, shape, load, law, next_) {
   once("obstacle" SUBSEP g SUBSEP shape_, "this obstacle of " nameOf[g])
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
   touches[g] = FNR; slaves[g] = FNR
-  if (load != "force") supported = 1
   put(g, 0, shape, load, law, v)
 }
 function readContact(   a, b, v, law, pair) {
@@ -212,7 +211,6 @@ function readOther(   g, v, what) {
   g = group(what == "weight" ? dim : dim - 1)
   if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
   else once(what SUBSEP g, what " of " nameOf[g])
-  if (what ~ /^(clamp|symmetry|move|rotate)$/) supported = 1
   if (what ~ /^(move|force|traction|weight)$/) vector("the " what, 0, v, 0)
   if (what == "force") nonzero("the force", v, 0)
   if (what == "rotate") {
