@@ -139,9 +139,10 @@ GOOD = STEEL + "clamp bottom\nobstacle top circle 1.5 5 R 3 move 0 -0.1\n"
 
 
 def test_case_is_read(plane):
-    """Every statement of the plane, quotes, comments, blanks and the end of a line as other systems have it."""
+    """Every statement of the plane, quotes, comments, blanks, a line's end as other systems have it."""
     text = (
-        '\ufeff# a comment\r\nunits mm MPa # and another\n\nstate stress\nthickness 2.5\n\tbody "block" E 210e3 nu .3#x\n'
+        "\ufeff# a comment\r\nunits mm MPa # and another\n\nstate stress\nthickness 2.5\n"
+        '\tbody "block" E 210e3 nu .3#x\n'
         "clamp bottom\nmove left 0 -0.05\nobstacle top plane 0 3 0 -1 law power kappa 1e6 m 3 d0 -0.001\n"
         "pressure right 5\nweight block 0 -7.8e-5\n"
     )
@@ -470,7 +471,8 @@ def test_turned_in_space(tmp_path, name):
             STEEL
             + {
                 "symmetries": "symmetry left\nsymmetry bottom\nsymmetry back\npressure front -3\n",
-                "one symmetry": "symmetry left\npressure front -3\npressure back -3\npressure top 0.5\npressure bottom 0.5\n",
+                "one symmetry": "symmetry left\npressure front -3\npressure back -3\npressure top 0.5\n"
+                "pressure bottom 0.5\n",
                 "rotate": f"clamp back\nrotate front {v(3, 1, 0)} {v(1, 2, 0)} 0.05\n",
                 "force": f"symmetry left\nsymmetry back\nforce front {v(1, 0, 0)}\n",
             }[name]

@@ -1,9 +1,9 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk -f case-file.awk NAMES FILE
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages.
-# Gives: a plain table for bodies/parts.idp: "units" and its text, "state" and its word, "thickness" and its number; "groups", how many,
-#        then dimension and name of each group that is used, a line each: its number is its place; "statements", how many, then a
-#        line each: word, line of the file, its groups' numbers (two, 0: none), shape, what moves an obstacle, law (none: without)
-#        and 16 numbers (see put()). Or one line that says what is wrong where, and exit code 1.
+# Gives: a plain table for bodies/parts.idp: "units" and its text, "state" and its word, "thickness" and its number; "groups", how
+#        many, then dimension and name of each group that is used, a line each: its number is its place; "statements", how many,
+#        then a line each: word, line of the file, its groups' numbers (two, 0: none), shape, what moves an obstacle, law (none:
+#        without) and 16 numbers (see put()). Or one line that says what is wrong where, and exit code 1.
 # The grammar is the table of usages below; words that stand for a number are looked at in number().
 function no(what) {
   if (!finishing) what = "line " FNR ": " what
