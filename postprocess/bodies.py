@@ -148,7 +148,7 @@ def chains(bodies: Bodies) -> list[Chain]:
     for contact, chain in sorted(set(zip(table["contact"].tolist(), table["chain"].tolist(), strict=True))):
         rows = np.flatnonzero((table["contact"] == contact) & (table["chain"] == chain))
         along = (table["along"] if "along" in table else table["x"])[rows].copy()
-        loads = (table["weight"] * table["pressure"])[rows]
+        loads = (table["weight"] * np.maximum(table["pressure"], 0))[rows]
         closed = bodies.run.summary.get("contacts") or [{}]
         length = closed[contact].get("closed", {}).get(str(int(chain)))
         if length and loads.sum() > 0:
@@ -158,12 +158,20 @@ def chains(bodies: Bodies) -> list[Chain]:
             along = (along - middle + length / 2) % length - length / 2
             order = np.argsort(along)
             rows, along = rows[order], along[order]
+            rows, along = np.append(rows, rows[0]), np.append(along, along[0] + length)
         elif "along" in table and not np.array_equal(table["along"], table["x"]):
             along -= loads @ along / loads.sum() if loads.sum() > 0 else along.mean()
         place, normal = bodies.points[rows, :2], bodies.normals[rows, :2]
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
         found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, bodies.rigid[contact]))
     return found
+
+
+def tall(bodies: Bodies, box: np.ndarray) -> float:
+    """How high the greatest pressure stands (length) in a box of corners: not higher than the contact is long."""
+    most = bodies.table["contact"][bodies.table["pressure"].argmax()]
+    touched = bodies.points[bodies.touching(most), :2]
+    return min(0.16 * np.ptp(box, axis=0).min(), 0.5 * np.ptp(touched, axis=0).max())
 
 
 def plane_window(bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
@@ -207,16 +215,16 @@ def fill_plane(axes, bodies: Bodies, stress: bool):
             cells = place[grid.cells[grid.body == body], :2]
             colour = FILLS[number % len(FILLS)]
             axes.add_collection(PolyCollection(cells, facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
-    lines = place[grid.surface][:, :, :2]
+    lines = place[grid.skin][:, :, :2]
     axes.add_collection(LineCollection(lines, color=style.BLACK, linewidth=0.5, zorder=3))
     return colours
 
 
 def stand_pressure(axes, bodies: Bodies, height: float) -> None:
     """The pressure on the contacts' surfaces: as high as `height` (length) where it is greatest; rigid obstacles."""
-    tall = height / bodies.greatest
+    scale = height / bodies.greatest
     for chain in chains(bodies):
-        foot, top = chain.place, chain.place + tall * np.maximum(chain.pressure, 0)[:, None] * chain.normal
+        foot, top = chain.place, chain.place + scale * np.maximum(chain.pressure, 0)[:, None] * chain.normal
         carries = (chain.pressure[:-1] > 0) | (chain.pressure[1:] > 0)
         near = np.hypot(*np.diff(foot, axis=0).T) < 10 * np.median(np.hypot(*np.diff(foot, axis=0).T))
         walls = np.stack([foot[:-1], foot[1:], top[1:], top[:-1]], axis=1)[carries & near]
@@ -247,7 +255,7 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
     axes.set_xlim(min(shown) - margin, max(shown) + margin)
     axes.set_ylim(0, None)
     arc = "along" in bodies.table and not np.array_equal(bodies.table["along"], bodies.table["x"])
-    words = "along the surface, from the middle of the pressure" if arc else "$x$"
+    words = "arc length" if arc else "$x$"
     axes.set_xlabel(f"{words} [{units.length}]")
     axes.set_ylabel(f"pressure [{units.stress}]")
     if len(seen) > 1 or any(bodies.names):
@@ -268,7 +276,7 @@ def sight(azimuth: float, elevation: float) -> np.ndarray:
 def draw_shell(axes, bodies: Bodies, view: np.ndarray, values: np.ndarray | None, top: float):
     """The bodies' surface from outside, far parts first: each body in its colour, or by a field at the nodes."""
     grid = bodies.grid
-    seen = bodies.place[grid.surface] @ view.T
+    seen = bodies.place[grid.skin] @ view.T
     order = np.argsort(seen[:, :, 2].mean(axis=1))
     across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
     across /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
@@ -278,9 +286,9 @@ def draw_shell(axes, bodies: Bodies, view: np.ndarray, values: np.ndarray | None
         body = np.zeros(len(grid.points), int)
         body[grid.cells] = grid.body[:, None]
         fills = np.array([[int(fill[i : i + 2], 16) / 255 for i in (1, 3, 5)] for fill in FILLS])
-        colours = fills[[of[each] % len(FILLS) for each in body[grid.surface[:, 0]].tolist()]]
+        colours = fills[[of[each] % len(FILLS) for each in body[grid.skin[:, 0]].tolist()]]
     else:
-        colours = style.shades(values[grid.surface].mean(axis=1) / top)
+        colours = style.shades(values[grid.skin].mean(axis=1) / top)
     colours = colours * bright[:, None]
     faces = PolyCollection(seen[order][:, :, :2], facecolor=colours[order], edgecolor="face", linewidth=0.15)
     faces.set_rasterized(True)
@@ -319,10 +327,7 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units, top: fl
     touched = bodies.touching(contact)
     loads = bodies.table["weight"] * bodies.table["pressure"] * touched
     view, words = facing(loads @ bodies.normals)
-    of = np.full(len(surface.points), contact)
-    of[:count] = bodies.table["contact"]
-    own = np.where(surface.cells < count, of[surface.cells], contact)
-    cells = surface.cells[np.all(own == contact, axis=1) & np.any(surface.cells < count, axis=1)]
+    cells = surface.cells[surface.contact == contact]
     seen = (surface.points + bodies.scale * surface.move) @ view.T
     centre = loads @ seen[:count] / loads.sum()
     half = 1.25 * np.abs(seen[:count][touched] - centre)[:, :2].max(axis=0).max()

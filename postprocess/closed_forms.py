@@ -1,7 +1,7 @@
 """Contacts with a known answer, as functions of numbers: Hertz's line and ellipse, a pin in a hole, a press fit.
 
-Moduli are plane: contact_modulus gives them. Lengths, forces and pressures in any consistent units; in the plane a force
-is per unit of thickness. Each is for hard, frictionless contact of elastic bodies.
+Moduli are plane: contact_modulus gives them. Lengths, forces and pressures in any consistent units; in the plane a
+force is per unit of thickness. Each is for hard, frictionless contact of elastic bodies.
 """
 
 import numpy as np
@@ -87,10 +87,10 @@ def pin_pressure(angle: np.ndarray, half_angle: float) -> np.ndarray:
 def press_fit(
     radii: tuple[float, float, float], interference: float, inner: tuple[float, float], outer: tuple[float, float]
 ) -> float:
-    """The pressure between two rings: bore, joint and outside radius, radial interference, (E, nu) of each; plane strain.
+    """The pressure between two rings: bore, joint and outside radius, radial interference, (E, nu); plane strain.
 
-    Lame; Timoshenko and Goodier, Theory of Elasticity, 28: each ring's joint moves by p r ((q^2 + 1)/(q^2 - 1) -+ nu)/E, q its
-    radii's ratio, E and nu those of plane strain.
+    Lame; Timoshenko and Goodier, Theory of Elasticity, 28: each ring's joint moves by p r ((q^2 + 1)/(q^2 - 1) -+ nu)/E,
+    q its radii's ratio, E and nu those of plane strain.
     """
     bore, joint, outside = radii
 

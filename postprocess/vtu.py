@@ -2,6 +2,7 @@
 
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,14 @@ class Grid:
     body: np.ndarray = field(default_factory=lambda: NONE)
     label: np.ndarray = field(default_factory=lambda: NONE)
 
+    @cached_property
+    def skin(self) -> np.ndarray:
+        """The sides (s, c - 1) that belong to one cell alone: the bodies' whole boundary, named or not."""
+        count = self.cells.shape[1]
+        sides = np.concatenate([np.delete(self.cells, corner, axis=1) for corner in range(count)])
+        _, first, times = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+        return sides[first[times == 1]]
+
     @property
     def space(self) -> bool:
         return self.cells.shape[1] == 4
@@ -36,11 +45,15 @@ class Grid:
 
 @dataclass(frozen=True)
 class Surface:
-    """Where contact is possible: points, move (n, 3) lengths; cells (k, 2 or 3) from 0; pressure and overlap (n,)."""
+    """Where contact is possible: points, move (n, 3) lengths; cells (k, 2 or 3) from 0; pressure and overlap (n,).
+
+    contact (k,): the number of the contact that a cell belongs to.
+    """
 
     points: np.ndarray
     move: np.ndarray
     cells: np.ndarray
+    contact: np.ndarray
     pressure: np.ndarray
     overlap: np.ndarray
 
@@ -66,7 +79,10 @@ def read_surface(path: Path) -> Surface:
     points, move, pressure, overlap, types = wanted(path, found, "a contact surface", MOVE, PRESSURE, "overlap[length]")
     if len(types) == 0 or len(set(types)) > 1:
         raise ResultsError(path, "is not one surface")
-    return Surface(points, move, corners(path, found, types[0]), pressure, overlap)
+    contact = found.get(("CellData", "Label"), np.zeros(len(types), int))
+    if len(contact) != len(types):
+        raise ResultsError(path, "is truncated: its labels are not as many as its cells")
+    return Surface(points, move, corners(path, found, types[0]), contact, pressure, overlap)
 
 
 def read_arrays(path: Path) -> dict:

@@ -58,7 +58,7 @@ def test_ellipse(ratio):
 def test_pin(half_angle):
     """Pin and hole shall close their gap: the Fourier series of a disc's and a hole's radial displacements, summed.
 
-    (2/(pi E')) int p (-2 cos t ln(2 sin(|t|/2)) - 1/2 - cos(t)/2) + dR/R = D cos(theta), t: the angles' difference, any D.
+    (2/(pi E')) int p (-2 cos t ln(2 sin(|t|/2)) - 1/2 - cos(t)/2) + dR/R = D cos(theta), t: the difference, any D.
     """
 
     def of(u, theta, end):

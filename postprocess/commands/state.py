@@ -39,20 +39,22 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False) -> Figure
     whole, close = drawn.plane_window(bodies)
     zoom = np.ptp(close[:, 0]) < 0.5 * np.ptp(whole[:, 0])
     windows = [whole, close] if zoom else [whole]
-    tall = [min(1.1, max(0.3, np.ptp(box[:, 1]) / np.ptp(box[:, 0]))) for box in windows] + [0.5]
-    inches = style.COLUMN * (sum(tall) * 0.82 + 0.17 * len(tall))
+    # the boxes' own shape beside labels and colour bar
+    wide = 0.68 if stress else 0.84
+    tall = [min(1.0, max(0.25, np.ptp(box[:, 1]) / np.ptp(box[:, 0]))) * wide for box in windows] + [0.42]
+    inches = style.COLUMN * (sum(tall) + 0.18 * len(tall))
     figure = Figure(figsize=(style.COLUMN, inches), layout="constrained")
     panels = figure.subplots(len(tall), 1, height_ratios=tall)
     for axes, box in zip(panels, windows, strict=False):
         colours = drawn.fill_plane(axes, bodies, stress)
-        drawn.stand_pressure(axes, bodies, 0.16 * np.ptp(box, axis=0).min())
+        drawn.stand_pressure(axes, bodies, drawn.tall(bodies, box))
         axes.set_xlim(*box[:, 0])
         axes.set_ylim(*box[:, 1])
         axes.set_aspect("equal")
         axes.set_xlabel(f"$x$ [{units.length}]")
         axes.set_ylabel(f"$y$ [{units.length}]")
         if colours is not None:
-            figure.colorbar(colours, ax=axes, label=f"von Mises [{units.stress}]", pad=0.01, aspect=15)
+            figure.colorbar(colours, ax=axes, label=f"von Mises [{units.stress}]", pad=0.01, aspect=18, shrink=0.95)
     if zoom:
         size = np.ptp(close, axis=0)
         panels[0].add_patch(Rectangle(close[0], *size, fill=False, linewidth=0.6, zorder=6))
