@@ -1,6 +1,7 @@
 """Bodies of any shape: the case file and its refusals, supports and loads, floating bodies, turned problems."""
 
 import itertools
+import json
 import os
 import subprocess
 
@@ -342,7 +343,7 @@ def supports(name, matrix):
     """Cases without contact: every kind of support and load."""
     turned = {
         "symmetries": "symmetry left\nsymmetry bottom\npressure right -3\n",
-        "one symmetry": f"symmetry left\npressure right -3\ntraction top {vector((2, 0), matrix)}\npressure left 1\n",
+        "one symmetry": f"symmetry left\npressure right -3\ntraction top {vector((2, 0), matrix)}\n",
         "clamp": f"clamp left\ntraction right {vector((1, 2), matrix)}\nweight block {vector((0, -1), matrix)}\n",
         "move": f"clamp left\nmove right {vector((0.1, 0.02), matrix)}\n",
         "rotate": f"clamp left\nrotate right {vector((4, 1), matrix)} 0.05\n",
@@ -488,3 +489,92 @@ def test_turned_in_space(tmp_path, name):
         assert other["energy"] == pytest.approx(one["energy"], rel=1e-9)
         assert len(np.atleast_1d(other["target"])) == len(np.atleast_1d(one["target"]))
         assert other["balance"] < 1e-11
+
+
+# ---------------------------------------------------------------- with contact
+
+STACK = """body block E 100 nu 0.3
+body upper E 100 nu 0.3
+contact top "upper bottom"
+"""
+
+
+def stack(matrix=UNTURNED):
+    """Two blocks of the same width on each other, their meshes differ."""
+    mesh = block(Mesh(), size=(3, 1), cells=(12, 4))
+    return block(mesh, size=(3, 1), cells=(19, 6), at=(0, 1), prefix="upper ", name="upper").text(matrix)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("held", ["", 'symmetry "upper left"\n', 'symmetry "upper left"\nsymmetry "upper right"\n'])
+def test_floating_patch(tmp_path, order, held):
+    """A block that lies free on another one under a uniform pressure: uniform, whatever its sides slide on."""
+    below = "symmetry bottom\nsymmetry left\n" + ("symmetry right\n" if "right" in held else "")
+    run = solve(tmp_path, stack(), STACK + below + held + 'pressure "upper top" 2\n', "-order", order, "-tol", 1e-10)
+    assert run.contact["pressure"] == pytest.approx(2, rel=1e-8)
+    assert run.force == pytest.approx(6, rel=1e-9)
+    assert run.reactionY == pytest.approx(6, rel=1e-9)
+    assert run.summary["newton"] <= 6
+
+
+@pytest.mark.parametrize("angle", TURNS)
+def test_turned_contact(tmp_path, angle):
+    """Floating, pushed and moved bodies in contact, turned: the same counts, the same pressures."""
+
+    def case(matrix):
+        sides = f'clamp bottom\nsymmetry "upper left"\nforce "upper top" {vector((0, -5), matrix)}\n'
+        wall = f"{vector((3.2, 0), matrix)} {vector((-1, 0), matrix)} move {vector((-0.25, 0), matrix)}"
+        return f"{STACK}{sides}obstacle right plane {wall}\n"
+
+    results = []
+    for matrix in (UNTURNED, turn(angle)):
+        results.append(solve(tmp_path, stack(matrix), case(matrix)))
+    one, other = results
+    assert other.summary["newton"] == one.summary["newton"] and other.summary["backsolves"] == one.summary["backsolves"]
+    assert other.contact["pressure"] == pytest.approx(one.contact["pressure"], abs=1e-9 * one.pressureMax)
+    assert one.contact["pressure"][one.contact["contact"] == 1].max() > 0
+
+
+def test_thickness(tmp_path):
+    """A force on a plate twice as thick presses like half of it."""
+    case = STACK + "clamp bottom\n" + 'force "upper top" 0 -{}\n'
+    one = solve(tmp_path, stack(), case.format(3))
+    other = solve(tmp_path, stack(), "thickness 2\n" + case.format(6))
+    assert other.contact["pressure"] == pytest.approx(one.contact["pressure"], rel=1e-9)
+
+
+def test_nothing_resists(tmp_path):
+    """A load on a motion that nothing resists is refused by the body's name; without one it is fixed and said."""
+    free = solve(tmp_path, stack(), STACK + 'clamp bottom\npressure "upper top" 2\n')
+    assert "upper: along x: fixed, no gap feels it and no load works on it" in free.stdout
+    pushed = STACK + 'clamp bottom\npressure "upper top" 2\ntraction "upper left" 0.1 0\n'
+    said = solve(tmp_path, stack(), pushed, expect=10).stdout
+    assert "upper: along x: a load works on it, but no contact, support or symmetry resists it" in said
+
+
+def test_check(tmp_path):
+    """-check 1 says what it read, writes files to draw it, and solves nothing."""
+    run = solve(tmp_path, stack(), "units mm MPa\n" + STACK + 'clamp bottom\npressure "upper top" 2\n', "-check", 1)
+    said = run.stdout
+    assert "block: held by clamp bottom" in said and "upper: held by contact only" in said
+    for motion in ("along x", "along y", "rotation"):
+        assert f"    free: upper: {motion}" in said
+    assert "top upper bottom: 25 points, 25 with something opposite, gaps from " in said and "hard contact" in said
+    assert "newton" not in said
+    folder = tmp_path / "out/check"
+    assert sorted(file.name for file in folder.glob("check*")) == [
+        "check-boundary.csv",
+        "check-points.csv",
+        "check.json",
+    ]
+    found = json.loads((folder / "check.json").read_text())
+    assert [body["name"] for body in found["bodies"]] == ["block", "upper"]
+    assert found["contacts"][0]["paired"] == 25
+    assert not (tmp_path / "out/summary.json").exists()
+
+
+def test_facing_nothing(tmp_path):
+    """Surfaces that do not face each other are refused with the line."""
+    case = STACK.replace('"upper bottom"', '"upper top"') + "clamp bottom\n"
+    said = solve(tmp_path, stack(), case, expect=10).stdout
+    assert "line 3: contact top: nothing lies opposite it; allowed: surfaces that face each other" in said
