@@ -27,7 +27,17 @@ no() {
 test -d "$file" && no "a folder, no mesh"
 test -r "$file" || no "may not be read"
 how=
-case $file in *.geo) how=-$((2 + ${space:-0})) ;; esac
+case $file in *.geo)
+    how=-$((2 + ${space:-0}))
+    # kept as the package's own meshes are, if it stands for itself: what it includes may change unseen
+    generated=$meshes/generated
+    kept=$generated/own-$(cksum < "$file" | tr ' ' -)$how.msh
+    if ! grep -qiE 'merge|include|shapefromfile' "$file" && mkdir -p "$generated" 2> /dev/null \
+        && sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" -v 1 -format msh22; then
+        file=$kept
+        how=
+    fi ;;
+esac
 # the second line of gmsh's format: version, 0 for text or 1 for binary, size of a real
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
 if test -n "$how"; then
