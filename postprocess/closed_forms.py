@@ -89,7 +89,7 @@ def press_fit(
 ) -> float:
     """The pressure between two rings: bore, joint and outside radius, radial interference, (E, nu); plane strain.
 
-    Lame; Timoshenko and Goodier, Theory of Elasticity, 28: each ring's joint moves by p r ((q^2 + 1)/(q^2 - 1) -+ nu)/E,
+    Lame; Timoshenko and Goodier, Theory of Elasticity, 28: a ring's joint moves by p r ((q^2 + 1)/(q^2 - 1) -+ nu)/E,
     q its radii's ratio, E and nu those of plane strain.
     """
     bore, joint, outside = radii
