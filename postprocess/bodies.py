@@ -311,8 +311,10 @@ def draw_shell(axes, bodies: Bodies, view: np.ndarray, values: np.ndarray | None
 
 
 def facing(normal: np.ndarray) -> tuple[np.ndarray, list[str]]:
-    """The view along a normal, from outside, and what its axes are called: coordinates where they are such."""
+    """The view along a normal, from outside, and what its axes are called: coordinates where they nearly are such."""
     normal = normal / np.linalg.norm(normal)
+    if np.abs(normal).max() > 0.995:
+        normal = np.round(normal)
     first = np.eye(3)[0 if abs(normal[0]) < 0.9 else 1]
     right = first - (first @ normal) * normal
     view = np.array([right / np.linalg.norm(right), np.zeros(3), normal])

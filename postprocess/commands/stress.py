@@ -69,8 +69,11 @@ def draw_section(axes, bodies: Bodies, units: style.Units):
     axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.5))
     touched = bodies.points[bodies.touching(int(bodies.table["contact"][at]))] @ frame.T
     middle, half = bodies.points[at] @ frame.T, 1.5 * np.ptp(touched, axis=0).max()
-    axes.set_xlim(middle[0] - half, middle[0] + half)
-    axes.set_ylim(middle[2] - 0.75 * half, middle[2] + 0.75 * half)
+    for limits, at, reach, values in (
+        (axes.set_xlim, middle[0], half, pieces[..., 0]),
+        (axes.set_ylim, middle[2], 0.75 * half, pieces[..., 1]),
+    ):
+        limits(max(at - reach, values.min()), min(at + reach, values.max()))
     axes.set_aspect("equal")
     normal = next((f"${name}$" for k, name in enumerate("xyz") if abs(flat[2][k]) > 1 - 1e-9), "along the normal")
     axes.set_xlabel(f"{words[0]} [{units.length}]")

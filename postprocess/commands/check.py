@@ -1,0 +1,164 @@
+"""draw what a run with -check 1 has read: mesh, groups, contact points with their normals, what is held
+
+RUN is the result folder of a run of parts.edp or parts-3d.edp with -check 1, or its folder check. Written are
+check.pdf and check.png beside the files of the check, or what --out names. Each group of the boundary that the case
+file names has a colour, its statement stands beside it; a line at each contact point is its normal, as long as its
+gap or as the elements around, whichever is less.
+"""
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from postprocess import bodies as drawn
+from postprocess import style
+from postprocess.output import enter, write_figure
+from postprocess.results import ResultsError, brief, check_file, read_table
+from postprocess.vtu import CORNERS, corners, read_arrays
+
+COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8C510A", "#35978F")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    style.add_picture(parser, "check")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Reads the check's files, draws them, writes both files and prints their paths."""
+    given = Path(arguments.folder)
+    folder = given / "check" if (given / "check").is_dir() else given
+    out = Path(arguments.out) if arguments.out else folder / "check.pdf"
+    with style.look():
+        figure = draw(folder, drawn.sight(*arguments.view))
+        if not arguments.out:
+            enter(folder, ["check.pdf", "check.png"])
+        for path in write_figure(figure, out):
+            print(path)
+
+
+def draw(folder: Path, view: np.ndarray) -> Figure:
+    """The figure, one column wide."""
+    said = read_said(folder / "check.json")
+    found = read_arrays(folder / "check-mesh.vtu")
+    at, types = found["Points", None].reshape(-1, 3), found["Cells", "types"]
+    label = found["CellData", "Label"]
+    solid = 10 if np.any(types == 10) else 5
+    shell = 5 if solid == 10 else 3
+    cells, sides = (corners(folder / "check-mesh.vtu", found, kind) for kind in (solid, shell))
+    points = read_table(folder / "check-points.csv", "contact x y z nx ny nz gap paired".split())
+    plane = solid == 5
+    figure = Figure(figsize=(style.COLUMN, (1.95 if plane else 1.35) * style.COLUMN), layout="constrained")
+    axes, *close = figure.subplots(2, 1, height_ratios=[1, 0.62]) if plane else [figure.subplots()]
+    groups = label[types == shell]
+    colours = {int(group): COLOURS[k % len(COLOURS)] for k, group in enumerate(np.unique(groups[groups > 0]))}
+    paint = draw_plane if plane else draw_solid
+    for panel in (axes, *close):
+        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view)
+        draw_points(panel, points, np.eye(3) if plane else view, size, panel in close or not plane)
+    for panel in close:
+        near = np.argmin(np.where(points["paired"] > 0, np.abs(points["gap"]), np.inf))
+        reach = 8 * size + 2 * abs(points["gap"][near])
+        panel.set_xlim(points["x"][near] - reach, points["x"][near] + reach)
+        panel.set_ylim(points["y"][near] - 0.6 * reach, points["y"][near] + 0.6 * reach)
+    entries = [Line2D([], [], color=colour, linewidth=2) for colour in colours.values()]
+    entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
+    words = [style.plain(role(said, group)) for group in colours]
+    figure.legend(entries, [*words, "contact points and normals"], loc="outside lower left", ncols=1)
+    held = "\n".join(
+        f"{brief(str(body['name']))}: held by {brief(str(body['held']))}"
+        + ("; free: " + ", ".join(word.partition(": ")[2] for word in body["free"]) if body["free"] else "")
+        for body in said["bodies"]
+    )
+    axes.set_title(style.plain(held), loc="left", fontsize=6.5)
+    return figure
+
+
+def read_said(path: Path) -> dict:
+    """check.json, with the lists that are drawn."""
+    check_file(path, "; run the case with -check 1")
+    try:
+        said = json.loads(path.read_text(encoding="utf-8"))
+        if not all(isinstance(said[key], list) for key in ("groups", "statements", "bodies", "contacts")):
+            raise ValueError
+    except (ValueError, KeyError, TypeError):
+        raise ResultsError(path, "is not what -check 1 writes") from None
+    return said
+
+
+def role(said: dict, group: int) -> str:
+    """A group's name, and the statements about it."""
+    name = str(said["groups"][group - 1])
+    words = [each["word"] for each in said["statements"] if each.get("group") == group and each["word"] != "contact"]
+    for contact in said["contacts"]:
+        slave, _, master = str(contact["name"]).partition(" ")
+        words += [f"slave of {master}"] if slave == name else []
+        words += [f"master of {slave}"] if master == name else []
+    return f"{name}: {', '.join(dict.fromkeys(words))}" if words else name
+
+
+def draw_plane(axes, at, cells, parts, sides, groups, colours, _view) -> float:
+    """Elements in their bodies' colours, the groups' edges on them; the size of an element at the groups."""
+    place = at[:, :2]
+    for number, part in enumerate(np.unique(parts)):
+        fill = drawn.FILLS[number % len(drawn.FILLS)]
+        look = {"facecolor": fill, "edgecolor": "#9A9A9A", "linewidth": 0.12}
+        axes.add_collection(PolyCollection(place[cells[parts == part]], **look))
+    for group, colour in colours.items():
+        axes.add_collection(LineCollection(place[sides[groups == group]], color=colour, linewidth=1.4))
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_xlabel("$x$")
+    axes.set_ylabel("$y$")
+    edges = place[sides[:, 1]] - place[sides[:, 0]]
+    return float(np.median(np.hypot(*edges.T)))
+
+
+def draw_solid(axes, at, cells, _parts, sides, groups, colours, view) -> float:
+    """The boundary from outside, far parts first, named groups in their colours; the size of an element there."""
+    every = np.concatenate([np.delete(cells, corner, axis=1) for corner in range(CORNERS[10])])
+    key, first, times = np.unique(np.sort(every, axis=1), axis=0, return_index=True, return_counts=True)
+    skin = every[first[times == 1]]
+    named = {tuple(side): int(group) for side, group in zip(np.sort(sides, axis=1).tolist(), groups, strict=True)}
+    of = [named.get(tuple(side), 0) for side in key[times == 1].tolist()]
+    fills = np.array([[int(colours.get(group, "#DDDDDD")[i : i + 2], 16) / 255 for i in (1, 3, 5)] for group in of])
+    seen = at[skin] @ view.T
+    across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
+    across /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+    shade = (0.62 + 0.38 * np.abs(across @ drawn.LIGHT))[:, None]
+    order = np.argsort(seen[:, :, 2].mean(axis=1))
+    mixed = (0.45 + 0.55 * fills) * shade
+    look = {"facecolor": mixed[order], "edgecolor": "#707070", "linewidth": 0.08}
+    axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **look))
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    return float(np.median(np.linalg.norm(at[sides[:, 1]] - at[sides[:, 0]], axis=1)))
+
+
+def draw_points(axes, points: dict, view: np.ndarray, size: float, shown: bool) -> None:
+    """A dot at each contact point with something opposite, and its normal, where these can be seen."""
+    if not shown:
+        return
+    paired = points["paired"] > 0
+    at, normal = (
+        np.column_stack([points[name] for name in names])[paired] @ view.T
+        for names in (("x", "y", "z"), ("nx", "ny", "nz"))
+    )
+    long = np.clip(np.abs(points["gap"][paired]), 0.3 * size, size)[:, None]
+    axes.plot(
+        at[:, 0],
+        at[:, 1],
+        linestyle="none",
+        marker="o",
+        markersize=1.2 if np.ptp(at[:, 2]) == 0 else 0.5,
+        markeredgewidth=0,
+        color=style.BLACK,
+        zorder=5,
+    )
+    lines = np.stack([at[:, :2], (at + long * normal)[:, :2]], axis=1)
+    axes.add_collection(LineCollection(lines, color=style.BLACK, linewidth=0.3, zorder=5))
