@@ -578,3 +578,39 @@ def test_facing_nothing(tmp_path):
     case = STACK.replace('"upper bottom"', '"upper top"') + "clamp bottom\n"
     said = solve(tmp_path, stack(), case, expect=10).stdout
     assert "line 3: contact top: nothing lies opposite it; allowed: surfaces that face each other" in said
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_turned_contact_in_space(tmp_path, seed):
+    """A box that lies free on another one, one side on a symmetry plane, turned: the same counts, the same pressures."""
+    case = STACK + 'clamp bottom\nsymmetry "upper left"\npressure "upper top" 2\n'
+    mesh = cube(Mesh(), cells=(4, 4, 2))
+    cube(mesh, cells=(3, 5, 2), at=(0, 0, 1), prefix="upper ", name="upper")
+    results = []
+    for matrix in (UNTURNED, turn_in_space(seed)):
+        results.append(solve(tmp_path, mesh.text(matrix), case, "-tol", 1e-9, script="parts-3d.edp"))
+    one, other = results
+    assert one.summary["newton"] == other.summary["newton"]
+    pressures = [np.sort(run.contact["pressure"]) for run in results]
+    assert pressures[1] == pytest.approx(pressures[0], abs=1e-8 * one.pressureMax)
+    assert np.linalg.norm(one.summary["contacts"][0]["force"]) == pytest.approx(8, rel=1e-9)
+
+
+def test_second_order_mesh(tmp_path):
+    """The nodes in the middle of a second-order mesh's sides, on the user's own surface, take the spline's place."""
+    geo = (ROOT / "edp/examples/pin-in-hole/pin-in-hole.geo").read_text().replace("size = {0.5,", "size = {2,")
+    case = (ROOT / "edp/examples/pin-in-hole/pin-in-hole.case").read_text()
+    folder = tmp_path / "a b'c"
+    folder.mkdir()
+    (folder / "pin.geo").write_text(geo)
+    (folder / "pin.case").write_text(case)
+    pressures = []
+    for order in (1, 2):
+        more = ["-order", str(order), "-v", "1"] if order == 2 else ["-v", "1"]
+        execute(["gmsh", "-2", *more, folder / "pin.geo", "-o", folder / "pin.msh"])
+        code, stdout = run_parts(folder, "pin.msh", "pin.case")
+        assert code == 0, stdout[-2000:]
+        assert f"mesh of {('first', 'second')[order - 1]} order" in stdout
+        pressures.append(Run(code, stdout, folder / "out").pressureMax)
+        (folder / "pin.msh").unlink()
+    assert pressures == pytest.approx([225, 225], rel=0.02)  # edges of a fifth of the radius
