@@ -582,7 +582,7 @@ def test_facing_nothing(tmp_path):
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_turned_contact_in_space(tmp_path, seed):
-    """A box that lies free on another one, one side on a symmetry plane, turned: the same counts, the same pressures."""
+    """A box that lies free on another one, one side on a symmetry plane, turned: the same counts and pressures."""
     case = STACK + 'clamp bottom\nsymmetry "upper left"\npressure "upper top" 2\n'
     mesh = cube(Mesh(), cells=(4, 4, 2))
     cube(mesh, cells=(3, 5, 2), at=(0, 0, 1), prefix="upper ", name="upper")
