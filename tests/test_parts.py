@@ -564,6 +564,7 @@ def test_check(tmp_path):
     folder = tmp_path / "out/check"
     assert sorted(file.name for file in folder.glob("check*")) == [
         "check-boundary.csv",
+        "check-mesh.vtu",
         "check-points.csv",
         "check.json",
     ]
