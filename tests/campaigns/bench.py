@@ -168,7 +168,7 @@ def growth(_root: Path) -> list[campaign.Case]:
                 add("growth", scene, law, h, 2)
     for kappa in KAPPAS:
         for m in EXPONENTS:
-            add("cost", "disc-on-block", (kappa, m), ONE_SIZE["disc-on-block"][2], 2, repeats=1)
+            add("cost", "disc-on-block", (kappa, m), ONE_SIZE["disc-on-block"][2], 2)
     for scene, sizes in ONE_SIZE.items():
         for order, h in sizes.items():
             for law in GROWTH_LAWS:

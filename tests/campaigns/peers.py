@@ -33,6 +33,7 @@ PACKAGE_PLANE = [
     ({"order": 2}, (0.5, 0.25)),
     ({"order": 4, "grading": 60, "corners": 0.1}, (1, 0.5, 0.25)),
     ({"order": 4, "grading": 120, "corners": 0.1}, (0.5,)),
+    ({"order": 4, "grading": 60}, (0.5,)),
 ]
 # With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
 PACKAGE_PLANE_ENDS = [
