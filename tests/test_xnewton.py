@@ -31,6 +31,18 @@ def test_counts(law, order):
     assert done.summary["used"]["kernel"] is True
 
 
+@pytest.mark.parametrize(
+    "flags",
+    [["-law", "signorini", "-ends", 4.239], ["-kappa", 1e12, "-ends", 4.245], ["-kappa", 1e9, "-ends", 4.272]],
+    ids=str,
+)
+def test_counts_on_points_that_shrink_to_the_ends(flags):
+    """Points of very different distances, 1:86, shall cost no more linearisations than even ones."""
+    done = run("disc-on-block", *BASE, *flags, "-h", 0.5, "-order", 2)
+    assert done.newton <= 4
+    assert done.backsolves <= 20
+
+
 @pytest.mark.parametrize("law", [["-kappa", 1e3], ["-kappa", 1e9], ["-law", "exponential"]], ids=str)
 def test_cold_start(law):
     """Without the half-plane start 10 linearisations shall do, and 16 with a wall that is met."""

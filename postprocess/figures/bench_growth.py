@@ -57,8 +57,8 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.grid(color="0.9", linewidth=0.5)
     seconds.set_yscale("log")
     memory.set_yscale("log")
-    ratio.axhline(2, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
-    ratio.set_ylim(1, max(2.2, 1.1 * np.nanmax(numbers([row for row in rows if good(row)], "costRatio"))))
+    ratio.axhline(1.25, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
+    ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if good(row)], "costRatio"))))
     figure.legend(loc="outside upper center", ncols=3)
     return figure
 

@@ -40,9 +40,6 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
 def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float | None = None) -> Figure:
     """Heat maps of the greatest count among the rows that share kappa and m, or a law: a panel for each group."""
     every = [row for rows in groups.values() for row in rows]
-    power = select(every, law="power")
-    kappas = sorted({number(row, "kappa") for row in power})
-    exponents = sorted({number(row, "m") for row in power})
     others = [name for name in LAWS if any(row["law"] != "power" and law(row) == name for row in every)]
     counted = [number(row, measure) for row in every if good(row)]
     scale = LogNorm(1, most or max([10, *counted]))
@@ -54,6 +51,9 @@ def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float 
     figure.suptitle(f"{title} (hatched: failed)", fontsize=9, x=0.01, ha="left")
     outer = figure.add_gridspec(high, wide)
     for place, (name, rows) in enumerate(groups.items()):
+        power = select(rows, law="power")
+        kappas = sorted({number(row, "kappa") for row in power})
+        exponents = sorted({number(row, "m") for row in power})
         inner = outer[divmod(place, wide)].subgridspec(2, 1, height_ratios=[len(kappas), 1.0], hspace=0.02)
         above, below = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
         cells = [[select(rows, law="power", kappa=kappa, m=m) for m in exponents] for kappa in kappas]

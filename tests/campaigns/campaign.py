@@ -524,6 +524,12 @@ def decade(number: float) -> str:
     return f"{mantissa}e{int(exponent)}" if int(exponent) else mantissa
 
 
+def signed(number: float) -> str:
+    """A difference, short: −1.5e-3."""
+    mantissa, exponent = f"{abs(number):.1e}".split("e")
+    return f"{'−' if number < 0 else ''}{mantissa}e{int(exponent)}"
+
+
 def markdown(header: list[str], rows: list[list[object]]) -> str:
     """A table for a README."""
     lines = [header, ["---"] * len(header), *rows]

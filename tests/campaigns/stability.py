@@ -16,7 +16,7 @@ from pathlib import Path
 import campaign
 import numpy as np
 import reference
-from campaign import case, decade, markdown, select, value
+from campaign import case, decade, markdown, select, signed, value
 
 FOLDER = campaign.ROOT / "results" / "stability"
 COLUMNS = ("stepsPerModel", "rounds", "masterForce", "approach")
@@ -33,10 +33,16 @@ OTHER = [
 HARD = {"law": "signorini"}
 LAWS = POWER + OTHER
 TABLE = {"law": "table", "table": "table.csv"}
-SAMPLE = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1e3, 1e12) for m in (1.05, 3, 20)] + OTHER
+# The corners of the box and two laws inside it; a few laws; those that all methods are run with.
+SAMPLE = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1e30) for m in (1.05, 30)]
+SAMPLE += [{"law": "power", "kappa": kappa, "m": 3} for kappa in (1e3, 1e12)] + OTHER
 STIFF = [
     {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3), (1e30, 30))
 ]
+FEW = [STIFF[0], STIFF[3], STIFF[4]]
+METHOD_LAWS = [
+    {"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1.0, 1e3, 1e12, 1e30) for m in (1.05, 3, 10, 30)
+] + OTHER
 
 TOL = 1e-8
 GAP, D0, U0, SIZE = 0.5, -0.25, 2.5, 40.0  # the paper's test
@@ -45,9 +51,10 @@ COARSE = [
 ]
 FINE = [{"h": h, "order": order, "grading": 80} for h in (0.05, 0.025) for order in (1, 2)]
 FINE += [{"h": h, "order": 4, "grading": 80} for h in (0.1, 0.05)]
-FINEST = [mesh for mesh in FINE if mesh["h"] == (0.05 if mesh["order"] == 4 else 0.025)]  # for SAMPLE and STIFF
+FINEST = [mesh for mesh in FINE if mesh["h"] == (0.05 if mesh["order"] == 4 else 0.025)]  # for FEW; the others SAMPLE
+SMALL = [mesh for mesh in COARSE if mesh["h"] >= 0.5 and mesh != {"h": 0.5, "order": 4}]  # one a degree
 RIVALS = {"h": 0.5, "order": 2}  # the mesh that all methods are run on
-COMPARED = COARSE[:3]  # every law by plain Newton; on the other coarse meshes SAMPLE
+MAP = {"h": 0.1, "order": 2}  # that of the table of counts over stiffness and exponent
 # a guess of one xnewton run
 SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 1.0, (1.0, 4): 0.35, (0.5, 4): 0.4, (0.1, 4): 2.0}
 SECONDS |= {(0.05, 1): 0.8, (0.05, 2): 2.5, (0.025, 1): 2.0, (0.025, 2): 5.5, (0.05, 4): 5.5}
@@ -72,7 +79,7 @@ def weight(h: float = 0.25, order: int = 1, **_) -> float:
 
 def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     """The whole map, for the scenes and methods that `root` has: the default method first, its grid before all."""
-    found = extreme() + steel() + further() + bodies()
+    found = extreme() + steel() + further() + bodies() + documented()
 
     def add(name, *parts, factor=1.0, **flags):
         merged = {"tol": TOL}
@@ -81,44 +88,46 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         merged |= flags
         found.append(case(name, weight=factor * weight(**merged), **{"method": "xnewton", **merged}))
 
-    # the grid: every law, stiffness and mesh; then other first thresholds, no start
+    # the grid: every law and stiffness on the coarse meshes, some on the fine ones; other first thresholds, no start
     for mesh in COARSE + FINE:
         add("grid", HARD, mesh, T0="auto")
-        if mesh in COMPARED:
+        if mesh in SMALL:
             add("grid", HARD, mesh, method="signorini", factor=5)
-    for law in LAWS:
-        for mesh in COARSE + FINE:
-            if mesh not in FINEST or law in SAMPLE + STIFF:
-                add("grid", law, mesh, T0="auto")
-            if mesh in COARSE or (law in SAMPLE and mesh not in FINEST):
-                add("no start", law, mesh, T0="auto", start="none", factor=1.3)
+        for law in LAWS if mesh in COARSE else FEW if mesh in FINEST else SAMPLE:
+            add("grid", law, mesh, T0="auto")
+    for law in SAMPLE:
         for mesh in COARSE:
+            add("no start", law, mesh, T0="auto", start="none", factor=1.3)
+        for mesh in SMALL:
             for start in STARTS.values():
                 add("threshold", law, mesh, start)
-    # the same laws by the other methods, on one mesh; plain Newton on all the coarse ones, to compare with
+            if mesh != RIVALS:
+                add("rival", law, mesh, method="newton", factor=5)
+    # the other methods on one mesh
     for law in LAWS:
-        for mesh in COARSE:
-            if mesh in COMPARED or (law in SAMPLE and mesh != COARSE[-1]):
-                add("rival", law, mesh, method="newton", factor=10)
-        add("rival", law, RIVALS, method="linesearch", factor=10)
-        add("rival", law, RIVALS, method="paper", T0="0", factor=10)
-        add("rival", law, RIVALS, method="paper", T0="d0", factor=10)
-        add("rival", law, RIVALS, method="incremental", steps=5, factor=25)
+        add("rival", law, RIVALS, method="newton", factor=3)
+    for law in METHOD_LAWS:
+        add("rival", law, RIVALS, method="linesearch", factor=3)
+        add("rival", law, RIVALS, method="paper", T0="0", factor=3)
+        add("rival", law, RIVALS, method="paper", T0="d0", factor=3)
+        add("rival", law, RIVALS, method="incremental", steps=5, factor=10)
         if campaign.has_ipopt(root):
-            add("rival", law, RIVALS, method="ipopt", factor=10)
+            add("rival", law, RIVALS, method="ipopt", factor=3)
     # loads
     for u0 in LOADS.values():
         for law in SAMPLE:
-            for mesh in COARSE:
+            for mesh in SMALL:
                 add("load", law, mesh, u0=u0)
+        for law in FEW + OTHER[::3]:
             for method in ("newton", "paper"):
-                add("load", law, {"h": 0.5, "order": 1}, u0=u0, method=method, factor=10)
+                add("load", law, {"h": 0.5, "order": 1}, u0=u0, method=method, factor=5)
     # other scenes
-    for law in [*SAMPLE, TABLE]:
-        for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block"):
-            for mesh in ({"h": 0.5, "order": 1}, {"h": 0.25, "order": 2}, {"h": 0.1, "order": 1}):
+    for scene in ("meshed-disc", "wavy", "flat-punch", "confined-block"):
+        for law in [*SAMPLE, TABLE]:
+            for mesh in ({"h": 0.5, "order": 1}, {"h": 0.25, "order": 2}):
                 add("scene", law, mesh, scene=scene)
-            add("scene", law, {"h": 0.5, "order": 1}, scene=scene, method="newton", factor=10)
+        for law in [*FEW, TABLE]:
+            add("scene", law, {"h": 0.5, "order": 1}, scene=scene, method="newton", factor=5)
     for order in (1, 2):
         add("scene", TABLE, h=0.1, order=order)
         add("scene", TABLE, h=0.1, order=order, method="newton")
@@ -142,31 +151,30 @@ def extreme() -> list[campaign.Case]:
     """Named extreme cases, each with several laws, and by plain Newton to compare with."""
     found = []
 
-    def add(name, scene="disc-on-block", laws=STIFF, **flags):
+    def add(name, scene="disc-on-block", laws=FEW, compared=True, **flags):
         for law in laws:
-            for method, factor in (("xnewton", 1), ("newton", 5)):
+            for method, factor in (("xnewton", 1), ("newton", 5))[: 1 + compared]:
                 merged = {"method": method, "tol": TOL, **law, **flags}
                 found.append(case(name, scene=scene, weight=factor * weight(**merged), **merged))
 
-    add("nu 0.4999", nu=0.4999, h=0.1, order=2)
+    add("nu 0.4999", compared=False, nu=0.4999, h=0.1, order=2)
     add("nu 0.4999", nu=0.4999, h=0.5, order=2)
-    for stiffness in (1e-6, 1e-3, 1.0, 1e4, 1e8, 1e12):
+    for stiffness in (1e-6, 1.0, 1e12):
         add("E", E=stiffness, h=0.25, order=2)
-    for d0 in (-1e-12, -1e-6, -1e-3, -1.0, -5.0):
-        add("d0", laws=STIFF + OTHER, d0=d0, h=0.25, order=2)
+    for d0 in (-1e-12, -1e-3, -5.0):
+        add("d0", laws=FEW + OTHER[::3], d0=d0, h=0.5, order=2)
     for aspect in (10, 100):
         for order in (1, 2):
             add("aspect", aspect=aspect, h=1.0, order=order)
-    for offset in (5, 15, 19, -20):
+    for offset in (15, -20):
         for order in (1, 2):
-            add("offset", offset=offset, h=0.25, order=order)
-    add("20 contacts", scene="wavy", laws=STIFF + OTHER, h=0.1, order=2)
-    add("20 contacts", scene="wavy", laws=STIFF + OTHER, h=0.1, order=1)
-    add("20 contacts", scene="wavy", laws=STIFF, h=0.1, order=2, u0=0.6)
-    for h in (0.25, 0.05):
-        add("flat punch", scene="flat-punch", laws=STIFF + OTHER, h=h, order=2)
+            add("offset", offset=offset, h=0.5, order=order)
+    add("20 contacts", compared=False, scene="wavy", h=0.1, order=2)
+    add("20 contacts", scene="wavy", h=0.1, order=1)
+    add("flat punch", scene="flat-punch", laws=FEW + OTHER, h=0.25, order=2)
+    add("flat punch", compared=False, scene="flat-punch", h=0.05, order=2)
     for order in (1, 2):
-        add("u0 three times", laws=STIFF + OTHER, u0=3 * U0, h=0.1, order=order)
+        add("u0 three times", compared=order == 1, laws=FEW + OTHER, u0=3 * U0, h=0.1, order=order)
     for (scene, kappa, m), known in reference.values().items():
         law = {"law": "power", "kappa": kappa, "m": m} if np.isfinite(kappa) else HARD
         for mesh in ({"h": 0.5, "order": 2}, {"h": 1.0, "order": 4}, {"h": 0.5, "order": 4, "grading": 60}):
@@ -183,27 +191,22 @@ def further() -> list[campaign.Case]:
     found = []
 
     def add(name, **flags):
-        for law in SAMPLE:
+        for law in FEW + OTHER[:1] if name == "rough" else SAMPLE:
             merged = {"method": "xnewton", "tol": TOL, **law, **flags}
             found.append(case(name, weight=weight(**merged), **merged))
 
     for order in (1, 2):
         add("rough", scene="rough", h=0.1, order=order)
         add("prescribed force", force=100, h=0.25, order=order)
-    exact = [{"law": "power", "kappa": kappa, "m": m} for kappa in KAPPAS for m in (1.05, 3, 20)]
-    for order in (1, 2):
-        for h in (0.25, 0.1):
-            for law in exact + OTHER:
-                merged = {"method": "xnewton", "tol": TOL, **law, "distance": "exact", "h": h, "order": order}
-                found.append(case("exact distance", weight=3 * weight(**merged), **merged))
+        add("exact distance", distance="exact", h=0.25, order=order)
     return found
 
 
 # two meshed bodies and space: scene and its flags, every law of BODY_LAWS on each
-BODY_LAWS = [{"law": "power", "kappa": kappa, "m": m} for kappa in KAPPAS[1:] for m in (1.05, 3, 20)]
-BODY_LAWS += [*OTHER, {"law": "signorini"}]
-SPACE = ("two-spheres", "sphere-on-plane", "sphere-on-block", "patch-test-3d")
-RATIOS = (1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9)
+BODY_LAWS = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1.0, 1e12) for m in (1.05, 20)]
+BODY_LAWS += [{"law": "power", "kappa": kappa, "m": 3} for kappa in (1e3, 1e30)] + [*OTHER[::3], HARD]
+SPACE = ("two-spheres", "sphere-on-plane", "sphere-on-block", "patch-test-3d", "counts in space")
+RATIOS = (1e-6, 1.0, 1e9)
 POINTS = ("segment", "nodal")
 CURVED = {
     ("two-cylinders", 1): {"d0": -0.01, "h": 0.1},
@@ -235,24 +238,58 @@ def bodies() -> list[campaign.Case]:
                 found.append(case(scene, scene=scene, weight=1.5, method="paper", T0="d0", eps=1e-12, **common))
 
     for (scene, order), flags in CURVED.items():
-        for load in ({}, {"force": 0}):
-            for points in POINTS if scene != "sphere-on-plane" else (None,):
-                add(scene, order=order, **flags, **load, **({"points": points} if points else {}))
+        points = POINTS if scene != "sphere-on-plane" else ("",)
+        for which in points:
+            place = {"points": which} if which else {}
+            add(scene, others=which == points[0], order=order, **flags, **place)
+        add(scene, others=False, order=order, **flags, force=0, **({"points": points[0]} if points[0] else {}))
     for ratio in RATIOS:
         for order in (1, 2):
-            add("patch-test", others=order == 1, order=order, Eratio=ratio)
-            add("patch-test-3d", others=order == 1, order=order, Eratio=ratio)
-    for ratio in (1.0, 1e3, 1e6, 1e9):
+            compared = order == 1 and ratio == 1
+            add("patch-test", others=compared, order=order, Eratio=ratio)
+            add("patch-test-3d", others=compared, order=order, Eratio=ratio)
+    for ratio in (1.0, 1e9):
         for points in POINTS:
             for order in (1, 2):
-                add("meshed-disc", others=order == 1, order=order, Eratio=ratio, points=points, h=0.5)
+                compared = order == 1 and points == POINTS[0]
+                add("meshed-disc", others=compared, order=order, Eratio=ratio, points=points, h=0.5)
     add("meshed-disc", order=4, h=1.0)
     for order in (1, 2):
-        add("rough", order=order, h=0.25)
+        add("rough", others=order == 1, order=order, h=0.25)
     for symmetry in ("quarter", "whole"):
-        add("sphere-on-block", order=1, h=1.0, symmetry=symmetry)
+        add("sphere-on-block", others=symmetry == "quarter", order=1, h=1.0, symmetry=symmetry)
     add("sphere-on-block", order=2, h=1.5, layers=2)
     add("sphere-on-block", others=False, order=2, h=1.0)
+    return found
+
+
+# the meshes of the table of the paper's count, and its tolerances; the scenes of that of the counts in space
+COUNTED = [*({"order": 1, "h": h} for h in (1.0, 0.5, 0.25, 0.1)), {"order": 2, "h": 0.1}]
+COUNTED_TOLERANCES = (1e-4, 1e-6, 1e-8)
+IN_SPACE = {
+    "sphere-on-block": {"order": 2, "h": 1.0},
+    "two-spheres": {"order": 2, "d0": -0.01, "h": 0.2, "layers": 3},
+}
+SPACE_LAWS = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1.0, 1e3, 1e6, 1e9, 1e12) for m in (1.05, 3, 20)]
+AGREEING = {"order": 2, "h": 0.25, "tol": 1e-10, "eps": 1e-12}
+STIFFER = {"method": "paper", "order": 2, "h": 0.25, "eps": 1e-8, "tol": 1e-10}
+
+
+def documented() -> list[campaign.Case]:
+    """Further runs of the documentation's tables."""
+    found = []
+    for mesh in COUNTED:
+        for start in STARTS.values():
+            for tol in COUNTED_TOLERANCES:
+                found.append(case("the paper's count", weight=2, method="paper", **mesh, **start, tol=tol))
+    for method in ("xnewton", "paper", "newton", "incremental"):
+        found.append(case("same answer", weight=2, method=method, **AGREEING))
+    for ratio in (1e1, 1e2, 1e3, 1e4, 1e5, 1e6):
+        found.append(case("stiffer disc", scene="meshed-disc", weight=3, Eratio=ratio, **STIFFER))
+    found.append(case("stiffer disc", weight=2, **STIFFER))
+    for scene, flags in IN_SPACE.items():
+        for law in SPACE_LAWS:
+            found.append(case("counts in space", scene=scene, weight=1.5, method="xnewton", tol=TOL, **law, **flags))
     return found
 
 
@@ -262,7 +299,7 @@ def steel() -> list[campaign.Case]:
     radius, modulus = STEEL["R"], STEEL["E"]
     for kappa, m in STEEL_KAPPA:
         rigidity = kappa * modulus * 1e-6 / 1e-6**m
-        for h in (4e-3, 1e-3):
+        for h in (4e-3, 2e-3):
             common = {"method": "xnewton", "tol": TOL, "law": "power", "m": m, "order": 2, **STEEL_SCENE}
             lengths = {name: STEEL[name] for name in ("R", "width", "depth", "gap", "d0", "u0")} | {"h": h * radius}
             found.append(case("steel SI", **common, **lengths, nu=0.3, E=modulus, kappa=rigidity))
@@ -536,8 +573,8 @@ def counts(rows: list[dict]) -> list[dict]:
 
 PARTS = {
     "grid": "every law and stiffness, hard contact",
-    "no start": "the same without the half-plane's start",
-    "threshold": "the same from T⁰ = 0 and T⁰ = d0",
+    "no start": "some of them without the half-plane's start",
+    "threshold": "some of them from T⁰ = 0 and T⁰ = d0",
     "load": "overlaps from 1e-12 of the size to twice the paper's load",
     "ends": "meshes that shrink to the ends of contact, `-ends`",
     "u0 three times": "three times the paper's load",
@@ -551,6 +588,7 @@ PARTS = {
     "steel SI": "a steel bearing in SI units",
     "steel twin": "the same without units",
     "exact distance": "true distance, all rounds together",
+    "counts in space": "`sphere-on-block`, `two-spheres` over κ and m",
 }
 DEGREES = ("1", "2", "4")
 
@@ -600,7 +638,7 @@ def methods_table(rows: list[dict]) -> str:
 
 
 CHOSEN = [
-    {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e-2, 3), (1.0, 2), (1e3, 3), (1e12, 3), (1e3, 20))
+    {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e-2, 3), (1.0, 3), (1e3, 3), (1e12, 3), (1e3, 30))
 ]
 CHOSEN += [OTHER[0], OTHER[2]]
 
@@ -630,6 +668,94 @@ def checks_table(verified: list[dict]) -> str:
         allowed, most = max(entry["tolerance"] for entry in group), max(entry["error"] for entry in group)
         lines.append([kind, len(group), failed, f"{allowed:.0e}" if allowed else "0", f"{most:.1e}"])
     return markdown(["compared", "comparisons", "not passed", "allowed", "greatest error"], lines)
+
+
+def count(row: dict[str, str] | None, names: str = "newton backsolves") -> str:
+    """Two counts of a run, "3 / 9"; how it ended, if it did not converge; nothing where there is no run."""
+    if row is None:
+        return ""
+    return " / ".join(row[name] for name in names.split()) if row["status"] == "converged" else row["status"]
+
+
+def first(rows: list[dict], **wanted) -> dict[str, str] | None:
+    return next(iter(select(rows, **wanted)), None)
+
+
+def paper_table(rows: list[dict]) -> str:
+    """The paper's scheme by mesh, first threshold and tolerance: adaptations / linearisations."""
+    rows = select(rows, name="the paper's count")
+    lines = []
+    for mesh in COUNTED:
+        cells = [(start["T0"], tol) for start in STARTS.values() for tol in COUNTED_TOLERANCES]
+        found = [first(rows, T0=start, tol=tol, **mesh) for start, tol in cells]
+        lines.append([f"P{mesh['order']}, {mesh['h']:g}", *(count(row, "adaptations newton") for row in found)])
+    words = [f"T⁰={start}, tol {decade(tol)}" for start in STARTS for tol in COUNTED_TOLERANCES]
+    return markdown(["mesh", *words], lines)
+
+
+def same_table(rows: list[dict]) -> str:
+    """Force, greatest pressure and energy of the methods on one mesh."""
+    lines = []
+    for row in select(rows, name="same answer"):
+        numbers = [value(row, name) for name in ("force", "pressureMax", "energy")]
+        lines.append([f"`{row['method']}`", *(f"{number:.9f}" for number in numbers)])
+    return markdown(["method", "force", "greatest pressure", "energy"], lines)
+
+
+def map_table(rows: list[dict], exponents: tuple, names: str) -> str:
+    lines = []
+    for kappa in KAPPAS:
+        cells = [count(first(rows, law="power", kappa=kappa, m=m), names) for m in exponents]
+        lines.append([decade(kappa), *cells])
+    return markdown(["κ", *(f"m = {m}" if m == exponents[0] else m for m in exponents)], lines)
+
+
+def counts_table(rows: list[dict]) -> str:
+    """The default method over stiffness and exponent: linearisations / back-substitutions."""
+    return map_table(select(rows, name="grid", **MAP), EXPONENTS, "newton backsolves")
+
+
+def newton_table(rows: list[dict]) -> str:
+    """Plain Newton over stiffness and exponent: linearisations, each with a factorisation."""
+    return map_table(select(rows, name="rival", method="newton", **RIVALS), (2, 3, 10, 20), "newton")
+
+
+def others_table(rows: list[dict]) -> str:
+    """The other laws: the default method's counts, plain Newton's linearisations."""
+    lines = []
+    for law in OTHER:
+        words = " ".join(f"-{name} {text:g}" if name != "law" else f"-law {text}" for name, text in law.items())
+        mine = first(select(rows, name="grid", **RIVALS), **law)
+        newton = first(select(rows, name="rival", method="newton", **RIVALS), **law)
+        lines.append([f"`{words}`", count(mine), count(newton, "newton")])
+    return markdown(["law", "`xnewton`", "`newton`"], lines)
+
+
+def space_table(rows: list[dict]) -> str:
+    """Two scenes in space over stiffness and exponent: linearisations / back-substitutions."""
+    rows = select(rows, name="counts in space")
+    lines = []
+    for kappa in dict.fromkeys(law["kappa"] for law in SPACE_LAWS):
+        found = [first(rows, scene=scene, kappa=kappa, m=m) for scene in IN_SPACE for m in (1.05, 3, 20)]
+        lines.append([decade(kappa), *map(count, found)])
+    heads = [f"`{scene}`, m = {m}" if m == 1.05 else m for scene in IN_SPACE for m in (1.05, 3, 20)]
+    return markdown(["κ", *heads], lines)
+
+
+def stiffer_table(rows: list[dict]) -> str:
+    """The paper's scheme with the disc meshed, ever stiffer, beside the rigid disc."""
+    rows = select(rows, name="stiffer disc", status="converged")
+    rigid = next((row for row in rows if " -Eratio " not in row["flags"]), None)
+    lines = []
+    for row in rows:
+        ratio = flags_of(row).get("-Eratio")
+        words, away = "`disc-on-block`", ["", ""]
+        if ratio is not None and rigid is not None:
+            words = decade(float(ratio))
+            away = [signed(value(row, name) / value(rigid, name) - 1) for name in ("force", "pressureMax")]
+        lines.append([words, count(row, "adaptations newton"), f"{value(row, 'force'):.5f}", *away])
+    head = "Eratio|adaptations / Newton steps|force|its difference from `disc-on-block`|greatest pressure's"
+    return markdown(head.split("|"), lines)
 
 
 def report(rows: list[dict], verified: list[dict]) -> str:

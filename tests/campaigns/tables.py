@@ -30,16 +30,26 @@ LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases}
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "work-precision": ("bench/work_precision", bench.report_work_precision),
     "meshes": ("bench/meshes", bench.meshes_table),
+    "accuracy": ("bench/meshes", bench.accuracy_table),
+    "orders": ("bench/meshes", bench.orders_table),
     "growth": ("bench/growth", bench.growth_table),
     "exponents": ("bench/growth", bench.exponents_table),
     "cost": ("bench/growth", bench.cost_table),
     "cost-map": ("bench/growth", bench.cost_map),
     "ingredients": ("bench/ingredients", bench.report_ingredients),
+    "hertz": ("bench/hertz", bench.hertz_table),
     "peers": ("bench/peers", peers.table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),
     "laws": ("stability/stability", stability.laws_table),
+    "paper": ("stability/stability", stability.paper_table),
+    "same-answer": ("stability/stability", stability.same_table),
+    "counts-map": ("stability/stability", stability.counts_table),
+    "newton-map": ("stability/stability", stability.newton_table),
+    "other-laws": ("stability/stability", stability.others_table),
+    "counts-space": ("stability/stability", stability.space_table),
+    "stiffer-disc": ("stability/stability", stability.stiffer_table),
 }
 
 
