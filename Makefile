@@ -13,7 +13,7 @@ export LC_ALL := C
 FREEFEM := FreeFem++ -nw -v 0
 PYTHON  := .venv/bin/python
 SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
-SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' 2>/dev/null) $(wildcard meshes/*.geo)
+SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
 
 ifeq ($(filter $(SCENES),$(SCENE)),)
