@@ -13,7 +13,7 @@ export LC_ALL := C
 FREEFEM := FreeFem++ -nw -v 0
 PYTHON  := .venv/bin/python
 SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
-SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' 2>/dev/null) $(wildcard meshes/*.geo)
+SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
 
 ifeq ($(filter $(SCENES),$(SCENE)),)
@@ -81,7 +81,7 @@ system:
 
 run: .venv/run.stamp | system ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"]
 	@$(FREEFEM) $(SCRIPT) $(ARGS); code=$$?; \
-	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; *) why='failed';; esac; \
+	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
 
 # ---------------------------------------------------------------- figures

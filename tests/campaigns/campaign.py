@@ -121,6 +121,7 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/**/*.edp"),
         *root.glob("edp/**/*.idp"),
         *root.glob("edp/**/*.sh"),
+        *root.glob("edp/**/*.txt"),
         *root.glob("meshes/*.geo"),
         *root.glob("*.py"),  # of a copy: what a campaign has added
     ]
