@@ -615,3 +615,97 @@ def test_second_order_mesh(tmp_path):
         pressures.append(Run(code, stdout, folder / "out").pressureMax)
         (folder / "pin.msh").unlink()
     assert pressures == pytest.approx([225, 225], rel=0.02)  # edges of a fifth of the radius
+
+
+# ---------------------------------------------------------------- meshes
+
+
+def two_blocks(joined=False):
+    """The mesh of two blocks above each other, sharing the nodes between them if `joined`."""
+    mesh = block(
+        block(Mesh(), size=(3, 1), cells=(3, 1)), size=(3, 1), cells=(3, 1), at=(0, 1), prefix="upper ", name="upper"
+    )
+    if not joined:
+        return mesh
+    same = {node: number + 1 for number, node in reversed(list(enumerate(mesh.nodes)))}
+    mesh.elements = [
+        (kind, tag, [same[mesh.nodes[corner - 1]] for corner in corners]) for kind, tag, corners in mesh.elements
+    ]
+    return mesh
+
+
+LAYERS = STEEL + 'body upper E 10 nu 0.3\nclamp bottom\nobstacle "upper top" plane 0 3 0 -1\n'
+
+
+def test_joined_bodies(tmp_path):
+    """Bodies that share nodes are one part; edges between them can be no contact."""
+    said = solve(tmp_path, two_blocks(joined=True).text(), LAYERS, "-check", 1).stdout
+    assert "  block+upper: held by clamp bottom" in said
+    case = LAYERS + 'contact top "upper bottom"\n'
+    said = solve(tmp_path, two_blocks(joined=True).text(), case, expect=10).stdout
+    assert 'edge of "top" inside the bodies, which share its nodes; allowed: each body\'s own nodes' in said
+
+
+def damaged(how):
+    """The text of a mesh with one mistake."""
+    mesh = two_blocks()
+    text = mesh.text()
+    lines = text.splitlines()
+    triangle = next(k for k, line in enumerate(lines) if line.split()[1:3] == ["2", "2"])
+    words = lines[triangle].split()
+    if how == "quadrangle":
+        lines[triangle] = " ".join([words[0], "3", *words[2:], words[-1]])
+    if how == "cut off":
+        lines = lines[:triangle]
+    if how == "no body":
+        lines[triangle] = " ".join([words[0], "2 2 0 0", *words[5:]])
+    if how == "flat":
+        lines[triangle] = " ".join([*words[:-1], words[-2]])
+    if how == "twice":
+        lines[triangle] = lines[triangle + 1].replace(lines[triangle + 1].split()[0], words[0], 1)
+    if how == "lifted":
+        first = lines.index("$Nodes") + 2
+        lines[first] = " ".join([*lines[first].split()[:3], "0.5"])
+    if how == "no groups":
+        text = "\n".join(lines)
+        before, rest = text.split("$PhysicalNames\n", 1)
+        return before + rest.split("$EndPhysicalNames\n", 1)[1] + "\n"
+    return "\n".join([*lines, ""])
+
+
+@pytest.mark.parametrize(
+    "how, words",
+    [
+        ("quadrangle", "of gmsh's type 3: allowed: triangles, in space tetrahedra, of first or second order"),
+        ("cut off", "cut off in $Elements"),
+        ("no body", "a triangle in no body"),
+        ("flat", "a triangle without area"),
+        ("twice", "they overlap"),
+        ("lifted", "a plane mesh has z = 0 everywhere"),
+        ("no groups", "no physical groups"),
+    ],
+)
+def test_mesh_is_refused(tmp_path, how, words):
+    """What is wrong in a mesh is refused in one line."""
+    (tmp_path / "block.msh").write_text(damaged(how))
+    code, why, _ = read(tmp_path, LAYERS)
+    assert code == 1 and words in why and "\n" not in why
+
+
+def test_space_in_the_plane(tmp_path):
+    """Tetrahedra for parts.edp and triangles for parts-3d.edp are refused, each with what it wants."""
+    (tmp_path / "block.msh").write_text(cube(Mesh()).text())
+    code, why, _ = read(tmp_path, GOOD)
+    assert code == 3 and "block: a volume of the mesh; allowed for body: its surfaces: " in why
+    code, why, _ = read(tmp_path, GOOD.replace("circle 1.5 5 R 3 move 0 -0.1", "sphere 0 0 9 R 3"), space=1)
+    assert (code, why) == (0, "")
+
+
+def test_reference():
+    """The statements' page shall name every statement and law that the reader knows."""
+    page = (ROOT / "edp/case/README.md").read_text()
+    reader = (ROOT / "edp/case/case-file.awk").read_text()
+    for word in reader.split('statementNames = "')[1].split('"')[0].split(", "):
+        assert f"`{word} " in page, word
+    for word in reader.split('lawWords = "')[1].split('"')[0].split("|"):
+        assert word in page
