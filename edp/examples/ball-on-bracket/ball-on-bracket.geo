@@ -3,7 +3,8 @@ SetFactory("OpenCASCADE");
 DefineConstant[ radius = {8, Name "the ball's radius"} ];
 DefineConstant[ size = {0.2, Name "size of the elements in the contact"} ];
 DefineConstant[ finer = {0.8, Name "size of the bracket's elements over that"} ];
-DefineConstant[ coarse = {5, Name "size of the elements far away"} ];
+DefineConstant[ round = {1.3, Name "size of the ball's elements far away"} ];
+DefineConstant[ coarse = {5, Name "size of the bracket's elements far away"} ];
 
 // the bracket: a plate on the wall, a shelf whose top is z = 0, a rib below it, two holes for bolts
 Box(1) = {-20, -18, -36, 8, 36, 56};
@@ -23,21 +24,21 @@ Cylinder(12) = {-21, 0, -22, 10, 0, 0, 4, 2 * Pi};
 BooleanDifference(13) = { Volume{10}; Delete; }{ Volume{11, 12}; Delete; };
 Sphere(20) = {4, 0, radius, radius};
 
-near = 1e-3;
+gap = 1e-3;
 Physical Volume("bracket") = {13};
 Physical Volume("ball") = {20};
 ball() = Abs(Boundary{ Volume{20}; });
 Physical Surface("ball-surface") = ball();
-shelf() = Surface In BoundingBox {-12 - near, -18 - near, -near, 22 + near, 18 + near, near};
+shelf() = Surface In BoundingBox {-12 - gap, -18 - gap, -gap, 22 + gap, 18 + gap, gap};
 Physical Surface("shelf") = shelf();
-bolts() = Surface In BoundingBox {-20 - near, -4 - near, 8 - near, -12 + near, 4 + near, 16 + near};
-bolts() += Surface In BoundingBox {-20 - near, -4 - near, -26 - near, -12 + near, 4 + near, -18 + near};
+bolts() = Surface In BoundingBox {-20 - gap, -4 - gap, 8 - gap, -12 + gap, 4 + gap, 16 + gap};
+bolts() += Surface In BoundingBox {-20 - gap, -4 - gap, -26 - gap, -12 + gap, 4 + gap, -18 + gap};
 Physical Surface("bolts") = bolts();
 
-// elements grow away from the point of contact
+// elements grow away from the point of contact; the ball's stay small enough for its volume
 Field[1] = MathEval;
-Field[1].F = Sprintf("Min(%g,%g*(%g+%g*Tanh(1e4*z))*(1+0.3*Max(0,Sqrt((x-4)^2+y*y+z*z)-0.8)/%g))", coarse, size,
-    0.5 * (1 + finer), 0.5 * (1 - finer), size);
+Field[1].F = Sprintf("Min(%g+%g*Tanh(1e4*(z-1e-3)),%g*(%g+%g*Tanh(1e4*(z-1e-3)))*(1+0.3*Max(0,Sqrt((x-4)^2+y*y+z*z)-0.8)/%g))",
+    0.5 * (round + coarse), 0.5 * (round - coarse), size, 0.5 * (1 + finer), 0.5 * (1 - finer), size);
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;

@@ -1,9 +1,9 @@
 // pin-in-hole.geo: a round pin in the hole of a plate, with a clearance all round; lengths in mm
 //   gmsh -2 edp/examples/pin-in-hole/pin-in-hole.geo, or as it is: -mesh edp/examples/pin-in-hole/pin-in-hole.geo
 DefineConstant[ pin = {10, Name "radius of the pin"} ];
-DefineConstant[ clearance = {0.05, Name "radius of the hole less the pin's"} ];
+DefineConstant[ clearance = {0.01, Name "radius of the hole less the pin's"} ];
 DefineConstant[ half = {500, Name "half the plate's width and height"} ];
-DefineConstant[ size = {0.2, Name "size of the elements in the hole"} ];
+DefineConstant[ size = {0.28, Name "size of the elements in the hole"} ];
 DefineConstant[ finer = {0.73, Name "size of the pin's elements over that"} ];
 DefineConstant[ core = {1, Name "side of the square in the pin's middle that is pulled"} ];
 hole = pin + clearance;
