@@ -8,26 +8,22 @@
 #        several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
 #        order, the place of its middle node, in space of three, each opposite a corner. Exit code 0. Or one line that says what
 #        is wrong, and exit code 1.
-function measure(i,   a, b, c, d) {
-  # of element i: twice the area, six times the volume; and of its longest reach
-  a = corner[i, 1]; b = corner[i, 2]; c = corner[i, 3]
+function measure(a, b, c, d) {
+  # twice the area, six times the volume; reach: the square of its longest side from a
   bx = x[b] - x[a]; by = y[b] - y[a]; bz = z[b] - z[a]
   cx = x[c] - x[a]; cy = y[c] - y[a]; cz = z[c] - z[a]
   reach = bx * bx + by * by + bz * bz
   if (cx * cx + cy * cy + cz * cz > reach) reach = cx * cx + cy * cy + cz * cz
   if (!space) return bx * cy - by * cx
-  d = corner[i, 4]
   dx = x[d] - x[a]; dy = y[d] - y[a]; dz = z[d] - z[a]
   if (dx * dx + dy * dy + dz * dz > reach) reach = dx * dx + dy * dy + dz * dz
   return bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx)
 }
-function key(p, q, r,   t) {
-  # of a side, whatever the order of its nodes; in the plane r is 0
-  if (p > q) { t = p; p = q; q = t }
-  if (!space) return p " " q
-  if (q > r) { t = q; q = r; r = t }
-  if (p > q) { t = p; p = q; q = t }
-  return p " " q " " r
+# of a side, whatever the order of its nodes
+function edgeKey(p, q) { return p < q ? p " " q : q " " p }
+function faceKey(p, q, r) {
+  if (p < q) return q < r ? p " " q " " r : (p < r ? p " " r " " q : r " " p " " q)
+  return p < r ? q " " p " " r : (q < r ? q " " r " " p : r " " q " " p)
 }
 function group(dimension, tag) {
   tag = tag < 0 ? -tag : tag + 0
@@ -76,15 +72,15 @@ section == "Elements" {
   if (dims[type] == dim) {
     if (!g) element("a " bodyKind " in no body: allowed: every one in a physical " (space ? "volume" : "surface"))
     i = ++elements
-    for (k = 1; k <= dim + 1; k++) corner[i, k] = node($(first + k))
+    a = node($(first + 1)); b = node($(first + 2)); c = node($(first + 3)); d = space ? node($(first + 4)) : 0
     elementNumber[i] = $1
     bodyOf[i] = g
     parent[i] = i
-    size_ = measure(i)
+    size_ = measure(a, b, c, d)
     small = size_ < 0 ? -size_ : size_
     if (small <= 1e-10 * reach * (space ? sqrt(reach) : 1)) element("a " bodyKind " without " (space ? "volume" : "area"))
     if (small * (space ? 1e18 / 6 : 0.5e12) < 1e-7) element("a " bodyKind " too small: another unit of length helps")
-    if (size_ < 0) { k = corner[i, 2]; corner[i, 2] = corner[i, 3]; corner[i, 3] = k }
+    c1[i] = a; c2[i] = size_ < 0 ? c : b; c3[i] = size_ < 0 ? b : c; c4[i] = d
     next
   }
   if (!g) next
@@ -107,13 +103,6 @@ function widen(p) {
   if (z[p] < lowZ) lowZ = z[p]
   if (z[p] > highZ) highZ = z[p]
 }
-# of element i the side opposite its corner k, its nodes so that the element lies on one side of it
-function sideOf(i, k) {
-  p = corner[i, k % (dim + 1) + 1]
-  q = corner[i, (k + 1) % (dim + 1) + 1]
-  r = space ? corner[i, (k + 2) % (dim + 1) + 1] : 0
-  return key(p, q, r)
-}
 function beside(p, q, r, v) {
   # on which side of it the corner v lies
   if (!space) return (x[q] - x[p]) * (y[v] - y[p]) - (y[q] - y[p]) * (x[v] - x[p])
@@ -121,46 +110,67 @@ function beside(p, q, r, v) {
   cx = x[r] - x[p]; cy = y[r] - y[p]; cz = z[r] - z[p]
   return (x[v] - x[p]) * (by * cz - bz * cy) + (y[v] - y[p]) * (bz * cx - bx * cz) + (z[v] - z[p]) * (bx * cy - by * cx)
 }
-function join(i, k,   s, a, b) {
-  s = sideOf(i, k)
-  if (!(s in owner)) { owner[s] = i; tip[s] = corner[i, k]; return }
-  if (s in second) fail("elements " elementNumber[owner[s]] ", " elementNumber[second[s]] " and " elementNumber[i] " share one side: they overlap")
-  second[s] = i
-  if ((beside(p, q, r, tip[s]) > 0) == (beside(p, q, r, corner[i, k]) > 0))
-    fail("elements " elementNumber[owner[s]] " and " elementNumber[i] " lie on the same side of a common " sideKind ": they overlap")
-  a = root(i); b = root(owner[s])
-  if (a != b) parent[a] = b
+# element i has the side s, of nodes p, q, r, opposite its corner v: owner[s] is the one that has it too, inner[s] if there are two
+function join(s, i, p, q, r, v,   j) {
+  if (!(s in owner)) { owner[s] = i; tip[s] = v; return }
+  j = owner[s]
+  if (tip[s] == 0) fail("element " elementNumber[i] " is the third that has a side of element " elementNumber[j] ": they overlap")
+  if ((beside(p, q, r, tip[s]) > 0) == (beside(p, q, r, v) > 0))
+    fail("elements " elementNumber[j] " and " elementNumber[i] " lie on the same side of a common " sideKind ": they overlap")
+  tip[s] = 0
+  i = root(i); j = root(j)
+  if (i != j) parent[i] = j
 }
-function checkElements(   i, k, p) {
+function joinAll(   i, a, b, c, d) {
+  for (i = 1; i <= elements; i++) {
+    a = c1[i]; b = c2[i]; c = c3[i]; d = c4[i]
+    if (space) {
+      join(faceKey(b, c, d), i, b, c, d, a)
+      join(faceKey(a, c, d), i, a, c, d, b)
+      join(faceKey(a, b, d), i, a, b, d, c)
+      join(faceKey(a, b, c), i, a, b, c, d)
+    } else {
+      join(edgeKey(b, c), i, b, c, 0, a)
+      join(edgeKey(a, c), i, a, c, 0, b)
+      join(edgeKey(a, b), i, a, b, 0, c)
+    }
+  }
+}
+function claim(p, part) {
+  if (p in partOf && partOf[p] != part)
+    fail("node " p ": two pieces hang together by it alone, which is a hinge; allowed: a common " sideKind ", or nodes of their own")
+  partOf[p] = part
+}
+function checkElements(   i, p) {
   if (!elements) fail("no " bodyKind "s")
-  p = corner[1, 1]
+  p = c1[1]
   lowX = highX = x[p]; lowY = highY = y[p]; lowZ = highZ = z[p]
-  for (i = 1; i <= elements; i++) for (k = 1; k <= dim + 1; k++) widen(corner[i, k])
+  for (i = 1; i <= elements; i++) {
+    widen(c1[i]); widen(c2[i]); widen(c3[i])
+    if (space) widen(c4[i])
+  }
   size = highX - lowX + highY - lowY + highZ - lowZ
   if (lowX < -1e9 * size || highX > 1e9 * size || lowY < -1e9 * size || highY > 1e9 * size || lowZ < -1e9 * size || highZ > 1e9 * size)
     fail("the bodies are too far from the origin for their size: their coordinates have no digits left")
   if (!space && (highZ > 1e-9 * size || lowZ < -1e-9 * size)) fail("z goes from " lowZ " to " highZ "; a plane mesh has z = 0 everywhere")
-  for (i = 1; i <= elements; i++) for (k = 1; k <= dim + 1; k++) join(i, k)
+  joinAll()
   for (i = 1; i <= elements; i++) {
-    if (!(root(i) in partNumber)) partNumber[root(i)] = ++parts
-    part = partNumber[root(i)]
+    p = root(i)
+    if (!(p in partNumber)) partNumber[p] = ++parts
+    part = partNumber[p]
     if (!((part, bodyOf[i]) in regionAt)) { regionAt[part, bodyOf[i]] = ++regions; region[regions] = bodyOf[i] " " part }
     inRegion[i] = regionAt[part, bodyOf[i]]
     has[bodyOf[i]] = 1
-    for (k = 1; k <= dim + 1; k++) {
-      p = corner[i, k]
-      if (p in partOf && partOf[p] != part)
-        fail("node " p ": two pieces hang together by it alone, which is a hinge; allowed: a common " sideKind ", or nodes of their own")
-      partOf[p] = part
-    }
+    claim(c1[i], part); claim(c2[i], part); claim(c3[i], part)
+    if (space) claim(c4[i], part)
   }
 }
 function checkSides(   s, k, where, g) {
   for (s = 1; s <= sides; s++) {
     g = sideGroup[s]
-    where = key(side[s, 1], side[s, 2], space ? side[s, 3] : 0)
+    where = space ? faceKey(side[s, 1], side[s, 2], side[s, 3]) : edgeKey(side[s, 1], side[s, 2])
     if (!(where in owner)) fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" that no " bodyKind " has")
-    if (where in second)
+    if (tip[where] == 0)
       fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" inside the bodies, which share its nodes; allowed: each body's own nodes where they touch (no Coherence, BooleanFragments there)")
     if (where in isIn && isIn[where] != g)
       fail("element " sideNumber[s] ": " sideKind " in two physical groups of the case, \"" name[isIn[where]] "\" and \"" name[g] "\"; allowed: one of them")
@@ -171,21 +181,18 @@ function checkSides(   s, k, where, g) {
   }
   for (g = 1; g <= groups; g++) if (!(g in has)) fail("the physical group \"" name[g] "\" has no " (dimOf[g] == dim ? bodyKind : sideKind) " of a body")
 }
-function place(p) { return sprintf("%.9f %.9f %.9f", (x[p] - lowX) / size, (y[p] - lowY) / size, (z[p] - lowZ) / size) }
 # two sides of one body in the same place, and no contact there: what is meant as one body would open
-function checkCracks(   i, k, s, where) {
-  for (i = 1; i <= elements; i++) for (k = 1; k <= dim + 1; k++) {
-    s = sideOf(i, k)
-    if (s in second || s in isIn && isIn[s] in touched) continue
-    where = bodyOf[i] " " middleOf(p, q, r)
-    if (where in sideAt) fail("elements " elementNumber[sideAt[where]] " and " elementNumber[i] " of \"" name[bodyOf[i]] "\" touch, but share no nodes: a crack, or pieces not joined (in gmsh: Coherence, BooleanFragments); allowed: a contact there")
-    sideAt[where] = i
+function checkCracks(   s, n, w, where) {
+  for (s in owner) {
+    if (tip[s] == 0 || s in isIn && isIn[s] in touched) continue
+    n = split(s, w, " ")
+    where = bodyOf[owner[s]] " " sprintf("%.9f %.9f %.9f", ((x[w[1]] + x[w[2]] + (space ? x[w[3]] : 0)) / n - lowX) / size,
+      ((y[w[1]] + y[w[2]] + (space ? y[w[3]] : 0)) / n - lowY) / size, ((z[w[1]] + z[w[2]] + (space ? z[w[3]] : 0)) / n - lowZ) / size)
+    if (where in sideAt)
+      fail("elements " elementNumber[sideAt[where]] " and " elementNumber[owner[s]] " of \"" name[bodyOf[owner[s]]] \
+        "\" touch, but share no nodes: a crack, or pieces not joined (in gmsh: Coherence, BooleanFragments); allowed: a contact there")
+    sideAt[where] = owner[s]
   }
-}
-function middleOf(p, q, r,   n) {
-  n = space ? 3 : 2
-  return sprintf("%.9f %.9f %.9f", ((x[p] + x[q] + (space ? x[r] : 0)) / n - lowX) / size,
-    ((y[p] + y[q] + (space ? y[r] : 0)) / n - lowY) / size, ((z[p] + z[q] + (space ? z[r] : 0)) / n - lowZ) / size)
 }
 function spot(p) { return sprintf("%.17g %.17g %.17g", x[p] * 1000000, y[p] * 1000000, (space ? z[p] : 0) * 1000000) }
 function write(   i, j, k, n, m, line, mesh, middles) {
@@ -208,8 +215,7 @@ function write(   i, j, k, n, m, line, mesh, middles) {
   }
   for (i = 1; i <= elements; i++) {
     line = ++m " " (space ? 4 : 2) " 2 " inRegion[i] " " inRegion[i]
-    for (k = 1; k <= dim + 1; k++) line = line " " now[corner[i, k]]
-    print line > mesh
+    print line " " now[c1[i]] " " now[c2[i]] " " now[c3[i]] (space ? " " now[c4[i]] : "") > mesh
   }
   print "$EndElements" > mesh
   print "regions " regions > ENVIRON["REGIONS"]
