@@ -27,7 +27,7 @@ class Shape:
 
 
 def groups(space: bool, **where: str) -> str:
-    """Physical groups of bodies (named in capitals: their tags), and of boundaries: "body:box that holds it/less others"."""
+    """Physical groups: of bodies, in capitals, their tags; of boundaries "body:box that holds it/less others"."""
     solid, skin = ("Volume", "Surface") if space else ("Surface", "Curve")
     lines = []
     for name, what in where.items():
@@ -185,7 +185,7 @@ SHAPES = {
         LOWER="4",
         UPPER="2",
         base="4:" + box3(-8, -8, -6, 8, 8, -6),
-        cup="4:" + box3(-5, -5, -3, 5, 5, -0.02),
+        cup="4:" + box3(-5, -5, -3, 5, 5, 0),
         round="2",
     ),
     "axle": solid(

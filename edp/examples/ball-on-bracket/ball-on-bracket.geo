@@ -3,7 +3,7 @@ SetFactory("OpenCASCADE");
 DefineConstant[ radius = {8, Name "the ball's radius"} ];
 DefineConstant[ size = {0.2, Name "size of the elements in the contact"} ];
 DefineConstant[ finer = {0.8, Name "size of the bracket's elements over that"} ];
-DefineConstant[ round = {1.3, Name "size of the ball's elements far away"} ];
+DefineConstant[ round = {1.8, Name "size of the ball's elements far away"} ];
 DefineConstant[ coarse = {5, Name "size of the bracket's elements far away"} ];
 
 // the bracket: a plate on the wall, a shelf whose top is z = 0, a rib below it, two holes for bolts
@@ -37,8 +37,8 @@ Physical Surface("bolts") = bolts();
 
 // elements grow away from the point of contact; the ball's stay small enough for its volume
 Field[1] = MathEval;
-Field[1].F = Sprintf("Min(%g+%g*Tanh(1e4*(z-1e-3)),%g*(%g+%g*Tanh(1e4*(z-1e-3)))*(1+0.3*Max(0,Sqrt((x-4)^2+y*y+z*z)-0.8)/%g))",
-    0.5 * (round + coarse), 0.5 * (round - coarse), size, 0.5 * (1 + finer), 0.5 * (1 - finer), size);
+Field[1].F = Sprintf("Min(%g-%g*Tanh(1e4*(z-1e-3)),%g*(%g+%g*Tanh(1e4*(z-1e-3)))*(1+0.3*Max(0,Sqrt((x-4)^2+y*y+z*z)-0.8)/%g))",
+    0.5 * (round + coarse), 0.5 * (coarse - round), size, 0.5 * (1 + finer), 0.5 * (1 - finer), size);
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;

@@ -1,0 +1,207 @@
+"""edp/examples: each case on a coarser mesh against its closed form; long: the pages' numbers, twenty shapes."""
+
+import json
+import re
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapes
+from freefem import FREEFEM, ROOT, execute, table
+from test_readme import fences, rows, section
+from test_scene_docs import agrees, number
+
+from postprocess import closed_forms as forms
+
+FOLDER = ROOT / "edp/examples"
+NAMES = sorted(path.parent.name for path in FOLDER.glob("*/*.case"))
+STEEL = forms.plane_modulus(210e3, 0.3)
+SPACE = ("crossed-cylinders", "ball-on-bracket")
+
+
+@dataclass
+class Case:
+    """A run of a case: its summary, contact.csv, what it printed."""
+
+    summary: dict
+    contact: np.ndarray
+    stdout: str
+
+    @property
+    def first(self):
+        return self.summary["contacts"][0]
+
+
+def solve(folder, mesh, case, space, *flags, expect=0):
+    script = "edp/parts-3d.edp" if space else "edp/parts.edp"
+    out = folder / "run"
+    code, stdout = execute([*FREEFEM, script, "-mesh", mesh, "-case", case, "-out", out, "-vtu", "0", *flags])
+    assert code == expect, f"exit code {code}:\n{stdout[-3000:]}"
+    return (
+        Case(json.loads((out / "summary.json").read_text()), table(out / "contact.csv"), stdout)
+        if code == 0
+        else stdout
+    )
+
+
+def example(name, folder, exchanged="", *flags, **constants):
+    """An example with other constants in its .geo, and "old|new" exchanged in its case file."""
+    geo, case = ((FOLDER / name / f"{name}.{kind}").read_text() for kind in ("geo", "case"))
+    for key, value in constants.items():
+        geo, count = re.subn(rf"\[ {key} = \{{[^,]*,", f"[ {key} = {{{value},", geo)
+        assert count == 1, key
+    if exchanged:
+        old, new = exchanged.split("|")
+        assert old in case
+        case = case.replace(old, new)
+    (folder / f"{name}.geo").write_text(geo)
+    (folder / f"{name}.case").write_text(case)
+    return solve(folder, folder / f"{name}.geo", folder / f"{name}.case", name in SPACE, *flags)
+
+
+def balanced(case):
+    """Action and reaction of every contact, and the supports' forces against the loads."""
+    for contact in case.summary["contacts"]:
+        assert all(np.isfinite(contact["force"]))
+    assert case.summary["outOfBalance"] < 1e-9
+
+
+# ---------------------------------------------------------------- on coarser meshes
+
+
+@pytest.mark.parametrize("force, size", [(400, 0.4), (4000, 0.8)])
+def test_pin_in_hole(tmp_path, force, size):
+    """The pin's contact angle and greatest pressure shall be Persson's, its rotation fixed, its load its supports'."""
+    case = example("pin-in-hole", tmp_path, f"0 -1000 |0 -{force} ", size=size)
+    angle = forms.pin_angle(STEEL * 0.01 / force)
+    assert case.first["contactLength"] / 2 / 10.01 == pytest.approx(angle, rel=0.015)
+    assert case.first["pressureMax"] == pytest.approx(forms.pin_pressure(0, angle) * force / 10.01, rel=0.015)
+    assert case.summary["fixedMotions"] == ["pin core: rotation"] or "rotation" in case.summary["fixedMotions"][0]
+    assert case.first["force"] == pytest.approx([0, -force], abs=1e-6 * force)
+    assert sum(body["reaction"][1] for body in case.summary["bodies"]) == pytest.approx(force, rel=1e-9)
+    balanced(case)
+
+
+def test_roller(tmp_path):
+    """Both contacts of the roller shall be Hertz's and carry the same force."""
+    case = example("roller", tmp_path, size=0.12)
+    a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(STEEL, STEEL))
+    above, below = case.summary["contacts"]
+    for contact in (above, below):
+        assert contact["halfWidthMoment"] == pytest.approx(a, rel=0.02)
+        assert contact["pressureMax"] == pytest.approx(greatest, rel=0.01)
+    assert np.add(above["force"], below["force"]) == pytest.approx([0, 0], abs=1e-6)
+    assert above["force"][1] == pytest.approx(-2000, rel=1e-9)
+    assert case.summary["newton"] <= 6 and case.summary["backsolves"] <= 35
+    balanced(case)
+
+
+def test_press_fit(tmp_path):
+    """The mean pressure between two rings that nothing else holds shall be Lame's, and be the same all round."""
+    case = example("press-fit", tmp_path, edges=92)
+    exact = forms.press_fit((10, 20, 30), 0.002, (210e3, 0.3), (210e3, 0.3))
+    pressure, weight = case.contact["pressure"], case.contact["weight"]
+    assert pressure @ weight / weight.sum() == pytest.approx(exact, rel=2e-3)
+    assert np.abs(pressure / exact - 1).max() < 0.03
+    assert len(case.summary["fixedMotions"]) == 4
+    assert case.first["contactLength"] == pytest.approx(2 * np.pi * 20, rel=1e-3)
+    balanced(case)
+
+
+def test_crossed_cylinders(tmp_path):
+    """Semi-axes and greatest pressure of crossed cylinders shall be those of Hertz's ellipse."""
+    case = example("crossed-cylinders", tmp_path, size=0.2, extent=5)
+    a, b, greatest, _ = forms.hertz_ellipse(2000, (10, 40), forms.contact_modulus(STEEL, STEEL))
+    assert case.first["semiAxes"] == pytest.approx([a, b], rel=0.03)
+    assert case.first["pressureMax"] == pytest.approx(greatest, rel=0.03)
+    assert case.first["force"][2] == pytest.approx(-500, rel=1e-9)
+    balanced(case)
+
+
+def test_ball_on_bracket(tmp_path):
+    """A ball that only contact holds shall press like Hertz's; what no gap feels is said."""
+    case = example("ball-on-bracket", tmp_path, size=0.35, round=3)
+    check_ball(case, 0.06)
+    assert len(case.summary["fixedMotions"]) == 3
+    balanced(case)
+
+
+def check_ball(case, allowed):
+    force = -case.first["force"][2]
+    assert force == pytest.approx(100, rel=0.08)  # a polyhedron's volume
+    modulus = forms.contact_modulus(STEEL, forms.plane_modulus(3e3, 0.4))
+    a, b, greatest, _ = forms.hertz_ellipse(force, (8, 8), modulus)
+    assert case.first["semiAxes"] == pytest.approx([a, b], rel=allowed)
+    assert case.first["pressureMax"] == pytest.approx(greatest, rel=allowed)
+
+
+# ---------------------------------------------------------------- the pages
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_page(name):
+    """Each page shall name every boundary group that its case uses, have two commands, and a picture that is there."""
+    page, case = (FOLDER / name / "README.md").read_text(), (FOLDER / name / f"{name}.case").read_text()
+    named = set(re.findall(r"`([\w-]+)`", section(page, "Strong form")))
+    words = [line.split("#")[0].split() for line in case.splitlines()]
+    used = [
+        word[1:3] if word[0] == "contact" else word[1:2] for word in words if word and word[0] not in ("units", "state")
+    ]
+    boundary = {
+        group
+        for word, groups in zip([w for w in words if w and w[0] not in ("units", "state")], used, strict=True)
+        for group in groups
+        if word[0] != "body"
+    }
+    assert boundary <= named
+    (commands,) = fences(page, "sh")
+    first, second = commands.splitlines()
+    assert f"-case edp/examples/{name}/{name}.case" in first and second.startswith(".venv/bin/python -m postprocess")
+    for target in re.findall(r"\]\(([^)#]+)\)", page):
+        assert (FOLDER / name / target).exists(), target
+    assert f"({name}/README.md)" in (FOLDER / "README.md").read_text()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", NAMES)
+def test_page_numbers(name, tmp_path):
+    """The page's first command shall give the page's numbers."""
+    page = (FOLDER / name / "README.md").read_text()
+    command = shlex.split(fences(page, "sh")[0].splitlines()[0])
+    case = solve(tmp_path, command[command.index("-mesh") + 1], command[-1], name in SPACE)
+    written = {row[0]: row[1] for row in rows(section(page, "Numbers")) if len(row) == 5}
+    contacts = case.summary["contacts"]
+    if name == "roller":
+        for contact, where in zip(contacts, ("above", "below"), strict=True):
+            assert agrees(contact["pressureMax"], written[f"greatest pressure {where}"])
+            assert agrees(contact["halfWidthMoment"], written[f"half-width {where}"])
+    if name == "press-fit":
+        pressure, weight = case.contact["pressure"], case.contact["weight"]
+        assert agrees(pressure @ weight / weight.sum(), written["mean pressure"])
+        assert agrees(pressure.min(), written["least pressure"]) and agrees(
+            pressure.max(), written["greatest pressure"]
+        )
+    if name == "ball-on-bracket":
+        check_ball(case, 0.02)
+        assert agrees(contacts[0]["pressureMax"], written["greatest pressure"])
+    if name in ("pin-in-hole", "crossed-cylinders"):
+        lines = [row for row in rows(section(page, "Numbers")) if row[0] in ("1000", "10, 40")]
+        found = (contacts[0]["contactLength"] / 20.02,) if name == "pin-in-hole" else contacts[0]["semiAxes"]
+        first = 2 if name == "pin-in-hole" else 1
+        for place, value in enumerate([*found, contacts[0]["pressureMax"]]):
+            assert number(lines[0][first + 3 * place]) == pytest.approx(value, rel=2e-3)
+
+
+# ---------------------------------------------------------------- shapes never seen
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", shapes.NAMES)
+def test_shape(name, tmp_path):
+    """A shape that the package has never seen shall run at first try, its forces in balance."""
+    mesh, case = shapes.mesh(name, tmp_path)
+    done = solve(tmp_path, Path(mesh), Path(case), shapes.SHAPES[name].space)
+    assert done.summary["converged"]
+    balanced(done)
