@@ -588,6 +588,7 @@ PARTS = {
     "steel SI": "a steel bearing in SI units",
     "steel twin": "the same without units",
     "exact distance": "true distance, all rounds together",
+    "same answer": "the paper's test, to a residual of 1e-10",
     "counts in space": "`sphere-on-block`, `two-spheres` over κ and m",
 }
 DEGREES = ("1", "2", "4")
