@@ -178,8 +178,8 @@ def judged(rows: list[dict]) -> list[dict]:
             else:
                 true = abs(value(row, f"{quantity}Value") - value(fine, f"{quantity}Value"))
                 doubt = value(fine, f"{quantity}Said")
-            controlled = said == 0 and true < 1e-9 * abs(value(row, f"{quantity}Value"))
-            if not controlled:
+            # what is prescribed has no error
+            if said > 0 and np.isfinite(true):
                 found.append({"row": row, "quantity": quantity, "said": said, "true": true, "doubt": doubt})
     return found
 
