@@ -23,7 +23,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures movie report bench bench-peers stability tables labs test test-all lint doctor clean distclean
+.PHONY: help setup system run figures movie report bench bench-peers stability coverage tables labs test test-all lint doctor clean distclean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -213,6 +213,9 @@ bench-peers: .venv/run.stamp .venv-peers/run.stamp | system ## the same tests so
 stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
 	@$(PYTHON) tests/campaigns/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
+
+coverage: .venv/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
+	@$(PYTHON) tests/campaigns/coverage.py
 
 tables: .venv/run.stamp ## write the campaigns' results into the tables of README.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)

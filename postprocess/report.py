@@ -104,6 +104,12 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
     )
 
 
+def with_error(summary: dict, name: str) -> str:
+    """A number of a run, and what the run says of its error."""
+    error = ((summary.get("estimates") or {}).get(name) or {}).get("error")
+    return short(summary[name]) + (f" ± {error:.1g}" if error else "")
+
+
 def overview(tree: Tree) -> list[Markup]:
     """A row per run."""
     columns = (
@@ -121,7 +127,7 @@ def overview(tree: Tree) -> list[Markup]:
                 verdict(not summary["warnings"], "0", str(len(summary["warnings"]))),
                 *(summary["scene"], summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
                 *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
-                *(short(summary[name]) for name in "force pressureMax halfWidth".split()),
+                *(with_error(summary, name) for name in "force pressureMax halfWidth".split()),
                 f"{seconds:.2f}" if is_number(seconds) else "–",
             ]
         )

@@ -23,6 +23,9 @@ RUNS = {
 }
 
 
+SHARE = "errorShare[force]"
+
+
 class Grid:
     """A .vtu file: points (n, 3), cells (list of index arrays), kinds, point and cell fields by name."""
 
@@ -83,7 +86,14 @@ def test_solution(made):
     """solution.vtu: every node with its displacement and stress, the pressure at the slave's and 0 elsewhere."""
     name, run = made
     grid = Grid(run.folder / "solution.vtu")
-    assert grid.at_points.keys() == {DISPLACEMENT, PRESSURE, STRESS} and grid.in_cells.keys() == {"Label"}
+    assert grid.at_points.keys() == {DISPLACEMENT, PRESSURE, STRESS}
+    assert grid.in_cells.keys() == {"Label"} | ({SHARE} if run.estimates else set())
+    if run.estimates:
+        shares, cells = (
+            grid.in_cells[SHARE],
+            run.order ** (3 if "space" in name else 2),
+        )  # an element's share stands in each of its cells
+        assert shares.min() >= 0 and shares.sum() / cells == pytest.approx(run.estimates["parts"]["inside"], rel=1e-9)
     assert grid.at_points[DISPLACEMENT].shape == grid.points.shape
     dimension = 3 if "space" in name else 2
     assert len(np.unique(np.round(grid.points, 9), axis=0)) * dimension <= run.ndof <= len(grid.points) * dimension

@@ -243,7 +243,7 @@ def test_picture_from_paraview():
 def test_exit_codes(tmp_path):
     """The exit codes shall be those of the README."""
     codes = [int(row[0]) for row in rows(section(README, "Files of a run")) if row[0].isdigit()]
-    assert codes == [0, 10, 20, 30, 130]
+    assert codes == [0, 10, 20, 21, 30, 130]
     run_in(ROOT, script("confined-block"), "-h", 5, out=tmp_path / "a", expect=0)
     run_in(ROOT, script("confined-block"), "-kapa", 5, out=tmp_path / "b", expect=10)
     run_in(ROOT, script("confined-block"), "-method", "newton", "-maxNewton", 1, "-h", 5, out=tmp_path / "c", expect=20)

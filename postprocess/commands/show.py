@@ -28,7 +28,8 @@ def run(arguments: argparse.Namespace) -> None:
 
 def table(summary: dict) -> list[str]:
     """The lines of the table: names left, values from one common column on, a blank line between groups."""
-    groups = {title: {key: summary[key] for key in keys if key in summary} for title, keys in GROUPS.items()}
+    told = {key: with_error(summary, key) for key in summary}
+    groups = {title: {key: told[key] for key in keys if key in summary} for title, keys in GROUPS.items()}
     listed = {key for keys in GROUPS.values() for key in keys} | {"seconds", "parameters"}
     groups["further"] = {key: value for key, value in summary.items() if key not in listed}
     groups["seconds"] = summary["seconds"]
@@ -46,6 +47,13 @@ def table(summary: dict) -> list[str]:
                 row += 1
         lines.append("")
     return lines[:-1]
+
+
+def with_error(summary: dict, name: str) -> object:
+    """A number with what the run says of its error, where it says so; any other value as it is."""
+    told = (summary.get("estimates") or {}).get(name)
+    known = isinstance(told, dict) and told.get("error")
+    return f"{cell(summary[name])} ± {told['error']:.2g}" if known else summary[name]
 
 
 def cell(value: object) -> str:
