@@ -50,7 +50,9 @@ fi
 if test -n "$case_"; then
     tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' > "$folder/names"
     test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
-    CASE=$case_ SPACE=$space awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$case_" > "$folder/case" 2> "$folder/log"
+    # a name with = would be an assignment to awk
+    case $case_ in /*) path=$case_ ;; *) path=./$case_ ;; esac
+    CASE=$case_ SPACE=$space awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
     code=$?
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
     test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3

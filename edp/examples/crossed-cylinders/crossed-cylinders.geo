@@ -3,9 +3,12 @@
 SetFactory("OpenCASCADE");
 DefineConstant[ radius = {10, Name "radius of the lower cylinder, along x"} ];
 DefineConstant[ ratio = {4, Name "radius of the upper one, along y, over that"} ];
-DefineConstant[ extent = {6, Name "how far the bodies go from the point of contact"} ];
-DefineConstant[ size = {0.1, Name "size of the elements in the contact"} ];
-DefineConstant[ long = {1, Name "half the length of the contact, along x"} ];
+DefineConstant[ extent = {5, Name "how far the bodies go from the point of contact"} ];
+DefineConstant[ size = {0.08, Name "size of the elements in the contact"} ];
+DefineConstant[ long = {0.98, Name "half the length of the contact, along x"} ];
+DefineConstant[ wide = {0.39, Name "half its width, along y"} ];
+DefineConstant[ depth = {0.25, Name "depth of the finest elements, over half the width"} ];
+DefineConstant[ growth = {0.5, Name "growth of the elements outside"} ];
 DefineConstant[ finer = {0.8, Name "size of the lower body's elements over the upper one's"} ];
 
 // a quarter: x, y > 0
@@ -39,7 +42,8 @@ Physical Surface("upper-round") = above();
 
 // elements grow away from the ellipse of contact
 Field[1] = MathEval;
-Field[1].F = Sprintf("%g*(0.5*(%g+1)+0.5*(1-%g)*Tanh(1e4*z))*(1+0.25*Max(0,Sqrt(x*x*%g+y*y+z*z)-%g)/%g)", size, finer, finer, 1 / long^2, 1.2, size);
+Field[1].F = Sprintf("%g*(0.5*(%g+1)+0.5*(1-%g)*Tanh(1e4*z))*(1+%g*Max(0,Sqrt(x*x*%g+y*y*%g+z*z*%g)-1.15)*%g)",
+    size, finer, finer, growth, 1 / long^2, 1 / wide^2, 1 / (depth * wide)^2, wide / size);
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;

@@ -1,0 +1,294 @@
+"""Surfaces in space: smooth geometry through meshes' nodes, pairing along normals, several contacts, obstacles, turned problems."""
+
+import json
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, Run, execute, flag_text, run, scene_text, snippet, told
+from test_parts import Mesh, cube, turn_in_space
+
+from postprocess import closed_forms as forms
+
+TURNS = [turn_in_space(seed) for seed in (1, 2, 3)]
+E, NU = 100.0, 0.3
+
+
+def parts(folder, mesh, case, *flags, expect=0):
+    """The run of a mesh's and a case file's texts."""
+    (folder / "a.msh").write_text(mesh)
+    (folder / "a.case").write_text(case)
+    out = folder / "out"
+    command = [
+        *FREEFEM,
+        "edp/parts-3d.edp",
+        "-mesh",
+        folder / "a.msh",
+        "-case",
+        folder / "a.case",
+        "-vtu",
+        "0",
+        "-out",
+        out,
+    ]
+    code, stdout = execute([*command, *map(flag_text, flags)], ROOT)
+    assert code == expect, f"exit code {code} of parts-3d {flags}:\n{stdout[-3000:]}"
+    return Run(code, stdout, out)
+
+
+def vector(values):
+    return " ".join(repr(float(v)) for v in values)
+
+
+BLOCKS = """body lower E 100 nu 0.3
+body upper E 100 nu 0.3
+contact lower-top upper-bottom
+symmetry lower-back
+symmetry lower-front
+symmetry lower-left
+symmetry lower-right
+symmetry upper-back
+symmetry upper-front
+symmetry upper-left
+symmetry upper-right
+clamp lower-bottom
+"""
+
+
+def blocks(gap=0.01):
+    """Two confined blocks, four elements along a side below, seven above."""
+    mesh = cube(Mesh(), (2, 2, 1), (4, 4, 2), (0, 0, 0), "lower-", "lower")
+    return cube(mesh, (2, 2, 0.5), (7, 7, 2), (0, 0, 1 + gap), "upper-", "upper")
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("turn", [None, *range(3)])
+def test_patch(tmp_path, order, turn):
+    """Blocks of 4 and 7 elements shall press each other uniformly to 1e-10, turned as they may be."""
+    matrix = np.eye(3) if turn is None else TURNS[turn]
+    case = BLOCKS + f"move upper-top {vector(matrix @ [0, 0, -0.05])}\n"
+    done = parts(tmp_path, blocks().text(matrix), case, "-order", order, "-tol", 1e-12)
+    exact = 0.04 / 1.5 * E * (1 - NU) / ((1 + NU) * (1 - 2 * NU))
+    np.testing.assert_allclose(done.contact["pressure"], exact, rtol=1e-10)
+
+
+def ball(n=5, size=1.0, middle=(0, 0, 0)):
+    """A cube of tetrahedra blown up to a ball with the group skin."""
+    mesh = cube(Mesh(), (2, 2, 2), (2 * n, 2 * n, 2 * n), (-1, -1, -1), "", "ball")
+    nodes = np.array(mesh.nodes)
+    far = abs(nodes).max(axis=1)
+    away = np.linalg.norm(nodes, axis=1)
+    mesh.nodes = list(nodes * (size * far / np.maximum(away, 1e-300))[:, None] + np.array(middle))
+    mesh.names = [(2, "skin"), (3, "ball")]
+    mesh.elements = [(kind, 1 if kind == 2 else 2, corners) for kind, _, corners in mesh.elements]
+    return mesh
+
+
+def plane(group, point, normal, move=None):
+    text = f"obstacle {group} plane {vector(point)} {vector(normal)}"
+    return text + (f" move {vector(move)}\n" if move is not None else "\n")
+
+
+@pytest.mark.parametrize("distance", ["linear", "exact"])
+def test_turned_ball(tmp_path, distance):
+    """A ball that only three pairs of planes hold, turned: the same counts, results to 1e-9."""
+
+    def solve(name, matrix):
+        case = "body ball E 100 nu 0.3\n"
+        for axis in np.eye(3):
+            case += plane("skin", matrix @ (-axis), matrix @ axis)
+            case += plane("skin", matrix @ axis, -matrix @ axis, -0.3 * matrix @ axis)
+        folder = tmp_path / name
+        folder.mkdir()
+        return parts(folder, ball(2).text(matrix), case, "-order", 2, "-tol", 1e-11, "-distance", distance)
+
+    one = solve("one", np.eye(3))
+    points = one.points // 6
+    assert one.points == 6 * points
+    greatest = [max(one.contact["pressure"][k * points : (k + 1) * points]) for k in range(6)]
+    assert min(greatest) > 0.5 * max(greatest)
+    for k, matrix in enumerate(TURNS):
+        other = solve(str(k), matrix)
+        for count in ("newton", "backsolves", "points", "contactPoints"):
+            assert other.summary[count] == one.summary[count], count
+        assert other.energy == pytest.approx(one.energy, rel=1e-9)
+        for c in range(6):
+            part = slice(c * points, (c + 1) * points)
+            assert np.sort(other.contact["pressure"][part]) == pytest.approx(
+                np.sort(one.contact["pressure"][part]), abs=1e-9 * one.pressureMax
+            )
+
+
+SMOOTH = """
+{
+    ifstream f("triangles.txt");
+    int count;
+    f >> count;
+    real[int,int] xs(count, 3);
+    real[int,int] ys(count, 3);
+    real[int,int] zs(count, 3);
+    int[int,int] corner(count, 3);
+    int[int] which(count);
+    which = 0;
+    for (int j = 0; j < count; j++) for (int a = 0; a < 3; a++) f >> corner(j, a) >> xs(j, a) >> ys(j, a) >> zs(j, a);
+    real[int,int] none(0, 0);
+    real[int,int] bulge(0, 0);
+    real[int,int] normal(0, 0);
+    smooth(xs, ys, zs, corner, which, none, bulge, normal);
+    real[int] values(9 * count);
+    for (int k = 0; k < values.n; k++) values[k] = bulge(k % 9, k / 9);
+    tell("bulge", values);
+    for (int k = 0; k < values.n; k++) values[k] = normal(k % 9, k / 9);
+    tell("normal", values);
+}
+"""
+
+
+def smoothed(folder, nodes, triangles):
+    """The middles' distances (triangles, 3, 3) from those of the straight sides, normals at the corners (triangles, 3, 3)."""
+    rows = [f"{c} {vector(nodes[c])}" for corners in triangles for c in corners]
+    (folder / "triangles.txt").write_text("\n".join([str(len(triangles)), *rows, ""]))
+    values = told(snippet(folder, scene_text("two-spheres") + SMOOTH, "-order", 1, "-h", 0.5, "-layers", 1))
+    return values["bulge"].reshape(-1, 3, 3), values["normal"].reshape(-1, 3, 3)
+
+
+def sides(nodes, triangles):
+    """The straight sides' middles, opposite each corner."""
+    places = nodes[np.array(triangles)]
+    return 0.5 * (places[:, [1, 2, 0]] + places[:, [2, 0, 1]])
+
+
+def skin(mesh):
+    """Nodes and outward triangles of a mesh about the origin."""
+    nodes = np.array(mesh.nodes)
+    triangles = np.array([corners for kind, _, corners in mesh.elements if kind == 2]) - 1
+    a, b, c = (nodes[triangles[:, k]] for k in range(3))
+    inward = (np.cross(b - a, c - a) * (a + b + c)).sum(axis=1) < 0
+    triangles[inward] = triangles[inward][:, [0, 2, 1]]
+    used, triangles = np.unique(triangles, return_inverse=True)
+    return nodes[used], triangles.reshape(-1, 3)
+
+
+def test_smooth_sphere(tmp_path):
+    """Through the nodes of an irregular sphere the smooth surface shall be round to 3 % of its height above the facets."""
+    nodes, triangles = skin(ball(4))
+    bulge, normal = smoothed(tmp_path, nodes @ TURNS[0].T, triangles)
+    middle = sides(nodes @ TURNS[0].T, triangles)
+    height = 1 - np.linalg.norm(middle, axis=2)
+    assert abs(1 - np.linalg.norm(middle + bulge, axis=2)).max() < 0.03 * height.max()
+    assert abs(normal - (nodes @ TURNS[0].T)[triangles]).max() < 0.01
+
+
+def test_smooth_cylinder(tmp_path):
+    """A can: walls round, rims sharp, lids exactly flat."""
+    n, layers = 32, 5
+    angle = 2 * np.pi * np.arange(n) / n
+    ring = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    nodes = [ring + [0, 0, 0.2 * k] for k in range(layers)]
+    nodes += [0.5 * ring * [1, 1, 0] + [0, 0, z] for z in (0, 0.8)] + [np.array([[0, 0, 0], [0, 0, 0.8]])]
+    nodes = np.concatenate(nodes)
+    triangles = []
+    for i in range(n):
+        j = (i + 1) % n
+        for k in range(layers - 1):
+            a, b, c, d = n * k + i, n * k + j, n * k + n + j, n * k + n + i
+            triangles += [(a, b, c), (a, c, d)]
+        low, high = n * layers, n * layers + n
+        triangles += [(j, i, low + i), (j, low + i, low + j), (low + j, low + i, high + n)]
+        top = n * (layers - 1)
+        triangles += [(top + i, top + j, high + i), (top + j, high + j, high + i), (high + i, high + j, high + n + 1)]
+    triangles = np.array(triangles)
+    matrix = TURNS[1]
+    bulge, normal = smoothed(tmp_path, nodes @ matrix.T, triangles)
+    bulge, normal = bulge @ matrix, normal @ matrix
+    places = nodes[triangles]
+    lid = np.ptp(places[:, :, 2], axis=1) < 1e-12
+    assert (bulge[lid] == 0).all()
+    assert abs(abs(normal[lid][:, :, 2]) - 1).max() < 1e-12
+    middle = sides(nodes, triangles)[~lid]
+    height = 1 - np.cos(np.pi / n)
+    assert abs(np.hypot(*np.moveaxis((middle + bulge[~lid])[:, :, :2], -1, 0)) - 1).max() < 0.02 * height
+    assert abs(bulge[~lid][:, :, 2]).max() < 0.02 * height
+
+
+def general(text):
+    """The scene two-spheres with a statement of contact instead of its formula for the gap."""
+    start, end = text.index("macro separation"), text.index("macro atRim")
+    text = text[:start] + text[end:]
+    statement = 'addContact("balls", slaveLabel, masterLabel, -1);\ninclude "bodies/discretise.idp"'
+    return text.replace('include "bodies/discretise.idp"', statement)
+
+
+@pytest.mark.parametrize("points", ["segment", "nodal"])
+@pytest.mark.parametrize("surface", ["smooth", "facets"])
+def test_gap_of_spheres(tmp_path, surface, points):
+    """The gap along the normals of one meshed sphere to another one: between the smooth surfaces to 1 % of what facets are off."""
+    code = 'tell("x", pointX);\ntell("y", pointY);\ntell("z", pointZ);\ntell("before", overlapBefore);\n'
+    flags = ["-order", 2, "-h", 0.3, "-layers", 1, "-surface", surface, "-points", points]
+    values = told(snippet(tmp_path, general(scene_text("two-spheres")) + code, *flags))
+    normal = np.column_stack([values[name] for name in "xyz"])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    apart = 10 * normal - [0, 0, 20.1]
+    ahead = (apart * normal).sum(axis=1)
+    gap = -ahead - np.sqrt(ahead**2 - (apart**2).sum(axis=1) + 100)
+    error = abs(-values["before"] - gap).max()
+    facets = 0.3**2 / 80
+    assert error < 0.01 * facets if surface == "smooth" else error > facets
+
+
+EXACT = ["-distance", "exact", "-h", 0.3, "-layers", 2]
+LAYER = ["-law", "power", "-kappa", 100, "-m", 2, "-d0", -0.05, "-tol", 1e-11]
+
+
+@pytest.mark.parametrize("points", ["segment", "nodal"])
+@pytest.mark.parametrize("order", [1, 2])
+def test_distance_has_an_energy(order, points):
+    """With the true distance the force shall be the derivative of the energy: Simpson's rule to 1e-9."""
+    flags = [*EXACT, *LAYER, "-order", order, "-points", points, "-force", 0]
+    runs = [run("two-spheres", *flags, "-u0", u0) for u0 in (0.499, 0.5, 0.501)]
+    work = 0.002 / 6 * (runs[0].force + 4 * runs[1].force + runs[2].force)
+    assert runs[2].energy - runs[0].energy == pytest.approx(work, rel=1e-9)
+
+
+def test_distance_there_and_back():
+    """With the true distance the force found for an approach shall, prescribed, give that approach back."""
+    flags = [*EXACT, "-tol", 1e-12, "-order", 1]
+    pushed = run("two-spheres", *flags, "-force", 0, "-u0", 0.5)
+    assert run("two-spheres", *flags, "-force", pushed.force).approach == pytest.approx(0.5, rel=1e-9)
+
+
+def test_distance_about_an_axis():
+    """A rigid sphere on a block in space and on a cylinder of the same area: the true distance gives one force to 1 %."""
+    flags = ["-distance", "exact", "-law", "signorini", "-depth", 40]
+    square = run("sphere-on-block", *flags, "-order", 2, "-force", 0, "-width", 80, "-h", 0.8)
+    circle = run(
+        "disc-on-block", *flags, "-order", 2, "-geometry", "axisymmetric", "-width", 80 / np.sqrt(np.pi), "-h", 0.2
+    )
+    assert square.force == pytest.approx(circle.force, rel=0.01)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("ratio, extent, growth", [(1, 6, 0.5), (4, 5, 0.5), (10, 3.5, 0.8)])
+def test_crossed_cylinders(tmp_path, ratio, extent, growth):
+    """Radii of 1:1 to 1:10: semi-axes and greatest pressure of Hertz's ellipse within 1 %, with elements of a tenth of it."""
+    modulus = forms.contact_modulus(forms.plane_modulus(210e3, 0.3), forms.plane_modulus(210e3, 0.3))
+    a, b, greatest, _ = forms.hertz_ellipse(2000, (10, 10 * ratio), modulus)
+    numbers = {"ratio": ratio, "size": b / 10, "long": a, "wide": b, "extent": extent * a, "growth": growth, "finer": 1}
+    example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders.geo"
+    text = "".join(f"{name} = {float(value)!r};\n" for name, value in numbers.items()) + f'Include "{example}";\n'
+    (tmp_path / "a.geo").write_text(text)
+    out = tmp_path / "out"
+    command = [
+        *FREEFEM,
+        "edp/parts-3d.edp",
+        "-mesh",
+        tmp_path / "a.geo",
+        "-case",
+        example.with_suffix(".case"),
+        "-vtu",
+        "0",
+    ]
+    code, stdout = execute([*command, "-out", out], ROOT)
+    assert code == 0, stdout[-3000:]
+    contact = json.loads((out / "summary.json").read_text())["contacts"][0]
+    assert contact["semiAxes"] == pytest.approx([a, b], rel=0.01)
+    assert contact["pressureMax"] == pytest.approx(greatest, rel=0.01)
