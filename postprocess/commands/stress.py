@@ -38,7 +38,7 @@ def draw(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
 def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     """(a) the surface, (b) the section, then the pressure on the surface of the contact that carries most of it."""
     most = int(bodies.table["contact"][bodies.table["pressure"].argmax()])
-    figure = Figure(figsize=(style.COLUMN, 2.3 * style.COLUMN), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, 2.3 * style.COLUMN), layout="compressed")
     panels = figure.subplots(3, 1, height_ratios=[0.8, 0.7, 0.8])
     top = bodies.grid.stress.max()
     drawn.draw_shell(panels[0], bodies, view, bodies.grid.stress, top)
