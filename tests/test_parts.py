@@ -571,6 +571,8 @@ def test_check(tmp_path):
     found = json.loads((folder / "check.json").read_text())
     assert [body["name"] for body in found["bodies"]] == ["block", "upper"]
     assert found["contacts"][0]["paired"] == 25
+    assert found["fixed"] == ["upper: along x"]
+    assert "  upper: along x: fixed, no gap feels it and no load works on it" in said
     assert not (tmp_path / "out/summary.json").exists()
 
 
