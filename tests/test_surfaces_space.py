@@ -266,6 +266,41 @@ def test_distance_about_an_axis():
     assert square.force == pytest.approx(circle.force, rel=0.01)
 
 
+def turned_file(text, matrix):
+    """A mesh file of gmsh's, version 2, its nodes turned."""
+    head, nodes = text.split("$Nodes\n")
+    nodes, tail = nodes.split("$EndNodes")
+    count, *rows = nodes.splitlines()
+    places = [(number, matrix @ np.array(place, float)) for number, *place in map(str.split, rows)]
+    rows = [f"{number} {vector(place)}" for number, place in places]
+    return "\n".join([head + "$Nodes", count, *rows, "$EndNodes" + tail])
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_turned_cylinders(tmp_path, order):
+    """Crossed cylinders with symmetries and a force, turned: the same counts, results to 1e-9."""
+    example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders.geo"
+    numbers = {"ratio": 2, "size": 0.2, "long": 0.71, "wide": 0.45, "extent": 3, "finer": 0.9}
+    (tmp_path / "a.geo").write_text("".join(f"{k} = {v};\n" for k, v in numbers.items()) + f'Include "{example}";\n')
+    execute(["gmsh", "-3", "-v", "1", "-format", "msh22", tmp_path / "a.geo", "-o", tmp_path / "a.msh"])
+    mesh, case = (tmp_path / "a.msh").read_text(), example.with_suffix(".case").read_text()
+    force = "force    grip  0 0 -500"
+    assert force in case
+    runs = []
+    for k, matrix in enumerate([np.eye(3), *TURNS]):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        turned = case.replace(force, f"force grip {vector(matrix @ [0, 0, -500])}")
+        runs.append(parts(folder, turned_file(mesh, matrix), turned, "-order", order, "-tol", 1e-11))
+    one = runs[0]
+    assert one.contactPoints > 10
+    for other in runs[1:]:
+        for count in ("newton", "backsolves", "points", "contactPoints"):
+            assert other.summary[count] == one.summary[count], count
+        assert other.energy == pytest.approx(one.energy, rel=1e-9)
+        np.testing.assert_allclose(other.contact["pressure"], one.contact["pressure"], atol=1e-9 * one.pressureMax)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("ratio, extent, growth", [(1, 6, 0.5), (4, 5, 0.5), (10, 3.5, 0.8)])
 def test_crossed_cylinders(tmp_path, ratio, extent, growth):
