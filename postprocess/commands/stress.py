@@ -46,7 +46,8 @@ def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     figure.colorbar(colours, ax=panels[:2], label=f"von Mises [{units.stress}]", pad=0.01, shrink=0.7)
     pressed = drawn.map_pressure(panels[2], bodies, most, units, bodies.greatest)
     figure.colorbar(pressed, ax=panels[2], label=f"pressure [{units.stress}]")
-    for index, words in enumerate([drawn.motion(bodies, units), "section", style.plain(bodies.names[most])]):
+    figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
+    for index, words in enumerate(["section", style.plain(bodies.names[most])], start=1):
         drawn.title(panels[index], index, words)
     return figure
 
