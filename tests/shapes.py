@@ -143,7 +143,7 @@ SHAPES = {
         "Rectangle(1) = {-10, -8, 0, 20, 8}; Rectangle(5) = {-8, -1, 0, 3, 4}; Rectangle(6) = {-1.5, -1, 0, 3, 4};\n"
         "Rectangle(7) = {5, -1, 0, 3, 4}; BooleanUnion(4) = { Surface{1}; Delete; }{ Surface{5, 6, 7}; Delete; };\n"
         "Rectangle(2) = {-12, 3, 0, 24, 5};",
-        TWO + "contact tips under law power kappa 1e5 m 2 d0 -0.01\nmove grip <0 -0.02>",
+        TWO + "contact tips under law power kappa 1e8 m 2 d0 -0.01\nmove grip <0 -0.02>",
         LOWER="4",
         UPPER="2",
         base="4:" + box(-10, -8, 10, -8),
@@ -207,7 +207,7 @@ SHAPES = {
     ),
     "cone": solid(
         f"{SLAB} Cone(2) = {{0, 0, 0, 0, 0, 6, 1.5, 4}};",
-        TWO + "contact top shell law power kappa 1e5 m 2 d0 -0.01\nmove lid <0 0 -0.01>",
+        TWO + "contact top shell law power kappa 1e8 m 2 d0 -0.01\nmove lid <0 0 -0.01>",
         **ON_SLAB,
         lid="2:" + box3(-4, -4, 6, 4, 4, 6),
         shell="2:/lid",

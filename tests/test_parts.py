@@ -571,6 +571,8 @@ def test_check(tmp_path):
     found = json.loads((folder / "check.json").read_text())
     assert [body["name"] for body in found["bodies"]] == ["block", "upper"]
     assert found["contacts"][0]["paired"] == 25
+    assert found["fixed"] == ["upper: along x"]
+    assert "  upper: along x: fixed, no gap feels it and no load works on it" in said
     assert not (tmp_path / "out/summary.json").exists()
 
 
@@ -709,3 +711,15 @@ def test_reference():
         assert f"`{word} " in page, word
     for word in reader.split('lawWords = "')[1].split('"')[0].split("|"):
         assert word in page
+
+
+@pytest.mark.parametrize("load", ["move 0 -{}", "force 0 -{}"])
+def test_work_of_an_obstacle(tmp_path, load):
+    """The energy's slope is the force on an obstacle that is moved, and minus the approach of one that is pushed."""
+    mesh = block(Mesh(), cells=(60, 10)).text()
+    case = STEEL + "move bottom 0 0.05\nobstacle top circle 1.5 5 R 3 " + load + "\n"
+    at, step = (0.1, 1e-3) if "move" in load else (4, 0.04)
+    runs = [solve(tmp_path, mesh, case.format(value), "-tol", 1e-10).summary for value in (at - step, at, at + step)]
+    slope = (runs[2]["energy"] - runs[0]["energy"]) / (2 * step)
+    other = runs[1]["force"] if "move" in load else runs[1]["obstacles"][0]["motion"][1]
+    assert slope == pytest.approx(other, rel=1e-3)

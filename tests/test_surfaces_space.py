@@ -1,4 +1,4 @@
-"""Surfaces in space: smooth geometry through meshes' nodes, pairing along normals, several contacts, obstacles, turned problems."""
+"""Surfaces in space: smooth geometry through meshes' nodes, pairing, contacts, obstacles, turned problems."""
 
 import json
 
@@ -144,7 +144,7 @@ SMOOTH = """
 
 
 def smoothed(folder, nodes, triangles):
-    """The middles' distances (triangles, 3, 3) from those of the straight sides, normals at the corners (triangles, 3, 3)."""
+    """What the sides' middles are off the straight ones (triangles, 3, 3), normals at the corners."""
     rows = [f"{c} {vector(nodes[c])}" for corners in triangles for c in corners]
     (folder / "triangles.txt").write_text("\n".join([str(len(triangles)), *rows, ""]))
     values = told(snippet(folder, scene_text("two-spheres") + SMOOTH, "-order", 1, "-h", 0.5, "-layers", 1))
@@ -169,7 +169,7 @@ def skin(mesh):
 
 
 def test_smooth_sphere(tmp_path):
-    """Through the nodes of an irregular sphere the smooth surface shall be round to 3 % of its height above the facets."""
+    """Through an irregular sphere's nodes the surface shall be round to 3 % of its height above the facets."""
     nodes, triangles = skin(ball(4))
     bulge, normal = smoothed(tmp_path, nodes @ TURNS[0].T, triangles)
     middle = sides(nodes @ TURNS[0].T, triangles)
@@ -183,7 +183,7 @@ def test_smooth_cylinder(tmp_path):
     n, layers = 32, 5
     angle = 2 * np.pi * np.arange(n) / n
     ring = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
-    nodes = [ring + [0, 0, 0.2 * k] for k in range(layers)]
+    nodes = [ring + np.array([0, 0, 0.2 * k]) for k in range(layers)]
     nodes += [0.5 * ring * [1, 1, 0] + [0, 0, z] for z in (0, 0.8)] + [np.array([[0, 0, 0], [0, 0, 0.8]])]
     nodes = np.concatenate(nodes)
     triangles = []
@@ -221,7 +221,7 @@ def general(text):
 @pytest.mark.parametrize("points", ["segment", "nodal"])
 @pytest.mark.parametrize("surface", ["smooth", "facets"])
 def test_gap_of_spheres(tmp_path, surface, points):
-    """The gap along the normals of one meshed sphere to another one: between the smooth surfaces to 1 % of what facets are off."""
+    """The gap between meshed spheres along normals: with smooth surfaces to 1 % of what facets are off."""
     code = 'tell("x", pointX);\ntell("y", pointY);\ntell("z", pointZ);\ntell("before", overlapBefore);\n'
     flags = ["-order", 2, "-h", 0.3, "-layers", 1, "-surface", surface, "-points", points]
     values = told(snippet(tmp_path, general(scene_text("two-spheres")) + code, *flags))
@@ -257,7 +257,7 @@ def test_distance_there_and_back():
 
 
 def test_distance_about_an_axis():
-    """A rigid sphere on a block in space and on a cylinder of the same area: the true distance gives one force to 1 %."""
+    """A rigid sphere on a block in space and on a cylinder of the same area: one force to 1 %."""
     flags = ["-distance", "exact", "-law", "signorini", "-depth", 40]
     square = run("sphere-on-block", *flags, "-order", 2, "-force", 0, "-width", 80, "-h", 0.8)
     circle = run(
@@ -266,10 +266,45 @@ def test_distance_about_an_axis():
     assert square.force == pytest.approx(circle.force, rel=0.01)
 
 
+def turned_file(text, matrix):
+    """A mesh file of gmsh's, version 2, its nodes turned."""
+    head, nodes = text.split("$Nodes\n")
+    nodes, tail = nodes.split("$EndNodes")
+    count, *rows = nodes.splitlines()
+    places = [(number, matrix @ np.array(place, float)) for number, *place in map(str.split, rows)]
+    rows = [f"{number} {vector(place)}" for number, place in places]
+    return "\n".join([head + "$Nodes", count, *rows, "$EndNodes" + tail])
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_turned_cylinders(tmp_path, order):
+    """Crossed cylinders with symmetries and a force, turned: the same counts, results to 1e-9."""
+    example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders.geo"
+    numbers = {"ratio": 2, "size": 0.2, "long": 0.71, "wide": 0.45, "extent": 3, "finer": 0.9}
+    (tmp_path / "a.geo").write_text("".join(f"{k} = {v};\n" for k, v in numbers.items()) + f'Include "{example}";\n')
+    execute(["gmsh", "-3", "-v", "1", "-format", "msh22", tmp_path / "a.geo", "-o", tmp_path / "a.msh"])
+    mesh, case = (tmp_path / "a.msh").read_text(), example.with_suffix(".case").read_text()
+    force = "force    grip  0 0 -500"
+    assert force in case
+    runs = []
+    for k, matrix in enumerate([np.eye(3), *TURNS]):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        turned = case.replace(force, f"force grip {vector(matrix @ [0, 0, -500])}")
+        runs.append(parts(folder, turned_file(mesh, matrix), turned, "-order", order, "-tol", 1e-11))
+    one = runs[0]
+    assert one.contactPoints > 10
+    for other in runs[1:]:
+        for count in ("newton", "backsolves", "points", "contactPoints"):
+            assert other.summary[count] == one.summary[count], count
+        assert other.energy == pytest.approx(one.energy, rel=1e-9)
+        np.testing.assert_allclose(other.contact["pressure"], one.contact["pressure"], atol=1e-9 * one.pressureMax)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("ratio, extent, growth", [(1, 6, 0.5), (4, 5, 0.5), (10, 3.5, 0.8)])
 def test_crossed_cylinders(tmp_path, ratio, extent, growth):
-    """Radii of 1:1 to 1:10: semi-axes and greatest pressure of Hertz's ellipse within 1 %, with elements of a tenth of it."""
+    """Radii of 1:1 to 1:10: Hertz's semi-axes and greatest pressure within 1 %, elements of b/10."""
     modulus = forms.contact_modulus(forms.plane_modulus(210e3, 0.3), forms.plane_modulus(210e3, 0.3))
     a, b, greatest, _ = forms.hertz_ellipse(2000, (10, 10 * ratio), modulus)
     numbers = {"ratio": ratio, "size": b / 10, "long": a, "wide": b, "extent": extent * a, "growth": growth, "finer": 1}

@@ -70,10 +70,10 @@ def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     if not pressed:
         raise ResultsError(bodies.run.path / "contact.csv", "no point is in contact")
     rows = [0.8] + [0.8] * len(pressed)
-    figure = Figure(figsize=(style.COLUMN, sum(rows) * style.COLUMN), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, sum(rows) * style.COLUMN), layout="compressed")
     panels = figure.subplots(len(rows), 1, height_ratios=rows)
     drawn.draw_shell(panels[0], bodies, view, None, 1.0)
-    drawn.title(panels[0], 0, drawn.motion(bodies, units))
+    figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
     for index, (contact, axes) in enumerate(zip(pressed, panels[1:], strict=True), start=1):
         colours = drawn.map_pressure(axes, bodies, contact, units, bodies.greatest)
         figure.colorbar(colours, ax=axes, label=f"pressure [{units.stress}]")

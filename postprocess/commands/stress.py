@@ -38,7 +38,7 @@ def draw(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
 def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     """(a) the surface, (b) the section, then the pressure on the surface of the contact that carries most of it."""
     most = int(bodies.table["contact"][bodies.table["pressure"].argmax()])
-    figure = Figure(figsize=(style.COLUMN, 2.3 * style.COLUMN), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, 2.3 * style.COLUMN), layout="compressed")
     panels = figure.subplots(3, 1, height_ratios=[0.8, 0.7, 0.8])
     top = bodies.grid.stress.max()
     drawn.draw_shell(panels[0], bodies, view, bodies.grid.stress, top)
@@ -46,7 +46,8 @@ def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     figure.colorbar(colours, ax=panels[:2], label=f"von Mises [{units.stress}]", pad=0.01, shrink=0.7)
     pressed = drawn.map_pressure(panels[2], bodies, most, units, bodies.greatest)
     figure.colorbar(pressed, ax=panels[2], label=f"pressure [{units.stress}]")
-    for index, words in enumerate([drawn.motion(bodies, units), "section", style.plain(bodies.names[most])]):
+    figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
+    for index, words in enumerate(["section", style.plain(bodies.names[most])], start=1):
         drawn.title(panels[index], index, words)
     return figure
 

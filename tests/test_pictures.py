@@ -1,0 +1,133 @@
+"""`postprocess state`, `stress`, `check`: any run is drawn, in the plane and in space; what cannot be is refused."""
+
+import shutil
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, run_in, script
+
+from postprocess import bodies, style
+from postprocess.__main__ import main
+from postprocess.commands import check, state, stress
+from postprocess.results import read_run
+
+RUNS = {
+    "plane": ("disc-on-block", "-h", 2),
+    "axis": ("disc-on-block", "-h", 1, "-geometry", "axisymmetric"),
+    "two bodies": ("two-bodies",),
+    "several contacts": ("wavy", "-kappa", 1e6, "-h", 1),
+    "space": ("two-spheres", "-h", 0.6, "-layers", 1),
+}
+VIEW = bodies.sight(-125, 22)
+
+
+@pytest.fixture(scope="module", params=RUNS)
+def made(request, tmp_path_factory):
+    """A run of a scene, with its files for ParaView."""
+    scene, *flags = RUNS[request.param]
+    return run_in(ROOT, script(scene), *flags, out=tmp_path_factory.mktemp("pictures") / "run").folder
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    """A coarse roller between plates: a run, and a check of it."""
+    folder = tmp_path_factory.mktemp("case")
+    geo = (ROOT / "edp/examples/roller/roller.geo").read_text().replace("size = {0.06,", "size = {0.3,")
+    (folder / "roller.geo").write_text(geo)
+    command = [*FREEFEM, "edp/parts.edp", "-mesh", folder / "roller.geo", "-case", "edp/examples/roller/roller.case"]
+    for flags in ([], ["-check", "1"]):
+        code, stdout = execute([*command, "-out", folder / "run", *flags])
+        assert code == 0, stdout[-2000:]
+    assert f"-m postprocess check {folder}/run/check" in stdout
+    return folder / "run"
+
+
+def figure(command, folder, scale=1.0):
+    with style.look():
+        drawn = command.draw(bodies.read_bodies(read_run(folder), scale), style.Units(), VIEW)
+        drawn.canvas.draw()
+    return drawn
+
+
+@pytest.mark.parametrize("command", ["state", "stress"])
+def test_any_run(made, command, capsys):
+    """A run of any scene shall be drawn into its own folder, as PDF and PNG, and the next run shall remove both."""
+    assert main([command, str(made)]) == 0
+    written = [made / f"{command}.{kind}" for kind in ("pdf", "png")]
+    assert capsys.readouterr().out.split() == list(map(str, written))
+    assert all(path.stat().st_size > 5000 for path in written)
+    assert f"{command}.pdf" in (made / ".run/.written").read_text()
+
+
+def test_widths(made):
+    """Each figure shall be one column wide, with nothing beside it."""
+    for command in (state, stress):
+        drawn = figure(command, made)
+        assert drawn.get_figwidth() == style.COLUMN
+        box = drawn.get_tightbbox()
+        assert box.x0 > -0.02 and box.x1 < style.COLUMN + 0.02
+
+
+def test_pressure_of_a_case(case):
+    """Both contacts of the roller shall have a curve, with the pressures of contact.csv and units of the case file."""
+    run = read_run(case)
+    axes = figure(state, case).axes
+    lines = [line for line in axes[-1].lines if not line.get_label().startswith("_")]
+    assert [line.get_label() for line in lines] == [contact["name"] for contact in run.summary["contacts"]]
+    for line, contact in zip(lines, run.summary["contacts"], strict=True):
+        assert line.get_ydata().max() == contact["pressureMax"]
+    assert len(run.summary["units"]) == 2
+    assert main(["state", str(case)]) == 0
+
+
+def test_displacements_are_drawn_larger(case):
+    """--scale shall draw the displacements larger."""
+    once, twice = (bodies.read_bodies(read_run(case), scale) for scale in (1.0, 2.0))
+    move = once.place - once.grid.points
+    np.testing.assert_allclose(twice.place - twice.grid.points, 2 * move)
+    assert "2 times" in bodies.motion(twice, style.Units()) and "true scale" in bodies.motion(once, style.Units())
+
+
+def test_normals_point_out_of_the_slave(case):
+    """The pressure shall stand on the master's side."""
+    drawn = bodies.read_bodies(read_run(case))
+    for contact, up in ((0, 1), (1, -1)):
+        touched = drawn.touching(contact)
+        assert (up * drawn.normals[touched, 1] > 0.9).all()
+
+
+def test_check(case, capsys):
+    """What -check 1 has read shall be drawn: each boundary group of the case file with its role."""
+    assert main(["check", str(case)]) == 0
+    assert (case / "check/check.pdf").exists()
+    with style.look():
+        drawn = check.draw(case / "check", VIEW)
+    words = [text.get_text() for text in drawn.legends[0].get_texts()]
+    assert "base: clamp" in words and "grip: force" in words and "roller-top: slave of upper-face" in words
+
+
+def test_skin_is_closed(made):
+    """The bodies' boundary shall be found from the cells, named or not: it encloses their area or volume."""
+    grid = bodies.read_bodies(read_run(made)).grid
+    at = grid.points[grid.cells]
+    edges = (at[:, 1:] - at[:, :1])[:, :, : grid.cells.shape[1] - 1]
+    volume = np.abs(np.linalg.det(edges)).sum()
+    assert volume > 0 and len(grid.skin) >= len(grid.surface)
+    sides = {tuple(side) for side in np.sort(grid.skin, axis=1).tolist()}
+    assert {tuple(side) for side in np.sort(grid.surface, axis=1).tolist()} <= sides
+
+
+@pytest.mark.parametrize("command", ["state", "stress"])
+def test_refusals(case, tmp_path, capsys, command):
+    """A run without its files for ParaView, or with another run's, shall be refused in one line, nothing written."""
+    folder = tmp_path / "run"
+    shutil.copytree(case, folder)
+    (folder / "contact.vtu").unlink()
+    assert main([command, str(folder), "--out", str(tmp_path / "f.pdf")]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1 and "run the scene with -vtu 1" in error
+    (folder / "contact.vtu").write_bytes((case / "solution.vtu").read_bytes())
+    assert main([command, str(folder), "--out", str(tmp_path / "f.pdf")]) == 2
+    assert main(["check", str(tmp_path)]) == 2
+    assert "run the case with -check 1" in capsys.readouterr().err
+    assert not list(tmp_path.glob("f.*"))
