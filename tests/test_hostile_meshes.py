@@ -345,7 +345,7 @@ MESHES = {
     "piece that nothing holds": (add_piece, ["holds"]),
     "piece that hangs on a node": (add_hinged_piece, ["holds", "single node"]),
     "bodies overlap": (moved(up=-0.3, only="upper"), ["overlap by"]),
-    "master below": (moved(up=-5, only="upper"), ["overlap by"]),
+    "master below": (moved(up=-5, only="upper"), ['no part of "master"']),
     "bodies aside": (moved(right=30, only="upper"), ["above"]),
     "bodies touch": (moved(up=-0.1, only="upper"), SOLVED),
     # names and sections
