@@ -429,6 +429,22 @@ def test_tables_are_written(campaigns, tmp_path, capsys):
     assert f" of {len(lines) - 1} runs" in document.read_text()
 
 
+@pytest.mark.filterwarnings("ignore:divide by zero")  # made-up results
+def test_tables_do_not_depend_on_the_order_of_the_rows(campaigns, tmp_path):
+    """A campaign that was gone on with in another order shall give the same tables."""
+    texts = []
+    for name, step in (("as they are", 1), ("reversed", -1)):
+        document, results = tmp_path / f"{name}.md", tmp_path / name
+        shutil.copytree(campaigns, results)
+        for path in results.glob("*/*.csv"):
+            head, *lines = path.read_text().splitlines(keepends=True)
+            path.write_text("".join([head, *lines[::step]]))
+        document.write_text(tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text()))
+        assert tables.main(["--document", str(document), "--results", str(results)]) == 0
+        texts.append(document.read_text())
+    assert texts[0] == texts[1]
+
+
 # ---------------------------------------------------------------- figures
 
 FIGURES = sorted(name for name, module in figures.modules().items() if hasattr(module, "READ"))

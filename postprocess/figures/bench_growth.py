@@ -28,7 +28,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     rows = select(runs[0].rows("growth", columns), name="growth")
     if not any(map(good, rows)):
         raise ResultsError(runs[0].path / "growth.csv", "no run of it converged")
-    problems = list(dict.fromkeys(map(problem, rows)))
+    problems = sorted(set(map(problem, rows)))
     figure = Figure(figsize=(style.PAGE, 0.45 * style.PAGE), layout="constrained")
     seconds, memory, ratio = figure.subplots(1, 3, sharex=True)
     texts = []
@@ -48,7 +48,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             seconds.plot(dofs, elastic, color=style.BLACK, linewidth=0.8, linestyle=(0, (4, 2)), label=label)
             if len(done) > 2:
                 powers = f"$n^{{{exponent(dofs, ours):.2f}}}$, elastic $n^{{{exponent(dofs, elastic):.2f}}}$"
-                texts.append(f"{'sphere' if index else 'plane'}: {powers}")
+                texts.append(f"{place(which[0])}: {powers}")
     seconds.text(0.97, 0.04, "\n".join(texts), transform=seconds.transAxes, ha="right", fontsize=7.5)
     for axes, title in ((seconds, "CPU seconds"), (memory, "memory [GB]"), (ratio, "cost ratio")):
         axes.set_xscale("log")
@@ -70,8 +70,11 @@ def problem(row: Row) -> tuple[str, float, float]:
 def words(which: tuple[str, float, float]) -> str:
     """A problem for the legend."""
     scene, kappa, m = which
-    place = "sphere" if scene == "sphere-on-block" else "plane"
-    return rf"{place}, $\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
+    return rf"{place(scene)}, $\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
+
+
+def place(scene: str) -> str:
+    return "sphere" if scene == "sphere-on-block" else "plane"
 
 
 def exponent(sizes: np.ndarray, seconds: np.ndarray) -> float:

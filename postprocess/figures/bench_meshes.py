@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from postprocess import style
 from postprocess.campaign import (
@@ -54,6 +55,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
                 continue
             axes.set_xscale("log")
             axes.set_yscale("log")
+            axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
             for place, name in enumerate(ELEMENTS):
                 draw_front(
                     [row for row in known if method(row) == "xnewton" and element(row) == name], column, axes, place

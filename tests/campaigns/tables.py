@@ -88,8 +88,12 @@ def main(argv: list[str] | None = None) -> int:
     tables: dict[str, str] = {}
     wanted = [found.group(2) for found in MARKED.finditer(text)]
     for csv in dict.fromkeys(TABLES[name][0] for name in wanted if name in TABLES):
+        order = {item.key: place for place, item in enumerate(LISTS[csv](campaign.ROOT))}
         rows = campaign.read_rows(arguments.results / f"{csv}.csv")
-        whole = len({item.key for item in LISTS[csv](campaign.ROOT)})
+        rows = sorted(
+            (row for row in rows if campaign.key_of(row) in order), key=lambda row: order[campaign.key_of(row)]
+        )
+        whole = len(order)
         if not rows or (len(rows) < whole and not arguments.partial):
             print(f"{csv}.csv: {len(rows)} of {whole} runs: its tables are left as they are", file=sys.stderr)
             continue
