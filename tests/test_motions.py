@@ -36,12 +36,18 @@ func int readAll(string name)
 }
 macro readInto(field) readAll(Stringification(field)); field.resize(read.n); field = read; //
 points = readAll("pointX");
-ndof = points;
+ndof = points + 1;             // the last moves no point
 readInto(pointX)
 readInto(weight)
 readInto(overlapBefore)
 macro none(field) field.resize(points); field = 0; //
-none(pointY) none(pointZ) none(normalX) none(normalY) none(normalZ) none(placeOnEdge) none(displacement) none(bodyLoad)
+none(pointY) none(pointZ) none(normalX) none(normalY) none(normalZ) none(placeOnEdge)
+displacement.resize(ndof);
+displacement = 0;
+bodyLoad.resize(ndof);
+bodyLoad = 0;
+wholeLoad.resize(ndof);
+wholeLoad = 0;
 normalY = 1;
 paired.resize(points);
 paired = 1;
@@ -57,7 +63,9 @@ chainClosed.resize(CONTACTS);
 chainClosed = 0;
 contactLength = pointX.max - pointX.min;
 {
-    real[int,int] K(points, points);
+    real[int,int] K(ndof, ndof);
+    K = 0;
+    K(points, points) = 1;
     readAll("K");
     for (int i = 0; i < points; i++) for (int j = 0; j < points; j++) K(i, j) = read[i * points + j];
     stiffness = K;
@@ -65,13 +73,14 @@ contactLength = pointX.max - pointX.min;
     real[int] one(points);
     one = 1;
     overlapMap = [one];
+    overlapMap.resize(points, ndof);
 }
 """
 
 MOTIONS = """
 addMotions(MOTIONS);
 readAll("field");
-for (int k = 0; k < motions; k++) for (int i = 0; i < points; i++) motionField(i, k) = read[i * motions + k];
+for (int k = 0; k < motions; k++) for (int i = 0; i < ndof; i++) motionField(i, k) = read[i * motions + k];
 readInto(motionTarget)
 readAll("motionStiffness");
 for (int k = 0; k < motions; k++) for (int l = 0; l < motions; l++) motionStiffness(k, l) = read[k * motions + l];
@@ -106,9 +115,7 @@ class Problem:
         same = self.contact[:, None] == self.contact[None, :]
         apart = np.abs(x[:, None] - x[None, :])
         np.fill_diagonal(apart, self.weight / 2 / np.e)
-        smooth = np.stack(
-            [f(x) * (1 + self.contact) for f in (np.ones_like, np.sin, np.cos, lambda t: t)], axis=1
-        )
+        smooth = np.stack([f(x) * (1 + self.contact) for f in (np.ones_like, np.sin, np.cos, lambda t: t)], axis=1)
         self.C = np.where(same, np.log(20 / apart), 0) + 0.3 * smooth @ np.diag(rng.uniform(0.1, 1, 4)) @ smooth.T
         self.C += (1e-3 - min(np.linalg.eigvalsh(self.C)[0], 0)) * np.eye(n)
         self.gap = 0.02 * (2 * x**2 + 0.1 * rng.standard_normal(len(sizes))[self.contact])
@@ -122,11 +129,13 @@ class Problem:
     def write(self, folder):
         data = dict(
             pointX=self.x, weight=self.weight, overlapBefore=-self.gap, contactOf=self.contact, K=np.linalg.inv(self.C),
-            field=self.G, motionTarget=self.t, motionStiffness=self.S,
+            field=np.vstack([self.G, np.abs(self.G).max(axis=0) < 1e-6]), motionTarget=self.t, motionStiffness=self.S,
         )  # fmt: skip
         for name, values in data.items():
             values = np.ravel(values)
-            (folder / name).write_text("\n".join(map(repr, map(float, [len(values), *values]))).replace(".0\n", "\n", 1) + "\n")
+            (folder / name).write_text(
+                "\n".join(map(repr, map(float, [len(values), *values]))).replace(".0\n", "\n", 1) + "\n"
+            )
 
     def solve(self, folder, *flags, laws="", expect=0):
         self.write(folder)
@@ -164,9 +173,12 @@ def power(kappa, m, d0):
     return lambda s: kappa * np.maximum(s, 0) ** m, d0
 
 
-@pytest.mark.parametrize("stiff", [0, 1])
-@pytest.mark.parametrize("motions", [0, 1, 2, 4])
-@pytest.mark.parametrize("flags", [[], ["-start", "none", "-preconditioner", "diagonal"]], ids=["kernel", "plain"])
+PLAIN = ["-start", "none", "-preconditioner", "diagonal"]
+
+
+@pytest.mark.parametrize(
+    "flags, motions, stiff", [([], 0, 0), ([], 2, 0), ([], 4, 1), (PLAIN, 1, 0), (PLAIN, 4, 0), (PLAIN, 2, 1)]
+)
 def test_hard_contact(tmp_path, flags, motions, stiff):
     """Forces, overlaps and motions shall fulfil the conditions of hard contact and balance the loads."""
     problem = Problem(1, motions=motions, stiff=stiff)
@@ -191,3 +203,39 @@ def test_laws_by_contact(tmp_path):
     assert values["converged"] == 1
     exponential = (lambda s: 0.02 * np.expm1(800 * np.maximum(s, 0)), -0.003)
     problem.check(values, [power(1e5, 3, -0.004), exponential, None])
+
+
+def test_unfelt_motion(tmp_path):
+    """A motion that no gap feels shall be fixed, or refused by name if a load works on it."""
+    problem = Problem(1, motions=3)
+    problem.G[:, 2] = 1e-14 * problem.x
+    problem.t[2] = 0
+    stdout = problem.solve(tmp_path)
+    assert "motion 2: fixed, no gap feels it and no load works on it" in stdout
+    values = told(stdout)
+    assert values["converged"] == 1
+    assert list(values["fixed"]) == [0, 0, 1]
+    problem.check(values, [None, None])
+    problem.t[2] = problem.t[0]
+    assert problem.solve(tmp_path, expect=10).splitlines()[-1].startswith("motion 2: a load works on it")
+
+
+def test_load_away_from_the_contact(tmp_path):
+    """A load that contact cannot push against shall be refused by name: there is no equilibrium."""
+    problem = Problem(1, motions=1)
+    problem.t *= -1
+    assert (
+        problem.solve(tmp_path, expect=10)
+        .splitlines()[-1]
+        .startswith("motion 0: a load works on it, but no contact can push")
+    )
+
+
+@pytest.mark.parametrize("seed", [7, 8])
+def test_kernel_saves_products(tmp_path, seed):
+    """The kernel of each contact shall need half the diagonal's products, with motions too."""
+    problem = Problem(seed, sizes=(60, 60), motions=4)
+    kernel = told(problem.solve(tmp_path))
+    diagonal = told(problem.solve(tmp_path, "-preconditioner", "diagonal"))
+    np.testing.assert_allclose(kernel["q"], diagonal["q"], atol=1e-5 * kernel["q"].max())
+    assert 2 * kernel["backsolves"] < diagonal["backsolves"]
