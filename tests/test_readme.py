@@ -103,7 +103,7 @@ def test_no_other_flags():
     known = set().union(*(help_table(scene) for scene in SCENES))
     assert documented().keys() <= known
     mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README)}
-    assert mentioned <= known | {"-help", "-kapa", "-spring", "-damping"}
+    assert mentioned <= known | {"-help", "-kapa", "-spring", "-damping", "-check"}
 
 
 def words_of(scene, flag):
@@ -383,7 +383,7 @@ def test_make_campaigns(package, campaign, table):
 
 def test_show(paper_run):
     """The command that prints a summary shall do so."""
-    (line,) = [line for line in commands() if line.startswith(".venv")]
+    (line,) = [line for line in commands() if "postprocess show" in line]
     code, stdout = execute([*shlex.split(line)[:-1], paper_run.folder], ROOT, environment())
     assert code == 0
     assert "adaptations" in stdout
