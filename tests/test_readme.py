@@ -178,7 +178,12 @@ def test_summary_keys(paper_run):
     """summary.json shall have the keys that the README lists, and no other."""
     listed = [key for keys, *_ in rows(section(README, "Files of a run")) for key in quoted(keys)]
     cells = [row[0] for row in rows(section(README, "Files of a run"))]
-    others = {key for cell in cells for words in ("in space", "with two", "of a case") for key in quoted(cell.partition(words)[2])}
+    others = {
+        key
+        for cell in cells
+        for words in ("in space", "with two", "of a case")
+        for key in quoted(cell.partition(words)[2])
+    }
     files = {path.name for path in paper_run.folder.iterdir()}
     names = {key for key in listed if not key.endswith(".csv") and not key.startswith("-")}
     assert names - others == flat(paper_run.summary)
