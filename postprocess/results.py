@@ -326,6 +326,8 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
         values = np.empty((0, len(names)))
     if values.shape[1] != len(names):
         raise ResultsError(path, f"has {values.shape[1]} values in a row for {len(names)} column names")
+    for name in names:
+        checked(path, name, values[:, names.index(name)])
     return {name: checked(path, name, values[:, names.index(name)]) for name in columns}
 
 

@@ -11,6 +11,7 @@ import time
 
 import bench
 import campaign
+import coverage
 import numpy as np
 import peers
 import pytest
@@ -165,6 +166,7 @@ import sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background is started with it ignored
 sys.path.insert(0, {str(campaign.ROOT / "tests" / "campaigns")!r})
 import campaign
+import coverage
 from pathlib import Path
 cases = [campaign.Case("part", "edp/main.edp", ("-sleep", seconds, "-count", {str(runner.count)!r}))
          for seconds in ("0", "50")]
@@ -478,6 +480,8 @@ def campaigns(tmp_path_factory):
     folder = tmp_path_factory.mktemp("campaigns")
     lists = {f"bench/{name}": (cases(campaign.ROOT), columns) for name, (cases, columns, *_) in bench.PARTS.items()}
     lists["bench/peers"] = peers.cases(), peers.COLUMNS
+    lists["coverage/coverage"] = coverage.cases(), coverage.COLUMNS
+    lists["coverage/space"] = coverage.cases_in_space(), coverage.COLUMNS
     lists["stability/stability"] = stability.cases(), stability.COLUMNS
     for name, (cases, further) in lists.items():
         columns = [*campaign.COLUMNS, *further]

@@ -131,7 +131,8 @@ def tables(text):
 
 
 def number_printed(stdout, label):
-    """The number after the last place where a run printed this label."""
+    """The number after the last place where a run printed this label, but where it says the number's error."""
+    stdout = "\n".join(line for line in stdout.splitlines() if not line.startswith("  within"))
     found = re.findall(re.escape(label) + r"\s*[:=]?\s*([-+]?\d[\d.]*(?:e[-+]?\d+)?)", stdout)
     assert found, f"{label} is not printed:\n{stdout[-2000:]}"
     return float(found[-1])

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, Run, execute, flag_text, snippet, told
 
+from postprocess.closed_forms import pin_angle, pin_pressure, plane_modulus
+
 PLANE_GROUPS = {1: "bottom", 2: "right", 3: "top", 4: "left"}
 SPACE_GROUPS = {1: "back", 2: "front", 3: "left", 4: "right", 5: "bottom", 6: "top"}
 UNTURNED = np.eye(3)
@@ -601,7 +603,7 @@ def test_turned_contact_in_space(tmp_path, seed):
 
 def test_second_order_mesh(tmp_path):
     """The nodes in the middle of a second-order mesh's sides, on the user's own surface, take the spline's place."""
-    geo = (ROOT / "edp/examples/pin-in-hole/pin-in-hole.geo").read_text().replace("size = {0.5,", "size = {2,")
+    geo = (ROOT / "edp/examples/pin-in-hole/pin-in-hole.geo").read_text().replace("size = {0.28,", "size = {1,")
     case = (ROOT / "edp/examples/pin-in-hole/pin-in-hole.case").read_text()
     folder = tmp_path / "a b'c"
     folder.mkdir()
@@ -616,7 +618,9 @@ def test_second_order_mesh(tmp_path):
         assert f"mesh of {('first', 'second')[order - 1]} order" in stdout
         pressures.append(Run(code, stdout, folder / "out").pressureMax)
         (folder / "pin.msh").unlink()
-    assert pressures == pytest.approx([225, 225], rel=0.02)  # edges of a fifth of the radius
+    force, clearance, hole = 1000, 0.01, 10.01
+    angle = pin_angle(plane_modulus(210e3, 0.3) * clearance / force)
+    assert pressures == pytest.approx([pin_pressure(0, angle) * force / hole] * 2, rel=0.02)
 
 
 # ---------------------------------------------------------------- meshes

@@ -91,7 +91,7 @@ def plane(group, point, normal, move=None):
 
 @pytest.mark.parametrize("distance", ["linear", "exact"])
 def test_turned_ball(tmp_path, distance):
-    """A ball that only three pairs of planes hold, turned: the same counts, results to 1e-9."""
+    """A ball that only three pairs of planes hold, turned: the same counts, but for one product, results to 1e-9."""
 
     def solve(name, matrix):
         case = "body ball E 100 nu 0.3\n"
@@ -109,9 +109,10 @@ def test_turned_ball(tmp_path, distance):
     assert min(greatest) > 0.5 * max(greatest)
     for k, matrix in enumerate(TURNS):
         other = solve(str(k), matrix)
-        # the last of several rounds' products may be decided by rounding
-        for count in ["newton", "points", "contactPoints", *(["backsolves"] if distance == "linear" else [])]:
+        for count in ["newton", "points", "contactPoints"]:
             assert other.summary[count] == one.summary[count], count
+        # the last product of the conjugate gradients may be decided by rounding
+        assert abs(other.backsolves - one.backsolves) <= 1
         assert other.energy == pytest.approx(one.energy, rel=1e-9)
         for c in range(6):
             part = slice(c * points, (c + 1) * points)
@@ -280,7 +281,7 @@ def turned_file(text, matrix):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_turned_cylinders(tmp_path, order):
-    """Crossed cylinders with symmetries and a force, turned: the same counts, results to 1e-9."""
+    """Crossed cylinders with symmetries and a force, turned: the same counts, but for one product, results to 1e-9."""
     example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders.geo"
     numbers = {"ratio": 2, "size": 0.2, "long": 0.71, "wide": 0.45, "extent": 3, "finer": 0.9}
     (tmp_path / "a.geo").write_text("".join(f"{k} = {v};\n" for k, v in numbers.items()) + f'Include "{example}";\n')

@@ -277,7 +277,7 @@ def test_facets(tmp_path, pin, said):
     """A pressure that facets spoil shall be said; one that they do not is near that of the true circles, and is not."""
     (tmp_path / "pin.geo").write_text(PIN_IN_HOLE.replace("PIN", pin))
     flags = ["-mesh", tmp_path / "pin.geo", "-E1", 2.1e5, "-E2", 2.1e5, "-force", 2000, "-vtu", 0]
-    done = run_in(ROOT, script("two-bodies"), *flags, out=tmp_path / "out")
+    done = run_in(ROOT, script("two-bodies"), *flags, "-surface", "facets", out=tmp_path / "out")
     if said:
         assert done.pressureMax > 2 * TRUE_CIRCLES
         warned(done, "jumps from point to point", "finer edges")
