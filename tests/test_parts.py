@@ -524,7 +524,7 @@ def test_turned_contact(tmp_path, angle):
     """Floating, pushed and moved bodies in contact, turned: the same counts, the same pressures."""
 
     def case(matrix):
-        sides = f'clamp bottom\nsymmetry "upper left"\nforce "upper top" {vector((0, -5), matrix)}\n'
+        sides = f'symmetry bottom\nsymmetry left\nsymmetry "upper left"\nforce "upper top" {vector((0, -5), matrix)}\n'
         wall = f"{vector((3.2, 0), matrix)} {vector((-1, 0), matrix)} move {vector((-0.25, 0), matrix)}"
         return f"{STACK}{sides}obstacle right plane {wall}\n"
 
