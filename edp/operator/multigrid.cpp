@@ -192,14 +192,15 @@ void wholeNumbers(const FESpace3 & V, const KN<long> & old, std::vector<int> & n
         {
             int n = nodeOf(V, k, j), whole = elementNode[(size_t) (old.N() ? old[k] : k) * each + j];
             for (int c = 0; c < 3; c++)
-                if (whole < 0 || at[3 * n + c] != place[3 * whole + c]) ExecError("multigrid: a part's element is not the whole's");
+                if (whole < 0 || at[3 * n + c] != place[3 * whole + c])
+                    ExecError("multigrid: a part's element is not the whole's");
             node[n] = whole;
         }
 }
 
-void rowsOf(const HashMatrix<int, double> & A, const std::vector<int> & node, const KN<double> & released, std::vector<PetscInt> & start,
-            std::vector<PetscInt> & column, std::vector<PetscScalar> & value)
-// The rank's rows, columns in order, out of the elements' matrix, all or half of it stored; what belongs to held dofs is put aside.
+void rowsOf(const HashMatrix<int, double> & A, const std::vector<int> & node, const KN<double> & released,
+            std::vector<PetscInt> & start, std::vector<PetscInt> & column, std::vector<PetscScalar> & value)
+// The rank's rows, columns in order, out of the elements' matrix, all or half of it stored; held dofs' are put aside.
 {
     PetscInt first = components * firstNode, rows = components * ownNodes;
     auto number = [&](int i) { return components * numberOf[node[i / components]] + i % components; };
@@ -242,7 +243,7 @@ void rowsOf(const HashMatrix<int, double> & A, const std::vector<int> & node, co
 }
 
 void setRigidBodies(const KN<double> & released)
-// What the coarse levels must carry: rigid motions, 0 at held dofs.
+// What the coarse levels must carry: rigid motions. Taking out the held dofs gains nothing.
 {
     Vec motion[modes];
     double * value[modes];
@@ -284,7 +285,8 @@ void setRigidBodies(const KN<double> & released)
     for (int m = 0; m < modes; m++) CHECK(VecDestroy(&motion[m]));
 }
 
-long multigridMatrix(Matrice_Creuse<double> * const & matrix, pfes3 * const & space, KN<long> * const & old, KN<double> * const & released)
+long multigridMatrix(Matrice_Creuse<double> * const & matrix, pfes3 * const & space, KN<long> * const & old,
+                     KN<double> * const & released)
 // The part's matrix goes to PETSc, and is emptied. old: the part's elements in the whole mesh, empty if the part is the whole.
 {
     HashMatrix<int, double> & A = *matrix->pHM();
@@ -471,14 +473,6 @@ long multigridForces(KN<double> * const & field, KN<double> * const & forces)
     return 0;
 }
 
-double multigridWeight()
-// Bytes of the matrix, on this rank.
-{
-    MatInfo info;
-    CHECK(MatGetInfo(K, MAT_LOCAL, &info));
-    return info.memory;
-}
-
 void start()
 {
     Global.Add("ranksNow", "(", new OneOperator0<long>(ranksNow));
@@ -486,7 +480,8 @@ void start()
     Global.Add("meetRanks", "(", new OneOperator0<long>(meetRanks));
     Global.Add("firstRankSays", "(", new OneOperator1_<long, long>(firstRankSays));
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
-    Global.Add("multigridMatrix", "(", new OneOperator4_<long, Matrice_Creuse<double> *, pfes3 *, KN<long> *, KN<double> *>(multigridMatrix));
+    Global.Add("multigridMatrix", "(",
+               new OneOperator4_<long, Matrice_Creuse<double> *, pfes3 *, KN<long> *, KN<double> *>(multigridMatrix));
     Global.Add("multigridWhole", "(", new OneOperator2_<long, KN<double> *, KN<double> *>(multigridWhole));
     Global.Add("multigridSetUp", "(", new OneOperator1_<long, string *>(multigridSetUp));
     Global.Add("multigridWatch", "(", new OneOperator1_<long, KN<long> *>(multigridWatch));
@@ -495,7 +490,6 @@ void start()
     Global.Add("multigridField", "(", new OneOperator2_<long, KN<double> *, bool>(multigridField));
     Global.Add("multigridCarry", "(", new OneOperator1_<long, double>(multigridCarry));
     Global.Add("multigridForces", "(", new OneOperator2_<long, KN<double> *, KN<double> *>(multigridForces));
-    Global.Add("multigridWeight", "(", new OneOperator0<double>(multigridWeight));
 }
 }
 LOADFUNC(start)
