@@ -47,9 +47,7 @@ def test_same_answer(case, ranks, tmp_path):
     scene, *flags = case
     flags = [*flags, "-tol", 1e-8] + ([] if "-order" in flags else ["-order", 1])
     direct = run(scene, *flags)
-    code, output = on_ranks(
-        ranks, script(scene), *flags, "-solver", "multigrid", "-vtu", 0, "-out", tmp_path / "out"
-    )
+    code, output = on_ranks(ranks, script(scene), *flags, "-solver", "multigrid", "-vtu", 0, "-out", tmp_path / "out")
     assert code == 0, output[-2000:]
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     for name in SAME:
@@ -66,9 +64,7 @@ def test_load_series(tmp_path):
     flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-history", 1, "-steps", 3, "-vtu", 0]
     rows = []
     for ranks, solver in ((1, "direct"), (2, "multigrid")):
-        code, output = on_ranks(
-            ranks, script("sphere-on-block"), *flags, "-solver", solver, "-out", tmp_path / solver
-        )
+        code, output = on_ranks(ranks, script("sphere-on-block"), *flags, "-solver", solver, "-out", tmp_path / solver)
         assert code == 0, output[-2000:]
         rows.append((tmp_path / solver / "series.csv").read_text().splitlines())
     assert len(rows[0]) == len(rows[1]) == 4
