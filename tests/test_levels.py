@@ -1,4 +1,4 @@
-"""Products with the kernel of many points, without its matrix: against the matrix, in plane and space, and whole runs."""
+"""Products with the kernel of many points without its matrix: against the matrix, and whole runs."""
 
 import pytest
 from freefem import run_in, scene_text, script, snippet, told, tree
@@ -65,82 +65,3 @@ def test_runs(scene, flags, tmp_path):
     assert other["force"] == pytest.approx(usual["force"], rel=1e-5)
     assert other["newton"] <= usual["newton"] + 1
     assert other["backsolves"] <= usual["backsolves"] + 5
-
-
-MANY = """
-setUpKernel();
-{
-    // so many points on a square grid, under the scene's sphere; no body stands behind them
-    int across = 224;
-    real spacing = 2 * patch / (across - 1);
-    points = across^2;
-    macro sized(field) field.resize(points);
-    field = 0; //
-    sized(pointX)
-    sized(pointY)
-    sized(pointZ)
-    sized(weight)
-    sized(overlapBefore)
-    sized(paired)
-    sized(normalX)
-    sized(normalY)
-    sized(normalZ)
-    for (int i = 0; i < points; i++) pointX[i] = -patch + spacing * (i % across);
-    for (int i = 0; i < points; i++) pointY[i] = -patch + spacing * (i / across);
-    for (int i = 0; i < points; i++) overlapBefore[i] = -separation(pointX[i], pointY[i], 0);
-    real[int] place = pointX;
-    real[int] beside = pointY;
-    int[int] order(points);
-    for (int i = 0; i < points; i++) order[i] = i;
-    mortonPlace(place, beside);
-    sort(place, order);
-    macro sorted(field)
-    {
-        real[int] copy = field(order);
-        field = copy;
-    } //
-    sorted(pointX)
-    sorted(pointY)
-    sorted(overlapBefore)
-    weight = spacing^2;
-    normalZ = 1;
-    paired = 1;
-    setUpKernel();
-    setUpProblem();
-    setUpPreconditioner();
-    kernelUsed = true;
-    kernelC = 0;
-    real begun = clock();
-    applyLoad(1);
-    sFree = sRest;
-    firstThreshold();
-    preconditionerInUse = "kernel";
-    solveOnCoarse();
-    solveOnFine();
-    tell("residual", residual);
-    tell("start", clock() - begun);
-    int[int] A(0);
-    real[int] soft(0);
-    real[int] b(0);
-    tell("contact", contactSystem(A, soft, b));
-    begun = clock();
-    preconditionerFor(A, soft);
-    real[int] out(A.n);
-    precondition(b, out);
-    tell("preconditioner", clock() - begun);
-    tell("force", q.sum);
-}
-exec("grep VmHWM /proc/$PPID/status");
-"""
-
-
-@pytest.mark.long
-def test_many_points(tmp_path):
-    """50 000 points in space: start and preconditioner in 2 GB and two minutes."""
-    flags = ["-order", 1, "-h", 2, "-layers", 2, "-patch", 5, "-symmetry", "whole", "-kappa", 1e6]
-    output = snippet(tmp_path, scene_text("sphere-on-block") + MANY, *flags)
-    values = told(output)
-    assert values["residual"][0] < 1e-3
-    assert values["contact"][0] > 20000
-    assert values["start"][0] + values["preconditioner"][0] < 120
-    assert int(output.split("VmHWM:")[1].split()[0]) < 2e6

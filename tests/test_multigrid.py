@@ -43,7 +43,7 @@ CASES = [
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 @pytest.mark.parametrize("case", CASES, ids=lambda case: " ".join(map(flag_text, case)))
 def test_same_answer(case, ranks, tmp_path):
-    """Forces, pressures, radius to 1e-6 at -tol 1e-8, linearisations but for one, the true residual below the tolerance."""
+    """Forces, pressures, radius to 1e-6 at -tol 1e-8, linearisations but for one, the residual below the tolerance."""
     scene, *flags = case
     flags = [*flags, "-tol", 1e-8] + ([] if "-order" in flags else ["-order", 1])
     direct = run(scene, *flags)
