@@ -23,7 +23,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system run figures movie report bench bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help setup system mpi petsc run figures movie report bench bench-peers stability coverage tables labs test test-all lint doctor clean distclean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -46,16 +46,10 @@ endef
 
 setup: .venv/dev.stamp | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
 
-# A FreeFem++ that is not Debian's brings its own plugins: Debian's packages are not asked for beside it.
-# A failed update is no reason to stop: the lists may be good enough, and if not, the install fails.
-system:
-	@has() { dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q ' installed$$'; }; \
-	missing=; \
-	if ! command -v FreeFem++ >/dev/null; then missing=' $(FREEFEM_PACKAGES)'; \
-	elif has freefem++; then for package in $(FREEFEM_PACKAGES); do has $$package || missing="$$missing $$package"; done; fi; \
-	command -v gmsh >/dev/null || missing="$$missing gmsh"; \
-	{ $(FIND_PYTHON); } || missing="$$missing python3 python3-venv"; \
-	test -n "$$missing" || exit 0; \
+# Installs the Debian packages in $$missing, if any. A failed update is no reason to stop: the lists may be good enough, and if
+# not, the install fails.
+define INSTALL_MISSING
+test -n "$$missing" || exit 0; \
 	if [ "$$(id -u)" = 0 ]; then sudo=; else sudo='sudo -n'; fi; \
 	if ! command -v apt-get >/dev/null || ! $$sudo true 2>/dev/null; then \
 	  echo "Please install:$$missing (Debian's names; there is no apt-get here, or no right to use it)"; exit 1; \
@@ -68,6 +62,17 @@ system:
 	  sleep 5; \
 	done; \
 	echo "apt-get could not install:$$missing"; exit 1
+endef
+
+# A FreeFem++ that is not Debian's brings its own plugins: Debian's packages are not asked for beside it.
+system:
+	@has() { dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q ' installed$$'; }; \
+	missing=; \
+	if ! command -v FreeFem++ >/dev/null; then missing=' $(FREEFEM_PACKAGES)'; \
+	elif has freefem++; then for package in $(FREEFEM_PACKAGES); do has $$package || missing="$$missing $$package"; done; fi; \
+	command -v gmsh >/dev/null || missing="$$missing gmsh"; \
+	{ $(FIND_PYTHON); } || missing="$$missing python3 python3-venv"; \
+	$(INSTALL_MISSING)
 
 .venv/run.stamp: requirements.txt | system
 	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
@@ -76,6 +81,31 @@ system:
 
 .venv/dev.stamp: requirements-dev.txt .venv/run.stamp | system
 	$(PIP_INSTALL)
+
+# The plugin for -solver multigrid, on Debian's PETSc or on the one in $(PETSC), which has include/ and lib/ (named on the command
+# line, or the variables PETSC_DIR/PETSC_ARCH of a PETSc of one's own).
+PETSC = $(firstword $(if $(PETSC_DIR),$(PETSC_DIR)/$(PETSC_ARCH)) $(wildcard /usr/lib/petscdir/petsc*/*-linux-gnu-real))
+
+mpi: | petsc ## build the plugin for -solver multigrid and several processes: make mpi [PETSC=/its/folder]
+	@$(MAKE) --no-print-directory build/multigrid-plugin.idp
+
+petsc: | system
+	@missing=; \
+	test -n "$(PETSC)" || missing=' libpetsc-real-dev'; \
+	command -v mpicxx >/dev/null || missing="$$missing libopenmpi-dev"; \
+	$(INSTALL_MISSING)
+
+# ff-c++ writes beside its source. The .idp comes last: what it names is there.
+build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
+	@mkdir -p build && cp $< build && cd build && \
+	ff-c++ -mpi -I$(PETSC)/include $$(mpicxx --showme:compile) -L$(PETSC)/lib -Wl,-rpath,$(PETSC)/lib \
+	  $$(if ls $(PETSC)/lib/libpetsc_real.* >/dev/null 2>&1; then echo -lpetsc_real; else echo -lpetsc; fi) \
+	  $$(mpicxx --showme:link) multigrid.cpp >multigrid.log 2>&1 && test -e multigrid.so || { \
+	  grep -m 3 'error' multigrid.log; echo "the plugin could not be built with the PETSc in $(PETSC): build/multigrid.log"; exit 1; \
+	}
+	@rm -f build/multigrid.cpp build/multigrid.o
+	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
+	@echo 'built: -solver multigrid, in scenes in space'
 
 # ---------------------------------------------------------------- runs
 
@@ -249,7 +279,9 @@ doctor: ## say what is installed, what is missing and how to get it
 
 # ---------------------------------------------------------------- checks
 
+# Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
+	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) --no-print-directory build/multigrid-plugin.idp
 	@$(PYTHON) -m pytest -q -n 2 $(PYTEST_ARGS) $(TESTS)
 
 test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
@@ -264,5 +296,5 @@ clean: ## remove results and generated meshes
 	rm -rf results meshes/generated
 
 distclean: clean ## remove the virtual environment and caches as well
-	rm -rf .venv .venv-peers .pytest_cache .ruff_cache
+	rm -rf .venv .venv-peers build .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

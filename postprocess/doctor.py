@@ -39,6 +39,8 @@ PACKAGES = {
     "python": "python3 python3-venv",
     "make": "make",
     "chromium": "chromium",
+    "mpi": "openmpi-bin libopenmpi-dev",
+    "petsc": "libpetsc-real-dev, or `make mpi`, which installs it too",
 }
 # How to get a program where there is no apt-get: {system: {program: words}}.
 ELSEWHERE = {
@@ -48,6 +50,8 @@ ELSEWHERE = {
         "python": "brew install python, or https://www.python.org",
         "make": "xcode-select --install",
         "chromium": "brew install --cask chromium",
+        "mpi": "brew install open-mpi",
+        "petsc": "brew install petsc, then `make mpi PETSC=/its/folder` (not tried)",
     },
     "Windows": {
         "FreeFem++": f"Debian or Ubuntu in WSL, then as there; the .exe of {RELEASES} has no POSIX shell",
@@ -55,6 +59,8 @@ ELSEWHERE = {
         "python": "https://www.python.org",
         "make": "the MSYS2 package make; simplest: WSL",
         "chromium": "any Chromium on the PATH",
+        "mpi": "simplest: WSL",
+        "petsc": "simplest: WSL",
     },
     "": {
         "FreeFem++": f"your system's packages, or {RELEASES}",
@@ -62,6 +68,8 @@ ELSEWHERE = {
         "python": "your system's packages: Python 3.11 or newer with its venv module",
         "make": "your system's packages",
         "chromium": "your system's packages",
+        "mpi": "your system's packages: Open MPI or MPICH with its compilers",
+        "petsc": "your system's packages, then `make mpi PETSC=/its/folder`",
     },
 }
 
@@ -271,6 +279,28 @@ def find_others() -> list:
     return findings
 
 
+def find_multigrid() -> list:
+    """What -solver multigrid wants: MPI, FreeFem++-mpi, PETSc, and the plugin that `make mpi` builds."""
+    launcher, compiler = shutil.which("mpiexec"), shutil.which("mpicxx")
+    there = " and ".join(path for path in (launcher, compiler) if path)
+    findings = [Finding("MPI", bool(launcher and compiler), there or "not on the PATH", False, hint("mpi"))]
+    for name in ("FreeFem++-mpi", "ff-mpirun", "ff-c++"):
+        path = shutil.which(name)
+        findings.append(Finding(f"  {name}", bool(path), path or "not on the PATH", False, hint("FreeFem++")))
+    own = os.environ.get("PETSC_DIR")
+    folders = [Path(own) / os.environ.get("PETSC_ARCH", "")] if own else []
+    folders += sorted(Path("/usr/lib/petscdir").glob("petsc*/*-linux-gnu-real"))
+    petsc = next((folder for folder in folders if (folder / "include/petsc.h").exists()), None)
+    words = str(petsc or "not found; needed for -solver multigrid only")
+    findings.append(Finding("PETSc", bool(petsc), words, False, hint("petsc")))
+    built = (ROOT / "build/multigrid-plugin.idp").exists()
+    code, _ = snippet('load "multigrid"\n') if built else (1, "")
+    words = (
+        "built" if code == 0 else ("built, but cannot be loaded" if built else "not built; -solver direct needs none")
+    )
+    return [*findings, Finding("  plugin multigrid", code == 0, words, False, "make mpi")]
+
+
 # ---------------------------------------------------------------- the lines
 
 
@@ -288,7 +318,7 @@ def lines(findings: list) -> list:
 
 def main() -> int:
     print(f"{system_name()}, {processor()}, {cores()} cores")
-    findings = [*find_freefem(), *find_gmsh(), *find_python(), *find_others()]
+    findings = [*find_freefem(), *find_gmsh(), *find_python(), *find_others(), *find_multigrid()]
     print("\n".join(lines(findings)))
     missing = [finding.name.strip() for finding in findings if finding.needed and not finding.there]
     if not missing:

@@ -163,8 +163,9 @@ def uses(name):
 
 
 def includes(name):
-    """The sources that a source includes, or has a macro include."""
-    return re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', (EDP / name).read_text(), flags=re.M)
+    """The sources that a source includes, or has a macro include; what `make mpi` writes is not there."""
+    found = re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', (EDP / name).read_text(), flags=re.M)
+    return [inner for inner in found if (EDP / inner).exists()]
 
 
 @cache
