@@ -46,10 +46,12 @@ def drawn(pyvista, chosen: Run, factor: float, unit: str) -> np.ndarray:
     """The pixels: six contact radii wide, four deep."""
     path = chosen.path / "solution.vtu"
     radius = chosen.summary.get("halfWidthMoment")
-    if not path.exists() or chosen.contact.get("z") is None or not radius:
-        raise ResultsError(chosen.path, "no run in space with a contact and -vtu 1")
+    if not path.exists() or not radius:
+        raise ResultsError(chosen.path, "no run with a contact and -vtu 1")
     body = pyvista.read(path)
-    top = float(np.max(chosen.contact["z"]))
+    if not np.any(body.celltypes == pyvista.CellType.TETRA):
+        raise ResultsError(chosen.path, "no run in space")
+    top = body.bounds[5]
     for axis, normal in ((0, (1, 0, 0)), (1, (0, 1, 0))):
         if body.bounds[2 * axis] >= 0:
             mirrored = body.reflect(normal, transform_all_input_vectors=True)
