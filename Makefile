@@ -23,7 +23,16 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help setup system mpi petsc run figures movie report bench bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+
+# ---------------------------------------------------------------- the paper
+
+PAPER := results/figures/figure1.pdf results/figures/figure2.pdf
+paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, and its two figures
+	@echo 'figures: $(PAPER)'
+
+paper-run: | system
+	@$(FREEFEM) edp/main.edp -method paper -order 1 -h 0.5
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -210,6 +219,16 @@ $(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(fi
 results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | .venv/run.stamp
 	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
 
+# The pictures of the README and the manual. Those of the campaigns need their CSV files, readme-sphere.png PyVista.
+SMALL := $(PYTHON) -m postprocess small
+pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the README and the manual anew
+	$(SMALL) results/figures/figure1.png --out postprocess/readme-figure.png
+	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
+	$(SMALL) results/movies/disc-on-block/movie.gif --width 640 --colours 16 --out postprocess/readme-movie.gif
+	$(SMALL) results/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
+	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
+	$(PYTHON) -m postprocess cut results/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
+
 # ---------------------------------------------------------------- campaigns
 
 # Many runs, a row each; interrupted and started again, they go on where they were.
@@ -247,7 +266,7 @@ stability: .venv/run.stamp | system ## counts and failures over laws, stiffness,
 coverage: .venv/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
 
-tables: .venv/run.stamp ## write the campaigns' results into the tables of README.md
+tables: .venv/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
 # ---------------------------------------------------------------- labs

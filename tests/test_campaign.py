@@ -389,7 +389,7 @@ TEXT = "before\n<!-- table: {} -->\nold\n<!-- end -->\nbetween\n<!-- table: peer
 
 
 def test_markers_of_the_tables():
-    """Every marker of the README shall be a table that there is, opened and closed once; none shall be missing."""
+    """Every marker of the results shall be a table that there is, opened and closed once; none shall be missing."""
     text = tables.DOCUMENT.read_text()
     names = [found.group(2) for found in tables.MARKED.finditer(text)]
     assert sorted(names) == sorted(tables.TABLES)
@@ -409,7 +409,7 @@ def test_only_what_is_between_markers_is_written():
 @pytest.mark.filterwarnings("ignore:divide by zero")  # made-up results
 def test_tables_are_written(campaigns, tmp_path, capsys):
     """From whole tables of results all shall be written, twice the same; from a part of one only when that is asked."""
-    document, results = tmp_path / "README.md", tmp_path / "results"
+    document, results = tmp_path / "RESULTS.md", tmp_path / "results"
     kept = tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text())
     document.write_text(kept)
     options = ["--document", str(document), "--results"]

@@ -131,11 +131,21 @@ def test_progress_appears_as_it_happens(tmp_path):
 
 
 def test_output_has_its_parts(tmp_path):
-    """A run shall print its parameters once, the table of Newton steps in aligned columns, and a closing summary."""
-    result = run_in(ROOT, script(DISC), "-method", "paper", "-h", 1, out=tmp_path / "out")
+    """A run shall say what is solved, the flags not as by default, aligned Newton steps, a summary and its picture."""
+    flags = ["-method", "paper", "-h", 1, "-kappa", "1000.0", "-gap", 0.4]  # kappa's default in other words
+    result = run_in(ROOT, script(DISC), *flags, out=tmp_path / "out")
     lines = result.stdout.splitlines()
-    for flag in FLAGS:
-        assert sum(line.split()[:1] == [flag] for line in lines) == 1
+    assert lines[0] == "disc-on-block: a rigid disc pressed into an elastic block by u0."
+    assert lines[1] == "Method paper, law power, P1, h = 1; not as by default:"
+    assert [line.split()[0] for line in lines if line.startswith("  -")] == ["-gap", "-method", "-h", "-out"]
+    assert lines[-1].split()[:6] == [
+        "picture:",
+        ".venv/bin/python",
+        "-m",
+        "postprocess",
+        "state",
+        f"{tmp_path / 'out'}/",
+    ]
     progress = [line for line in lines if is_progress(line)]
     assert len(progress) == result.newton
     assert len({len(line) for line in progress}) == 1
@@ -147,6 +157,13 @@ def test_output_has_its_parts(tmp_path):
     assert "converged" in closing
     assert f"{result.force:.6g}" in closing
     assert str(tmp_path / "out") in closing
+
+
+@pytest.mark.parametrize("scene", [DISC, "sphere-on-block"])
+def test_plot_without_a_window(scene, tmp_path):
+    """-plot 1 shall be understood in the plane and in space; with -nw there is no window, and the run goes on."""
+    result = run_in(ROOT, script(scene), "-h", 2, "-vtu", 0, "-plot", 1, out=tmp_path / "out")
+    assert "report/window" in result.modules and result.converged
 
 
 # ---------------------------------------------------------------- meshes

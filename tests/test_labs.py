@@ -40,12 +40,8 @@ def package_in(folder):
 
 
 def test_index():
-    """The index shall list every lab, the package's README every lab's folder and script."""
+    """The index shall list every lab."""
     assert re.findall(r"^\| \[(.*?)\]\((.*?)/README\.md\)", INDEX, re.M) == [(lab, lab) for lab in LABS]
-    labs = section((ROOT / "README.md").read_text(), "Labs")
-    for lab in LABS:
-        assert f"`edp/labs/{lab}`" in labs
-        assert lab_script(lab) in labs
 
 
 @pytest.mark.parametrize("lab", LABS)

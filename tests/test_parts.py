@@ -537,6 +537,59 @@ def test_turned_contact(tmp_path, angle):
     assert one.contact["pressure"][one.contact["contact"] == 1].max() > 0
 
 
+HELD = 'clamp bottom\nsymmetry "upper left"\nforce "upper top" 0 -5\nobstacle right plane 3.2 0 -1 0 move {} 0{}\n'
+
+
+@pytest.mark.parametrize("flags", [(), ("-distance", "exact")])
+def test_held_point(tmp_path, flags):
+    """A wall against a clamped block: its clamped corner is refused, left out, or carries what the law says."""
+    mesh = stack()
+    refused = solve(tmp_path, mesh, STACK + HELD.format(-0.25, ""), *flags, expect=10).stdout
+    words = "contact right plane: the point at (3, 0): it is held, and so is what it touches, and they overlap by 0.05"
+    assert words in refused.splitlines()[-1]
+    assert not (tmp_path / "out").exists()
+    touching = solve(tmp_path, mesh, STACK + HELD.format(-0.2, ""), *flags)
+    assert "right plane: the point at (3, 0) is held, and so is what is opposite: left out" in touching.stdout
+    side = touching.contact["contact"] == 1
+    assert touching.contact["pressure"][side].min() == 0 and touching.contact["pressure"][side].max() > 0.1
+    layer = solve(tmp_path, mesh, STACK + HELD.format(-0.25, " law power kappa 100 m 2 d0 -0.01"), *flags)
+    assert "right plane: the point at (3, 0) is held, and so is what is opposite: 0.00" in layer.stdout
+    corner = layer.contact[(layer.contact["contact"] == 1) & (layer.contact["y"] == 0)]
+    assert corner["pressure"] == pytest.approx(100 * 0.06**2, rel=1e-9)
+    assert layer.contact["pressure"].max() > 3 * corner["pressure"]
+
+
+def test_held_on_both_sides(tmp_path):
+    """A slave's clamped corner below a master's that is moved into it: no solution; a gap there is no matter."""
+    case = STACK + 'clamp left\nclamp bottom\nmove "upper left" 0 {}\npressure "upper top" 1\n'
+    said = solve(tmp_path, two_blocks_of(3, 9), case.format(-0.01), expect=10).stdout
+    assert "contact top upper bottom: the point at (0, 1): it is held" in said
+    run = solve(tmp_path, two_blocks_of(3, 9), case.format(0.01))
+    assert run.force > 1 and "left out" not in run.stdout
+
+
+def two_blocks_of(width, cells):
+    """Two blocks on each other whose nodes meet."""
+    mesh = block(Mesh(), size=(width, 1), cells=(cells, 3))
+    return block(mesh, size=(width, 1), cells=(cells, 3), at=(0, 1), prefix="upper ", name="upper").text()
+
+
+def test_held_point_in_space(tmp_path):
+    """The same in space, turned: the corner nodes of a box that is clamped at one side."""
+    matrix = turn_in_space(3)
+    place, normal = vector((0, 0, 1.1), matrix, 3), vector((0, 0, -1), matrix, 3)
+    case = f"{STEEL}clamp left\nobstacle top plane {place} {normal} move {{}}\n"
+    mesh = cube(Mesh()).text(matrix)
+    move = vector((0, 0, -0.15), matrix, 3)
+    assert "is held, and so is what it touches, and they overlap by 0.05" in (
+        solve(tmp_path, mesh, case.format(move), expect=10, script="parts-3d.edp").stdout
+    )
+    law = move + " law power kappa 1e3 m 2 d0 -0.01"
+    run = solve(tmp_path, mesh, case.format(law), script="parts-3d.edp")
+    assert run.contact["pressure"].max() == pytest.approx(1e3 * 0.06**2, rel=1e-6)
+    assert "more are held" in run.stdout and "reaches the end of the master" not in run.stdout
+
+
 def test_thickness(tmp_path):
     """A force on a plate twice as thick presses like half of it."""
     case = STACK + "clamp bottom\n" + 'force "upper top" 0 -{}\n'

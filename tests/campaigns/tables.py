@@ -1,8 +1,8 @@
 """The documentation's tables of the campaigns, written from their CSV files: `make tables`.
 
-A table stands in README.md between `<!-- table: NAME -->` and `<!-- end -->`, NAME one of TABLES; nothing else is
-touched. One whose CSV is not there, or has not been run whole, is left as it is, and said so: `--partial` writes it all
-the same.
+A table stands in tests/RESULTS.md between `<!-- table: NAME -->` and `<!-- end -->`, NAME one of TABLES; nothing else
+is touched. One whose CSV is not there, or has not been run whole, is left as it is, and said so: `--partial` writes it
+all the same.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import coverage
 import peers
 import stability
 
-DOCUMENT = campaign.ROOT / "README.md"
+DOCUMENT = campaign.ROOT / "tests" / "RESULTS.md"
 MARKED = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->)", re.S)
 
 Rows = list[dict[str, str]]
