@@ -119,7 +119,7 @@ build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 # ---------------------------------------------------------------- runs
 
 run: .venv/run.stamp | system ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"]
-	@$(FREEFEM) $(SCRIPT) $(ARGS); code=$$?; \
+	@$(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
 

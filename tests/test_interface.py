@@ -7,7 +7,7 @@ import signal
 import subprocess
 
 import pytest
-from freefem import FREEFEM, ROOT, being_written, environment, files, listing, run_in, script, tree
+from freefem import FREEFEM, ROOT, being_written, environment, execute, files, listing, run_in, script, tree
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 SCENES = [DISC, TWO_BODIES, BLOCK]
@@ -157,6 +157,23 @@ def test_output_has_its_parts(tmp_path):
     assert "converged" in closing
     assert f"{result.force:.6g}" in closing
     assert str(tmp_path / "out") in closing
+
+
+@pytest.mark.parametrize("name", ["scenes/confined-block.edp", "labs/0-algorithm/algorithm1.edp"])
+def test_from_any_folder(name, package, tmp_path):
+    """Started by edp/freefem.sh from anywhere scripts shall find their modules; what a run says draws it from there."""
+    program = ["sh", package / "edp/freefem.sh"]
+    code, stdout = execute([*program, name, *(["-h", 5, "-out", "here"] if "scenes" in name else [])], tmp_path, BARE)
+    assert code == 0, stdout
+    if "scenes" in name:
+        assert (tmp_path / "here" / "summary.json").exists()
+        for folder in (".venv", "postprocess"):
+            (package / folder).symlink_to(ROOT / folder)
+        command = stdout.splitlines()[-1].removeprefix("  picture: ").removesuffix(" (or stress)")
+        code, stdout = execute(["sh", "-c", command], tmp_path)
+        assert code == 0 and (tmp_path / "here" / "state.pdf").exists(), stdout
+    code, stdout = execute([*program, "nowhere.edp"], tmp_path, BARE)
+    assert code == 10 and stdout.startswith("nowhere.edp: no such script")
 
 
 @pytest.mark.parametrize("scene", [DISC, "sphere-on-block"])

@@ -611,6 +611,6 @@ def test_every_shell_program_is_in_the_map():
     assert listed == programs.keys()
     for name, text in programs.items():
         head = text.split("\n.", 1)[0]
-        assert head.startswith(f"# {name.split('/')[1]}: ") and "# Needs: " in head and "# Gives: " in head, name
+        assert head.startswith(f"# {name.split('/')[-1]}: ") and "# Needs: " in head and "# Gives: " in head, name
         assert "# Exit code" in head or name == "case/process.sh"
         assert execute(["sh", "-n", f"edp/{name}"]) == (0, "")
