@@ -8,7 +8,8 @@ script=$1
 test -e "$script" || script=$edp/$1
 test -f "$script" || { echo "${1:-no script}: no such script here or in $edp; allowed: sh freefem.sh SCRIPT FLAGS..."; exit 10; }
 shift
-export FF_INCLUDEPATH="$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
-test ! -d /usr/lib/freefem++ || export FF_LOADPATH="/usr/lib/freefem++${FF_LOADPATH:+;$FF_LOADPATH}"
+export FF_INCLUDEPATH="$edp/../build;$edp/operator/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
+test ! -d /usr/lib/freefem++ || FF_LOADPATH="/usr/lib/freefem++${FF_LOADPATH:+;$FF_LOADPATH}"
+export FF_LOADPATH="$edp/../build${FF_LOADPATH:+;$FF_LOADPATH}"
 case " $* " in *' -plot 1 '*) window=;; *) window=-nw;; esac
 exec FreeFem++ $window -v 0 "$script" "$@"
