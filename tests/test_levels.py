@@ -51,6 +51,76 @@ def test_products(scene, flags, tmp_path):
     assert values["off1"][0] < 0.02
 
 
+SYNTHETIC = """
+int side = countFlag("-side", 60, "points a side", 2, 1000);
+flagsDone("a grid of points on a half-space, in a quarter");
+macro grown(field) field.resize(points);
+field = 0; //
+points = side * side;
+grown(pointX)
+grown(pointY)
+grown(pointZ)
+grown(normalX)
+grown(normalY)
+grown(normalZ)
+grown(weight)
+grown(overlapBefore)
+grown(immobile)
+grown(paired)
+paired = 1;
+normalZ = 1;
+mirrorX = true;
+mirrorY = true;
+copies = 4;
+patch = 6;
+contactLength = patch;
+weight = 4 * (patch / (side - 1.))^2;
+for (int i = 0; i < points; i++)
+{
+    int place = (7919 * i) % points;          // in no order
+    int row = place / side;
+    int column = place % side;
+    pointX[i] = patch * column / (side - 1.);
+    pointY[i] = patch * row / (side - 1.);
+    if (column == 0 || column == side - 1) weight[i] *= 0.5;
+    if (row == 0 || row == side - 1) weight[i] *= 0.5;
+    overlapBefore[i] = -(pointX[i]^2 + pointY[i]^2) / (2 * radius);
+}
+localCompliance = (1 - nu * nu) / (pi * youngModulus);
+wholeApproach = u0;
+tell("hertz", 4. / 3 * youngModulus / (1 - nu * nu) * sqrt(radius) * (u0 - d0)^1.5);
+setUpKernel();
+setUpMotions();
+setUpProblem();
+setUpPreconditioner();
+kernelUsed = true;
+kernelC = 0;
+preconditionerInUse = "kernel";
+applyLoad(1.);
+sFree = sRest;
+firstThreshold();
+solveOnCoarse();
+tell("stride", startStride);
+solveOnFine();
+modelInPlace = true;
+productsOf(q, Cq, 0, true);
+presentOverlaps();
+real[int] forces = q;
+tell("residual", residualNow());
+tell("force", forces.sum);
+"""
+
+
+@pytest.mark.parametrize("side", [60, pytest.param(224, marks=pytest.mark.long)])
+def test_start(side, tmp_path):
+    """The start of a stiff law on a half-space without body: found on some points, then solved on all; Hertz's force."""
+    scene = scene_text("sphere-on-block").split("flagsDone(")[0]
+    values = told(snippet(tmp_path, scene + SYNTHETIC, "-side", side, "-kappa", 1e9, "-u0", 2))
+    assert values["stride"][0] > 1
+    assert values["residual"][0] < 2e-3
+    assert values["force"][0] == pytest.approx(values["hertz"][0], rel=0.02)
+
+
 @pytest.mark.parametrize("scene, flags", [("rough", ["-h", 0.2]), ("sphere-on-block", ["-h", 0.6, "-kappa", 1e9])])
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
