@@ -137,7 +137,7 @@ def pressures_by_place(run, back):
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("name", SCENES)
 def test_turned(tmp_path, name, order):
-    """The scene's force within a few per cent, for its gaps are vertical; the same counts and pressures after any turn."""
+    """The scene's force within a few per cent (its gaps are vertical); the same counts and pressures after any turn."""
     scene_name, flags, case, sides = SCENES[name]
     scene = Scene(tmp_path, scene_name, flags)
     dimension = 3 if scene.space else 2
