@@ -575,6 +575,32 @@ def two_blocks_of(width, cells):
     return block(mesh, size=(width, 1), cells=(cells, 3), at=(0, 1), prefix="upper ", name="upper").text()
 
 
+@pytest.mark.parametrize("flags", [(), ("-distance", "exact")])
+@pytest.mark.parametrize(
+    "case, gap", [('move "upper top" 0 0.1', 0.1), ('symmetry "upper left"', 0), ('move "upper top" -1 200', 200)]
+)
+def test_nothing_presses(tmp_path, case, gap, flags):
+    """Bodies that do not press on each other: no force, and a word, however far they are moved."""
+    run = solve(tmp_path, two_blocks_of(3, 9), f"{STACK}clamp bottom\n{case}\n", *flags)
+    assert run.force == 0 and f"nothing presses on anything: the least gap left is {gap}" in run.stdout
+    assert run.summary["outOfBalance"] < 1e-6
+
+
+def test_slides(tmp_path):
+    """A block that slides along another by more than what is loaded: said, and right with the true distance."""
+    mesh = block(Mesh(), size=(6, 1), cells=(24, 4))
+    block(mesh, size=(1, 1), cells=(5, 4), at=(1, 1), prefix="upper ", name="upper")
+    case = STACK.replace('top "upper bottom"', '"upper bottom" top') + 'clamp bottom\nmove "upper top" {} -0.02\n'
+    there = solve(tmp_path, mesh.text(), case.format(2), "-distance", "exact")
+    assert "slide along each other" not in there.stdout
+    frozen = solve(tmp_path, mesh.text(), case.format(2))
+    assert "the bodies slide along each other by 1." in frozen.stdout
+    back = block(Mesh(), size=(6, 1), cells=(24, 4))
+    block(back, size=(1, 1), cells=(5, 4), at=(3, 1), prefix="upper ", name="upper")
+    here = solve(tmp_path, back.text(), case.format(0))
+    assert there.force == pytest.approx(here.force, rel=2e-3)
+
+
 def test_held_point_in_space(tmp_path):
     """The same in space, turned: the corner nodes of a box that is clamped at one side."""
     matrix = turn_in_space(3)
