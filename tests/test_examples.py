@@ -103,8 +103,8 @@ def test_roller_true_distance(tmp_path):
     case = example("roller", tmp_path, "", "-distance", "exact", size=0.12)
     assert "warning: roller: along x: kept where the rounds of the exact distance had brought it" in case.stdout
     above, below = case.summary["contacts"]
-    assert above["pressureMax"] == pytest.approx(below["pressureMax"], rel=1e-4)
-    assert np.add(above["force"], below["force"]) == pytest.approx([0, 0], abs=4e-3)
+    assert above["pressureMax"] == pytest.approx(below["pressureMax"], rel=1e-3)
+    assert np.add(above["force"], below["force"]) == pytest.approx([0, 0], abs=4e-2)
     assert abs(case.summary["bodies"][0]["motion"][0]) < 1e-3
     assert case.summary["outOfBalance"] < 1e-9
 
