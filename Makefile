@@ -219,14 +219,18 @@ $(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(fi
 results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | .venv/run.stamp
 	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
 
-# The pictures of the README and the manual. Those of the campaigns need their CSV files, readme-sphere.png PyVista.
+# The pictures of the pages. Those of the campaigns need make bench-peers and make stability, the labs' make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
-pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the README and the manual anew
+pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the pages anew
 	$(SMALL) results/figures/figure1.png --out postprocess/readme-figure.png
 	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
 	$(SMALL) results/movies/disc-on-block/movie.gif --width 640 --colours 16 --out postprocess/readme-movie.gif
 	$(SMALL) results/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
 	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
+	for lab in edp/labs/*/; do \
+	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
+	  $(SMALL) $$(find results/labs/$$(basename $$lab) -name $$name) --width 700 --colours 32 --out $$lab/figure.png || exit 1; \
+	done
 	$(PYTHON) -m postprocess cut results/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
 
 # ---------------------------------------------------------------- campaigns

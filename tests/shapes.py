@@ -239,7 +239,7 @@ SHAPES = {
     "egg": solid(
         f"{SLAB} Sphere(2) = {{0, 0, 3, 3}}; Dilate {{{{0, 0, 3}}, {{1.5, 1.2, 1}}}} {{ Volume{{2}}; }}\n"
         "Box(3) = {-8, -8, 6, 16, 16, 4};",
-        f"{TWO}body lid {STEEL}\ncontact top round\ncontact round under\nforce grip <0 0 -8000>",
+        f"{TWO}body lid {STEEL}\ncontact top round\ncontact round under\nforce grip <0 0 -400>",
         **ON_SLAB,
         LID="3",
         round="2",

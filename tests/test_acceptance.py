@@ -20,7 +20,7 @@ FORCE_M10, PRESSURE_MAX_M10, HALF_WIDTH_M10 = 114.04577, 19.478949, 5.464573
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 PAPER = ["-method", "paper", "-T0", "0", "-h", 0.5, "-tol", 1e-6, "-eps", 1e-4, "-order", 1]
-FINE = ["-order", 2, "-h", 0.1]
+FINE = ["-order", 2, "-h", 0.2]
 EXACT_STOP = ["-eps", 1e-12, "-tol", 1e-10]
 
 
@@ -51,12 +51,10 @@ def test_the_papers_count_on_two_meshed_bodies():
 CEILINGS = [
     (DISC, ["-method", "paper", "-h", 1], 3, 12),
     (DISC, ["-method", "paper", "-h", 0.25], 4, 13),
-    (DISC, ["-method", "paper", "-h", 0.1, "-corners", 0], 4, 16),
-    (DISC, ["-method", "paper", "-h", 0.1], 5, 17),
-    (DISC, ["-method", "paper", *FINE], 6, 21),
+    (DISC, ["-method", "paper", "-h", 0.25, "-corners", 0], 4, 13),
+    (DISC, ["-method", "paper", *FINE], 5, 15),
     (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.5], 3, 13),
     (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.25], 4, 18),
-    (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.1], 7, 28),
     (DISC, ["-method", "newton", "-h", 0.5], 1, 8),
     (DISC, ["-method", "newton", *FINE], 1, 9),
     (DISC, ["-method", "newton", "-h", 0.5, "-kappa", 1e12], 1, 26),
@@ -66,9 +64,20 @@ CEILINGS = [
     (TWO_BODIES, ["-method", "newton", "-h", 0.5], 1, 8),
     (TWO_BODIES, ["-method", "signorini", "-h", 0.5], 1, 4),
     (TWO_BODIES, ["-method", "signorini", "-h", 0.5, "-order", 2], 1, 5),
-    (DISC, ["-method", "signorini", "-h", 0.1, "-order", 2], 1, 8),
+    (DISC, ["-method", "signorini", *FINE], 1, 6),
     (BLOCK, ["-method", "paper", "-h", 4], 1, 4),
     (BLOCK, ["-method", "newton", "-h", 4, "-kappa", 1e12], 1, 25),
+]
+CEILINGS += [
+    pytest.param(DISC, flags, adaptations, newton, marks=pytest.mark.long)
+    for flags, adaptations, newton in (
+        (["-method", "paper", "-h", 0.1, "-corners", 0], 4, 16),
+        (["-method", "paper", "-h", 0.1], 5, 17),
+        (["-method", "paper", "-h", 0.1, "-order", 2], 6, 21),
+        (["-method", "paper", "-T0", "d0", "-h", 0.1], 7, 28),
+        (["-method", "newton", "-h", 0.1, "-order", 2], 1, 9),
+        (["-method", "signorini", "-h", 0.1, "-order", 2], 1, 8),
+    )
 ]
 
 
@@ -85,7 +94,7 @@ def test_ceilings(scene, flags, adaptations, newton):
 
 @pytest.mark.parametrize("method", ["paper", "newton"])
 def test_accuracy(method):
-    """P2 at h = 0.1 shall give force, pressure, half-width and pressure profile of the independent computation."""
+    """P2 at h = 0.2 shall give force, pressure, half-width and pressure profile of the independent computation."""
     result = run(DISC, "-method", method, *FINE)
     assert near(result.force, FORCE, 2e-4)
     assert near(result.pressureMax, PRESSURE_MAX, 2e-4)
@@ -103,7 +112,7 @@ def test_accuracy_of_a_stiffer_law():
     assert near(result.halfWidth, HALF_WIDTH_M10, 5e-3)
 
 
-@pytest.mark.parametrize("order, sizes, slowest", [(1, (0.5, 0.25, 0.1, 0.05), 1.75), (2, (1, 0.5, 0.25, 0.1), 1.35)])
+@pytest.mark.parametrize("order, sizes, slowest", [(1, (0.5, 0.25, 0.1), 1.75), (2, (1, 0.5, 0.25), 1.35)])
 def test_order_of_convergence(order, sizes, slowest):
     """The force's error shall fall on every mesh, at P1's and P2's order (P2: the clamped corners set it)."""
     errors = [abs(run(DISC, "-method", "newton", "-order", order, "-h", h).force / FORCE - 1) for h in sizes]
@@ -115,19 +124,16 @@ def test_order_of_convergence(order, sizes, slowest):
 # ---------------------------------------------------------------- agreement
 
 
-@pytest.mark.parametrize("scene, h", [(DISC, 0.25), (TWO_BODIES, 0.5), (BLOCK, 4)])
+@pytest.mark.parametrize("scene, h", [(DISC, 0.5), (TWO_BODIES, 1), (BLOCK, 4)])
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_same_answer(scene, h, order):
     """Paper (run to its exact stop), newton and incremental shall agree to 1e-7 in force and pressure on one mesh."""
-    flags = ["-h", h, "-order", order, *EXACT_STOP]
+    flags = ["-h", 2 if order == 4 and scene != BLOCK else h, "-order", order, *EXACT_STOP]
     newton = run(scene, "-method", "newton", *flags)
-    others = [
-        run(scene, "-method", "paper", "-T0", "0", *flags),
-        run(scene, "-method", "paper", "-T0", "d0", *flags),
-        run(scene, "-method", "incremental", "-steps", 7, *flags),
-    ]
+    ways = [["paper", "-T0", "0"], ["paper", "-T0", "d0"], ["incremental", "-steps", 4]]
     assert newton.contactPoints >= 5
-    for other in others:
+    for way in ways if order < 4 or scene == BLOCK else ways[1:2]:
+        other = run(scene, "-method", *way, *flags)
         assert near(other.force, newton.force, 1e-7)
         assert near(other.pressureMax, newton.pressureMax, 1e-7)
         difference = np.abs(other.contact["pressure"] - newton.contact["pressure"]).max()
@@ -234,19 +240,26 @@ def in_units(scene, length, pressure, m=3):
     return [word for name, value in flags.items() for word in ("-" + name, value)]
 
 
-@pytest.mark.parametrize("scene", [DISC, TWO_BODIES, BLOCK])
+SMALLER = (1e3, 1e-6)
+LARGER = (1 / 7e7, 3e11)
+
+
 @pytest.mark.parametrize(
-    "flags",
+    "scene, flags, length, pressure",
     [
-        ["-method", "paper"],
-        ["-method", "paper", "-T0", "d0"],
-        ["-method", "newton", "-order", 2],
-        ["-method", "incremental", "-steps", 4],
-        ["-method", "signorini"],
+        (DISC, ["-method", "paper"], *SMALLER),
+        (DISC, ["-method", "paper", "-T0", "d0"], *LARGER),
+        (DISC, ["-method", "newton", "-order", 2], *SMALLER),
+        (DISC, ["-method", "incremental", "-steps", 4], *LARGER),
+        (DISC, ["-method", "signorini"], *SMALLER),
+        (TWO_BODIES, ["-method", "paper", "-T0", "d0"], *SMALLER),
+        (TWO_BODIES, ["-method", "newton", "-order", 2], *LARGER),
+        (TWO_BODIES, ["-method", "signorini"], *LARGER),
+        (BLOCK, ["-method", "paper"], *LARGER),
+        (BLOCK, ["-method", "incremental", "-steps", 4], *SMALLER),
     ],
     ids=named,
 )
-@pytest.mark.parametrize("length, pressure", [(1e3, 1e-6), (1 / 7e7, 3e11)])
 def test_invariance(scene, flags, length, pressure):
     """A change of units (m and Pa to mm and MPa) shall change no count, and scale every result to 1e-9."""
     first = run(scene, *in_units(scene, 1.0, 1.0), *flags)
@@ -284,9 +297,9 @@ def test_invariance(scene, flags, length, pressure):
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_meshed_disc_converges_to_the_rigid_disc(order):
     """With both bodies meshed the result shall tend to the rigid disc's, the difference falling like 1/Eratio."""
-    flags = ["-method", "newton", "-h", 0.5, "-order", order, *EXACT_STOP]
+    flags = ["-method", "newton", "-h", 2 if order == 4 else 1, "-order", order, *EXACT_STOP]
     rigid = run(DISC, *flags)
-    ratios = (1e2, 1e4, 1e6)
+    ratios = (1e2, 1e4, 1e6) if order < 4 else (1e4, 1e6)
     softer, differences = [], []
     for ratio in ratios:
         meshed = run(TWO_BODIES, *flags, "-Eratio", ratio)
@@ -358,7 +371,7 @@ def test_hertz():
         "-order",
         2,
         "-h",
-        0.025,
+        0.05,
         "-R",
         8,
         "-grading",
@@ -376,12 +389,13 @@ def test_hertz():
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_one_factorisation_a_step(scene, order):
     """The paper's scheme shall factorise once, and back-substitute once, for each Newton step."""
-    result = run(scene, "-method", "paper", "-h", 0.5 if scene != BLOCK else 4, "-order", order)
+    result = run(scene, "-method", "paper", "-h", 4 if scene == BLOCK else 0.5 if order < 4 else 2, "-order", order)
     assert result.factorisations == result.newton
     assert result.backsolves == result.newton
     assert (np.diff(result.history["factorisations"], prepend=0) == 1).all()
 
 
+@pytest.mark.long
 def test_a_large_run_within_2_gb(tmp_path):
     """P2 with 100 000 dofs shall run within 2 GB of memory."""
     command = [

@@ -26,13 +26,16 @@ from postprocess.campaign import read_campaign
 from postprocess.references import PAPER
 from postprocess.results import ResultsError
 
-# Writes a summary as a run does; -code N ends with it, -sleep S takes that long first, -count FILE adds a line to it.
+# Writes a summary as a run does; -code N ends with it, -sleep S takes that long first, -count FILE adds a line to it,
+# -meet N waits until so many lines are there.
 STAND_IN = """
 import json, os, sys, time
 flags = dict(zip(sys.argv[2::2], sys.argv[3::2]))
 if "-count" in flags:
     with open(flags["-count"], "a") as file:
         file.write(sys.argv[1] + chr(10))
+while "-meet" in flags and len(open(flags["-count"]).readlines()) < int(flags["-meet"]):
+    time.sleep(0.01)
 print("first line")
 time.sleep(float(flags.get("-sleep", 0)))
 code = int(flags.get("-code", 0))
@@ -138,9 +141,8 @@ def test_a_case_given_twice_is_one_row(runner):
 
 def test_several_at_a_time(runner):
     """With several jobs runs shall overlap in time, and the rows come in the order of the list."""
-    begin = time.monotonic()
-    rows = runner([runner.case("-sleep", "1", "-kappa", str(number)) for number in range(4)], jobs=4)
-    assert time.monotonic() - begin < 3.5
+    rows = runner([runner.case("-sleep", "0.1", "-meet", "4", "-kappa", str(n)) for n in range(4)], jobs=4)
+    assert [row["status"] for row in rows] == ["converged"] * 4, "each waits for the other three"
     assert [row["flags"].split()[-1] for row in rows] == ["0", "1", "2", "3"]
 
 
@@ -530,7 +532,7 @@ def quick(tmp_path_factory):
 
 def test_the_quick_campaign_has_no_failure(quick):
     """The default method shall solve every case of the quick stability campaign."""
-    assert 55 <= len(quick) <= 70
+    assert 30 <= len(quick) <= 45
     assert [(row["flags"], row["status"], row["message"]) for row in quick if row["status"] != "converged"] == []
     assert all(value(row, "residual") <= 1e-8 for row in quick)
 
@@ -538,7 +540,7 @@ def test_the_quick_campaign_has_no_failure(quick):
 def test_the_quick_campaign_keeps_the_counts(quick):
     """On the paper's geometry it shall take at most 4 linearisations, 20 back-substitutions and 2 adaptations."""
     grid = campaign.select(quick, name="grid")
-    assert len(grid) >= 40
+    assert len(grid) >= 18
     for name, most in (("newton", 4), ("backsolves", 20), ("adaptations", 2), ("factorisations", 1)):
         assert [row["flags"] for row in grid if value(row, name) > most] == [], name
     for row in quick:

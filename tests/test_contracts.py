@@ -13,7 +13,8 @@ from freefem import ROOT
 
 EDP = ROOT / "edp"
 MODULES = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.idp"))
-SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp"))
+ALONE = EDP / "labs/0-algorithm/algorithm1.edp"  # plain FreeFEM: it shares nothing with the modules
+SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp") if path != ALONE)
 TYPES = set("int real string bool complex matrix mesh mesh3 varf fespace func ifstream ofstream ostream".split())
 EVERYWHERE = {"moduleLoaded", "pluginLoaded"}  # every module says that it is there
 EXCEPTIONS = {}  # (module, identifier): why

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, run_in, script
+from freefem import ROOT, named, run, run_in, script
 from test_energy import derivative
 from test_surroundings import refused_in_one_line
 from test_two_bodies import confined
@@ -56,12 +56,15 @@ def test_space():
     assert done.newton <= 4 and done.backsolves <= 20
 
 
-@pytest.mark.parametrize(
-    "law", [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1e-2, 1e6, 1e30) for m in (1.05, 30)]]
-)
+LAWS = [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1e-2, 1e6, 1e30) for m in (1.05, 30)]]
+ABOUT, BESIDE = ["-geometry", "axisymmetric", "-width", 20], ["-offset", 3]
+
+
 @pytest.mark.parametrize("order", [2, 4])
 @pytest.mark.parametrize(
-    "more", [[], ["-geometry", "axisymmetric", "-width", 20], ["-offset", 3]], ids=["plane", "axis", "off"]
+    "law, more",
+    [*((law, []) for law in LAWS), *((law, ABOUT) for law in LAWS[::3]), *((law, BESIDE) for law in LAWS[1::3])],
+    ids=named,
 )
 def test_counts(order, law, more):
     """At most 4 linearisations and 20 back-substitutions, whatever the law."""

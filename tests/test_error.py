@@ -101,9 +101,8 @@ def test_counts_are_apart(solved):
 
 def test_not_believed(solved):
     """Where a case is not covered no error shall be said, and why."""
-    for scene, *flags in (("two-bodies", "-h", 0.5), ("adhesive-cylinder", "-h", 0.02)):
-        run = solved(scene, *flags)
-        assert run.estimates is None and run.notEstimated, scene
+    run = solved("adhesive-cylinder", "-h", 0.02)
+    assert run.estimates is None and run.notEstimated
     assert solved("flat-punch", "-law", "signorini").estimates["pressureMax"] is None
 
 
@@ -150,7 +149,6 @@ def test_accuracy_on_curves(solved):
     [
         ("disc-on-block", ["-unknowns", 5000, "-law", "signorini"], "unknowns"),
         ("flat-punch", ["-goal", "pressure", "-law", "signorini"], "no estimate"),
-        ("two-bodies", ["-order", 1], "no estimate"),
     ],
 )
 def test_accuracy_missed(solved, scene, flags, why):

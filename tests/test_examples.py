@@ -98,6 +98,17 @@ def test_roller(tmp_path):
     balanced(case)
 
 
+def test_roller_true_distance(tmp_path):
+    """Nothing but its own dent holds the roller between the plates: it is kept in place, which is said."""
+    case = example("roller", tmp_path, "", "-distance", "exact", size=0.12)
+    assert "warning: roller: along x: kept where the rounds of the exact distance had brought it" in case.stdout
+    above, below = case.summary["contacts"]
+    assert above["pressureMax"] == pytest.approx(below["pressureMax"], rel=1e-3)
+    assert np.add(above["force"], below["force"]) == pytest.approx([0, 0], abs=4e-2)
+    assert abs(case.summary["bodies"][0]["motion"][0]) < 1e-3
+    assert case.summary["outOfBalance"] < 1e-9
+
+
 def test_press_fit(tmp_path):
     """The mean pressure between two rings that nothing else holds shall be Lame's, and be the same all round."""
     case = example("press-fit", tmp_path, edges=92)

@@ -1,11 +1,12 @@
-"""edp/labs/: every command of every lab runs, the instructor's numbers hold, the scripts refuse as scenes do."""
+"""edp/labs/: every command of every lab runs, the answers' numbers hold, the scripts refuse as scenes do."""
 
 import csv
+import glob
 import re
 import shlex
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, listing, run_in, script, tree
+from freefem import FREEFEM, ROOT, environment, execute, listing, run, run_in, script, tree
 from test_readme import fences, is_rule, quoted, section
 
 from postprocess import words
@@ -15,7 +16,8 @@ from postprocess.results import read_run
 FOLDERS = sorted(path.parent for path in (ROOT / "edp/labs").glob("*/README.md"))
 LABS = [folder.name for folder in FOLDERS]
 INDEX = (ROOT / "edp/labs/README.md").read_text()
-OWN_LAW = "4-own-law"
+OWN_LAW, PAGE, OWN_PART = "4-own-law", "0-algorithm", "9-own-part"
+SCENES = [lab for lab in LABS if lab not in (PAGE, OWN_PART)]  # that are another scene with other defaults
 BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment
 
 
@@ -23,9 +25,14 @@ def readme(lab):
     return (ROOT / "edp/labs" / lab / "README.md").read_text()
 
 
+def answers(lab):
+    return (ROOT / "edp/labs" / lab / "ANSWERS.md").read_text()
+
+
 def lab_script(lab):
     """The lab's script, relative to the repository's root."""
-    return f"edp/labs/{lab}/{lab.partition('-')[2]}.edp"
+    (path,) = (ROOT / "edp/labs" / lab).glob("*.edp")
+    return str(path.relative_to(ROOT))
 
 
 def package_in(folder):
@@ -44,18 +51,39 @@ def test_index():
     assert re.findall(r"^\| \[(.*?)\]\((.*?)/README\.md\)", INDEX, re.M) == [(lab, lab) for lab in LABS]
 
 
+def test_the_afternoon():
+    """The instructor's page shall lead to all answers; its plan shall fill three hours with the labs' minutes."""
+    text = (ROOT / "edp/labs/INSTRUCTOR.md").read_text()
+    assert re.findall(r"\[\d\]\((.*?)/ANSWERS\.md\)", text) == LABS
+    ((_, rows),) = tables(text)
+    clock = [[60 * int(time[0]) + int(time[2:]) for time in row[:2]] for row in rows]
+    assert clock[0][0] == 0 and clock[-1][1] == 180
+    assert [end for _, end in clock[:-1]] == [begin for begin, _ in clock[1:]]
+    for (begin, end), row in zip(clock, rows, strict=True):
+        for lab in re.findall(r"\((.*?)/README\.md\)", row[3]):
+            assert end - begin == int(re.search(r"Core (\d+) minutes", readme(lab))[1]), lab
+
+
 @pytest.mark.parametrize("lab", LABS)
 def test_parts_of_a_lab(lab):
-    """A lab shall have all its parts, one script, links that lead somewhere, and lines that fit."""
+    """A lab shall have its parts, minutes, a figure of its commands, core questions, answers elsewhere, and fit."""
     text = readme(lab)
-    assert re.findall(r"^## (.*)", text, re.M) == ["Theory", "Commands", "Questions", "Hand in", "Instructor"]
+    assert re.findall(r"^## (.*)", text, re.M) == ["Theory", "Commands", "Questions", "Hand in"]
     assert text.startswith(f"# Lab {lab[0]}: ")
-    assert "\n**Aim.** " in text
-    assert [path.name for path in (ROOT / "edp/labs" / lab).glob("*.edp")] == [lab_script(lab).split("/")[-1]]
-    for line in text.splitlines():
+    assert "\n**Aim.** " in text and re.search(r"^\*\*Time\.\*\* Core \d+ minutes, the rest \d+\.$", text, re.M)
+    (core,) = re.findall(r"^Core: ([\d, ]+)\.$", section(text, "Questions"), re.M)
+    asked = re.findall(r"^(\d+)\. ", section(text, "Questions"), re.M)
+    assert set(core.split(", ")) <= set(asked)
+    assert "](figure.png)" in text and (ROOT / "edp/labs" / lab / "figure.png").stat().st_size < 100_000
+    (drawn,) = re.findall(r"^\*`(\w+)\.png` of these commands: .*\*$", text, re.M)
+    assert f"{drawn}.pdf" in text or f"postprocess {drawn} " in text
+    assert "ANSWERS" not in text + INDEX
+    assert answers(lab).startswith(f"# Lab {lab[0]}: answers\n") and set(core.split(", ")) <= set(
+        re.findall(r"^- (\d+): ", answers(lab), re.M)
+    )
+    assert lab.partition("-")[2] in lab_script(lab).rpartition("/")[2]
+    for line in [*text.splitlines(), *answers(lab).splitlines()]:
         assert len(line) <= 130 or line.startswith("|") or line.startswith(("for ", ".venv", "FreeFem++"))
-    for target in re.findall(r"\]\(([^)#]+)\)", text + INDEX):
-        assert (ROOT / "edp/labs" / target).exists() or (ROOT / "edp/labs" / lab / target).exists(), target
 
 
 def test_where_includes_are_found():
@@ -81,14 +109,21 @@ def commands(lab):
     return found
 
 
+DRAW = ".venv/bin/python -m postprocess "
+
+
 @pytest.mark.parametrize("lab", LABS)
-def test_commands(lab, tmp_path):
+def test_commands(lab, tmp_path, monkeypatch):
     """Every command of a lab shall run as it is written, in this order, and leave what it names."""
     package = package_in(tmp_path)
     assert len(commands(lab)) > 3
     for line, expected in commands(lab):
-        # a loop's exit code is its last command's: stop at the first that fails
-        code, stdout = execute(["sh", "-c", line.replace("; done", " || exit; done")], package)
+        if line.startswith(DRAW):  # in this process: it has read matplotlib already
+            monkeypatch.chdir(package)
+            typed = shlex.split(line.removeprefix(DRAW))
+            code, stdout = main([path for word in typed for path in sorted(glob.glob(word)) or [word]]), ""
+        else:  # a loop's exit code is its last command's: stop at the first that fails
+            code, stdout = execute(["sh", "-c", line.replace("; done", " || exit; done")], package)
         assert code == expected, f"{line}\n{stdout[-2000:]}"
         for name in re.findall(r"-out (\S+)", line):
             if name.startswith("results/") and "$" not in name:
@@ -115,7 +150,7 @@ def test_table_of_runs(tmp_path):
     assert not [name for name in first if name.startswith("-")]
 
 
-# ---------------------------------------------------------------- the instructor's numbers
+# ---------------------------------------------------------------- the answers' numbers
 
 
 def tables(text):
@@ -143,36 +178,78 @@ def agrees(cell, value):
 
 
 def instructor_rows():
-    """A parameter a row of the instructors' tables."""
-    for lab in LABS:
-        for head, rows in tables(section(readme(lab), "Instructor")):
+    """A parameter a row of the answers' tables; of each lab every other one is long."""
+    for lab in [*SCENES, OWN_PART]:
+        for head, rows in tables(answers(lab)):
             assert head[0].startswith("flags")
-            for flags, *cells in rows:
+            for place, (flags, *cells) in enumerate(rows):
                 name = f"{lab} {quoted(flags)[0]}"
-                yield pytest.param(lab, head, quoted(flags)[0], cells, id=name)
+                marks = [pytest.mark.long] if place % 2 else []
+                yield pytest.param(lab, head, quoted(flags)[0], cells, id=name, marks=marks)
 
 
 @pytest.fixture(scope="module")
 def coating(tmp_path_factory):
-    """A copy of the package whose own law is the instructor's solution."""
+    """A copy of the package whose own law is the answers' solution."""
     package = tree(tmp_path_factory.mktemp("labs") / "package")
-    (law,) = fences(section(readme(OWN_LAW), "Instructor"), "freefem")
+    (law,) = fences(answers(OWN_LAW), "freefem")
     (package / "edp/labs" / OWN_LAW / "mylaw.idp").write_text(law)
     return package
 
 
 @pytest.mark.parametrize("lab, head, flags, cells", list(instructor_rows()))
 def test_instructor(lab, head, flags, cells, coating, tmp_path):
-    """The numbers of the instructor's tables shall be those of the runs, at the digits written."""
+    """The numbers of the answers' tables shall be those of the runs, at the digits written."""
     folder = coating if "coating" in head[0] else ROOT
     expected = int(cells[head.index("exit code") - 1]) if "exit code" in head else 0
-    result = run_in(folder, lab_script(lab), *shlex.split(flags), "-vtu", 0, out=tmp_path / "out", expect=expected)
+    quick = ["-vtu", 0, *([] if "said" in head else ["-estimate", 0])]
+    result = run_in(folder, lab_script(lab), *shlex.split(flags), *quick, out=tmp_path / "out", expect=expected)
     assert len(cells) == len(head) - 1
     for label, cell in zip(head[1:], cells, strict=True):
         if cell == "–" or label == "exit code":
             continue
         value = result.summary[quoted(label)[0]] if quoted(label) else number_printed(result.stdout, label)
         assert agrees(cell, value), f"{label}: {value} is not {cell}"
+
+
+def changed_page(words):
+    """Lab 0's page with a change of the answers' table."""
+    text = (ROOT / lab_script(PAGE)).read_text()
+    if words == "the uniform update":
+        text = text.replace("T[i] = next;", "top = max(top, next);").replace(
+            "modelError = 0;", "modelError = 0; real top = T.max;"
+        )
+        end = text.rindex("}", 0, text.index("// line 10"))
+        return text[:end] + "T = top; }" + text[end + 1 :]
+    for name, value in re.findall(r"(\w+) = (\w+)", words):
+        text, count = re.subn(rf"\b{name} = [^,;]+", f"{name} = {value}", text, count=1)
+        assert count == 1
+    return text
+
+
+@pytest.mark.parametrize("row", next(tables(answers(PAGE)))[1], ids=lambda row: row[0])
+def test_the_page(row, tmp_path_factory):
+    """Lab 0's page, as it is and changed, shall give the counts and the force of the answers."""
+    package = tree(tmp_path_factory.mktemp("page") / "a package")
+    (package / lab_script(PAGE)).write_text(changed_page(row[0]))
+    code, stdout = execute([*FREEFEM, lab_script(PAGE)], package, BARE)
+    assert code == 0, stdout
+    for label, cell in zip(("adaptations", "Newton steps", "force"), row[1:], strict=True):
+        assert agrees(cell, number_printed(stdout, label)), label
+
+
+def test_the_page_against_the_package(tmp_path):
+    """Lab 0's page is plain, a hundred lines at most, and has the package's walls at every step, and its force."""
+    text = (ROOT / lab_script(PAGE)).read_text()
+    assert len(text.splitlines()) <= 100 and "include" not in text
+    assert re.findall(r"// line (\d+)", text) == [str(k) for k in range(1, 11)]
+    code, stdout = execute([*FREEFEM, lab_script(PAGE)], ROOT)
+    assert code == 0, stdout
+    same = run("disc-on-block", "-method", "paper", "-order", 1, "-h", 0.5)
+    assert [int(n) for n in re.findall(r"at the wall (\d+)", stdout)] == same.history["wallPoints"].astype(int).tolist()
+    assert number_printed(stdout, "adaptations") == same.adaptations
+    assert number_printed(stdout, "force") == pytest.approx(same.force, rel=1e-9)
+    assert number_printed(stdout, "greatest pressure") == pytest.approx(same.pressureMax, rel=1e-9)
 
 
 # ---------------------------------------------------------------- what a lab says
@@ -247,7 +324,7 @@ def test_own_law_stays_in_its_lab():
 # ---------------------------------------------------------------- scripts
 
 
-@pytest.mark.parametrize("lab", LABS)
+@pytest.mark.parametrize("lab", SCENES)
 def test_help_and_refusals(lab, tmp_path):
     """-help shall print the flags; a bad flag or value shall end with code 10; nothing shall be written."""
     package = tree(tmp_path / "package")
@@ -257,34 +334,25 @@ def test_help_and_refusals(lab, tmp_path):
         assert re.search(rf"^{flag} ", stdout, re.M)
     assert f"results/labs/{lab}/" in stdout
     assert "-kapa" in run_in(package, lab_script(lab), "-kapa", 5, expect=10).stdout
-    assert "-kappa -1" in run_in(package, lab_script(lab), "-kappa", -1, expect=10).stdout
     assert listing(package) == before
 
 
-@pytest.mark.parametrize("lab", LABS)
-def test_started_from_either_folder(lab, tmp_path):
-    """A lab shall start without any environment, from the root and from its own folder; results go to the root's."""
+@pytest.mark.parametrize("lab", [*SCENES, OWN_PART])
+def test_started_from_its_folder(lab, tmp_path):
+    """A lab shall start without any environment, from its own folder; results go to the root's."""
     package = tree(tmp_path / "a package")
-    size = {"3-threshold": 2, "5-cost": 2, "7-gecko": 0.03}.get(lab, 1.6)
-    flags = ["-h", size, *(["-layers", 1] if lab == "6-sphere" else [])]
-    for folder, name in ((".", lab_script(lab)), (f"edp/labs/{lab}", lab_script(lab).split("/")[-1])):
-        run_in(package / folder, name, "-vtu", 0, *flags, env=BARE)
-        (summary,) = (package / "results").rglob("summary.json")
-        assert summary.parent.parent == package / "results/labs" / lab
-        summary.unlink()
+    size = {"3-threshold": 2, "5-cost": 2, "7-gecko": 0.03, "8-error": 2}.get(lab, 1.6)
+    flags = ["-h", size, *{"6-sphere": ["-layers", 1], "7-gecko": ["-path", "none"]}.get(lab, [])]
+    folder, name = lab_script(lab).rsplit("/", 1)
+    run_in(package / folder, name, "-vtu", 0, *(flags if lab in SCENES else []), env=BARE)
+    (summary,) = (package / "results").rglob("summary.json")
+    assert summary.parent.parent == package / "results/labs" / lab
 
 
-@pytest.mark.parametrize("lab", LABS)
-def test_the_command_of_a_run(lab, tmp_path):
+@pytest.mark.parametrize("lab, flags", [("1-law", ["-h", 5]), ("6-sphere", ["-h", 1.6, "-layers", 1])])
+def test_the_command_of_a_run(lab, flags, tmp_path):
     """The command that a page of runs gives for a lab's run shall make that run again."""
-    result = run_in(
-        ROOT,
-        lab_script(lab),
-        "-h",
-        0.03 if lab == "7-gecko" else 1.6,
-        *(["-layers", 1] if lab == "6-sphere" else []),
-        out=tmp_path / "a",
-    )
+    result = run_in(ROOT, lab_script(lab), *flags, out=tmp_path / "a")
     command = shlex.split(words.command(read_run(result.folder)))
     assert lab_script(lab) in command
     command[command.index("-out") + 1] = str(tmp_path / "b")

@@ -113,7 +113,7 @@ tell("force", forces.sum);
 
 @pytest.mark.parametrize("side", [60, pytest.param(224, marks=pytest.mark.long)])
 def test_start(side, tmp_path):
-    """The start of a stiff law on a half-space without body: found on some points, then solved on all; Hertz's force."""
+    """The start of a stiff law on a half-space without body: found on some points, solved on all; Hertz's force."""
     scene = scene_text("sphere-on-block").split("flagsDone(")[0]
     values = told(snippet(tmp_path, scene + SYNTHETIC, "-side", side, "-kappa", 1e9, "-u0", 2))
     assert values["stride"][0] > 1

@@ -197,8 +197,9 @@ pressure up-top 5
 """
 
 
-@pytest.mark.parametrize("order", [1, 2, 4])
-@pytest.mark.parametrize("matrix", [turn(0), turn(2.5), MIRROR @ turn(1)], ids=["0", "2.5", "mirrored"])
+@pytest.mark.parametrize(
+    "order, matrix", [(1, turn(0)), (2, turn(2.5)), (4, MIRROR @ turn(1))], ids=["P1", "P2 turned", "P4 mirrored"]
+)
 def test_patch(tmp_path, order, matrix):
     """A uniform pressure shall go through two different meshes in any direction, to 1e-10."""
     mesh = block(Mesh(), (4, 2), (7, 4), prefix="low-", name="low")
@@ -229,7 +230,7 @@ clamp rim
 def test_turned(tmp_path, load, flags):
     """A pin in a hole, pushed by its weight or moved, turned and mirrored: results to 1e-9, in the same steps."""
     found, counts, energies = [], [], []
-    for matrix in (np.eye(3), turn(0.1), turn(1), turn(2.5), MIRROR):
+    for matrix in (np.eye(3), turn(2.5), MIRROR):
         push = matrix @ ([1.0, -20.0, 0] if load == "weight inner" else [0.005, -0.1, 0])
         case = PIN + f"{load} {float(push[0])!r} {float(push[1])!r}\n"
         done = solve(tmp_path, mirrored(rings(60), matrix), case, "-tol", 1e-11, *flags)

@@ -27,8 +27,10 @@ from freefem import (
 )
 from freefem import script as scene_script
 
+from postprocess.__main__ import main
+
 DISC, BLOCK, BODIES = map(scene_script, ("disc-on-block", "confined-block", "two-bodies"))
-TINY = ["-h", "10", "-vtu", "0"]  # a tenth of a second of the confined block
+TINY = ["-h", "10", "-vtu", "0", "-estimate", "0"]  # a tenth of a second of the confined block
 
 
 def start(*words, cwd=ROOT, env=None):
@@ -114,8 +116,8 @@ def test_comma_locale(mesh, comma, tmp_path, name):
     package = tree(tmp_path / "package")  # its meshes are made in that language
     (tmp_path / "table.csv").write_text("".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6)))
     flags = {
-        BODIES: ["-mesh", mesh(0.3)],
-        DISC: ["-h", 2, "-law", "table", "-table", tmp_path / "table.csv"],
+        BODIES: ["-mesh", mesh(0.5), "-order", 1],
+        DISC: ["-h", 2, "-order", 1, "-law", "table", "-table", tmp_path / "table.csv"],
     }
     for script, own in flags.items():
         here = run_in(ROOT, script, *own, "-vtu", 0, out=tmp_path / "here")
@@ -142,7 +144,7 @@ def four_at_once(trials, folder):
     return failed
 
 
-@pytest.mark.parametrize("trials", [5, pytest.param(200, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [2, pytest.param(200, marks=pytest.mark.long)])
 def test_four_runs_in_one_new_folder(tmp_path, trials):
     """Runs shall not disturb each other when they make their folders."""
     assert four_at_once(trials, tmp_path) == []
@@ -230,7 +232,7 @@ def test_publishing_of_a_killed_run(tmp_path):
     assert being_written(tmp_path).count("contact.csv") == 1 and "summary.json" not in files(tmp_path)
 
 
-@pytest.mark.parametrize("trials", [2, pytest.param(30, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [1, pytest.param(30, marks=pytest.mark.long)])
 def test_one_mesh_made_by_four_runs(tmp_path, trials):
     """Runs that need the same mesh at the same time shall each get it, whole."""
     for trial in range(trials):
@@ -282,11 +284,11 @@ def test_files_of_the_user_stay(tmp_path):
     own = ["notes.vtu", "notes.tmp", "state-99.vtu", "mine.gif", "axis.csv"]
     for name in own:
         (tmp_path / name).write_text("mine")
-    run_in(ROOT, BLOCK, "-method", "newton", "-h", 5, "-states", 1, out=tmp_path)
+    run_in(ROOT, BLOCK, "-method", "newton", "-tol", 0.5, "-h", 5, "-states", 1, out=tmp_path)
     states = [name for name in files(tmp_path) if name.startswith("state-") and name not in own]
-    assert len(states) > 2
-    code, stdout = execute([sys.executable, "-m", "postprocess", "movie", "--out", tmp_path, tmp_path])
-    assert code == 0 and {"movie.html", "movie.gif"} <= set(files(tmp_path)), stdout
+    assert len(states) > 1
+    assert main(["movie", "--out", str(tmp_path), str(tmp_path)]) == 0
+    assert {"movie.html", "movie.gif"} <= set(files(tmp_path))
     run_in(ROOT, BLOCK, *TINY, out=tmp_path)
     assert files(tmp_path) == sorted([*own, "adaptations.csv", "contact.csv", "history.csv", "summary.json"])
     for name in ("movie.html", "movie.gif"):
@@ -410,27 +412,30 @@ def test_no_place_for_a_mesh(tmp_path):
 
 
 def interrupted_series(*words, cwd=ROOT, rows=4):
-    """Kill a load series once it has written some rows."""
+    """Kill a load series once it has written some rows; one that was quicker, on a busy machine, is begun again."""
     out = words[words.index("-out") + 1]
-    process = start(*words, cwd=cwd)
-    try:
-        wait_for(
-            lambda: (
-                process.poll() is not None or ((out / "series.csv").exists() and len(table(out / "series.csv")) >= rows)
-            )
-        )
-        assert process.poll() is None, ended(process)
-    finally:
-        process.kill()
-        process.wait()
-        process.stdout.close()
+
+    def far_enough():
+        return process.poll() is not None or ((out / "series.csv").exists() and len(table(out / "series.csv")) >= rows)
+
+    for _ in range(5):
+        process = start(*words, cwd=cwd)
+        try:
+            wait_for(far_enough)
+        finally:
+            process.kill()
+            process.wait()
+            process.stdout.close()
+        if process.returncode == -signal.SIGKILL:
+            break
+    assert process.returncode == -signal.SIGKILL
     time.sleep(0.3)  # a table that was just being moved into place still is
 
 
 @pytest.mark.parametrize("method", ["xnewton", "paper"])
 def test_series_counts_go_on(tmp_path, method):
     """An interrupted series shall end with the forces and counts of one that was not."""
-    flags = ["-method", method, "-h", 0.5, "-history", 1, "-steps", 20, "-vtu", 0]
+    flags = ["-method", method, "-h", 0.5, "-order", 1, "-history", 1, "-steps", 20, "-vtu", 0, "-estimate", 0]
     whole = run_in(ROOT, DISC, *flags, out=tmp_path / "whole")
     out = tmp_path / "halved"
     interrupted_series(DISC, *flags, "-out", out)
@@ -454,14 +459,14 @@ def test_series_of_another_problem(mesh, tmp_path, what):
     """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
     package = tree(tmp_path / "package")
     out, file = tmp_path / "out", tmp_path / "given"
-    script, flags = DISC, ["-h", 1]
+    script, flags = DISC, ["-h", 2, "-order", 1]
     if what == "table":
         file.write_text("".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6)))
         flags += ["-law", "table", "-table", file]
     elif "mesh" in what:
         script, flags = BODIES, ["-mesh", file]
         shutil.copy(mesh(0.3), file)
-    flags += ["-history", 1, "-steps", 30, "-vtu", 0]
+    flags += ["-history", 1, "-steps", 20, "-vtu", 0, "-estimate", 0]
     interrupted_series(script, *flags, "-out", out, cwd=package, rows=3)
     if what == "table":
         file.write_text(file.read_text().replace("0.5,0.25", "0.5,0.2501"))
@@ -496,7 +501,7 @@ def test_series_that_is_complete(tmp_path):
 @pytest.mark.parametrize("scene", ["disc-on-block", "hertz-line", "meshed-disc", "two-cylinders", "two-bodies"])
 def test_series_of_the_exact_distance(tmp_path, scene):
     """A load series with the true distance shall end where one step does, its steps in the table."""
-    flags = ["-distance", "exact", *([] if scene == "two-bodies" else ["-h", 2])]
+    flags = ["-distance", "exact", "-order", 1, "-estimate", 0, *([] if scene == "two-bodies" else ["-h", 2])]
     flags += ["-force", 0] if scene in ("hertz-line", "two-cylinders") else []
     series = run_in(ROOT, scene_script(scene), *flags, "-history", 1, "-steps", 4, out=tmp_path / "series")
     alone = run_in(ROOT, scene_script(scene), *flags, out=tmp_path / "alone")
