@@ -23,7 +23,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -247,6 +247,10 @@ endef
 bench: .venv/run.stamp | system ## error against run time, cost growth, ingredients, timed one run at a time, into results/bench/
 	@$(PYTHON) tests/campaigns/bench.py
 	@$(DRAW_CAMPAIGN)
+
+# Large bodies: up to a million unknowns in space, 4 GB.
+bench-large: .venv/run.stamp | system mpi ## sizes in space up to a million unknowns with -solver multigrid, laws, two processes, into results/bench/
+	@OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 $(PYTHON) tests/campaigns/bench.py large
 
 # NGSolve is wanted by this target alone.
 .venv-peers/run.stamp: requirements-peers.txt | system

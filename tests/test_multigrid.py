@@ -4,6 +4,11 @@ Skipped where `make mpi` has not built the plugin; the refusals that need none a
 """
 
 import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
 
 import pytest
 from freefem import ROOT, environment, execute, flag_text, run, run_in, script, tree
@@ -27,25 +32,48 @@ def said(output):
     return [line for line in lines if not line.startswith("'") and "oversubscribe" not in line]
 
 
+def process_of_rank(rank, word):
+    """The FreeFEM process of this rank whose command line has the word, or None."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            command = (folder / "cmdline").read_bytes().decode()
+            mine = f"OMPI_COMM_WORLD_RANK={rank}".encode() in (folder / "environ").read_bytes().split(b"\0")
+            name = (folder / "comm").read_text()
+        except OSError:
+            continue
+        if mine and word in command and name.startswith("FreeFem"):
+            return int(folder.name)
+    return None
+
+
 CASES = [
     ["sphere-on-block", "-h", 1.2, "-layers", 2],
-    ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 2, "-kappa", 1e9],
+    ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 2, "-kappa", 1e9, "-estimate", 1],
     ["sphere-on-block", "-h", 1.2, "-layers", 2, "-symmetry", "half", "-bodyForce", 0.1, "-traction", -1],
-    ["two-spheres", "-h", 0.5, "-layers", 2],
+    ["sphere-on-block", "-h", 1.2, "-layers", 2, "-distance", "exact"],
+    ["two-spheres", "-h", 0.5, "-layers", 2, "-estimate", 1],
     ["two-spheres", "-h", 0.5, "-layers", 2, "-order", 2, "-force", 0],
+    ["two-spheres", "-h", 0.5, "-layers", 2, "-distance", "exact"],
     ["sphere-on-plane", "-h", 0.4, "-layers", 2, "-order", 2],
     ["patch-test-3d"],
     ["patch-test-3d", "-order", 2, "-lower", 3, "-upper", 4],
 ]
+QUICK = {(0, 1), (1, 2), (2, 2), (3, 2), (4, 1), (4, 2), (5, 2), (7, 3), (9, 2)}
+RUNS = [
+    pytest.param(CASES[k], ranks, marks=[] if (k, ranks) in QUICK else [pytest.mark.long])
+    for k in range(len(CASES))
+    for ranks in (1, 2, 3)
+]
 
 
 @built
-@pytest.mark.parametrize("ranks", [1, 2, 3])
-@pytest.mark.parametrize("case", CASES, ids=lambda case: " ".join(map(flag_text, case)))
+@pytest.mark.parametrize("case, ranks", RUNS)
 def test_same_answer(case, ranks, tmp_path):
-    """Forces, pressures, radius to 1e-6 at -tol 1e-8, linearisations but for one, the residual below the tolerance."""
+    """Forces, pressures, radius to 1e-6 at -tol 1e-8, linearisations but for one, the residual below the tolerance; the
+    estimate of the error to 1 %."""
     scene, *flags = case
     flags = [*flags, "-tol", 1e-8] + ([] if "-order" in flags else ["-order", 1])
+    flags += [] if "-estimate" in flags else ["-estimate", 0]
     direct = run(scene, *flags)
     code, output = on_ranks(ranks, script(scene), *flags, "-solver", "multigrid", "-vtu", 0, "-out", tmp_path / "out")
     assert code == 0, output[-2000:]
@@ -54,6 +82,9 @@ def test_same_answer(case, ranks, tmp_path):
         assert summary[name] == pytest.approx(direct.summary[name], rel=1e-6, abs=1e-9), name
     assert abs(summary["newton"] - direct.newton) <= 1
     assert summary["residual"] <= 1e-8
+    if direct.summary["estimates"]:
+        error = direct.summary["estimates"]["force"]["error"]
+        assert summary["estimates"]["force"]["error"] == pytest.approx(error, rel=0.01)
     assert summary["ranks"] == ranks
     assert output.count("points in contact") == 1
 
@@ -77,6 +108,9 @@ REFUSED = [
     (1, "sphere-on-block", ["-solver", "multigrid", "-method", "paper"], "-method paper"),
     (1, "sphere-on-block", ["-solver", "multigrid", "-path", "0 1"], "-solver multigrid"),
     (1, "adhesive-sphere-3d", ["-solver", "multigrid"], "law that falls"),
+    (1, "sphere-on-block", ["-solver", "multigrid", "-accuracy", 0.01], "-accuracy"),
+    (2, "sphere-on-block", ["-solver", "multigrid", "-order", 4], "-order"),
+    (2, "disc-on-block", ["-order", 4], "scenes in space"),
     (2, "sphere-on-block", [], "-solver direct runs on one process"),
     (2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa"),
 ]
@@ -91,6 +125,36 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
     assert len(said(output)) == 1, output
     assert words in said(output)[0]
     assert not (tmp_path / "out").exists()
+
+
+@built
+def test_case_is_refused(tmp_path):
+    example = "edp/examples/ball-on-bracket/ball-on-bracket"
+    flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-solver", "multigrid"]
+    code, output = on_ranks(2, "edp/parts-3d.edp", *flags, "-out", tmp_path / "out")
+    assert code == 10
+    assert said(output) == ["-solver multigrid: not with a case file; allowed: direct"]
+
+
+@built
+def test_killed_rank(tmp_path):
+    """A rank that dies ends the run, with mpiexec's word; the next run into the same folder finds its way."""
+    name = script("sphere-on-block")
+    flags = ["-order", 1, "-solver", "multigrid", "-vtu", 0, "-estimate", 0, "-out", tmp_path / "out"]
+    command = map(flag_text, ["ff-mpirun", "-np", 2, name, *flags, "-h", 0.4, "-v", 0])
+    pipe = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    running = subprocess.Popen(list(command), cwd=ROOT, env=environment(**AS_ROOT), **pipe)
+    victim = None
+    while victim is None and running.poll() is None:
+        time.sleep(0.05)
+        victim = process_of_rank(1, str(tmp_path / "out"))
+    assert victim is not None
+    os.kill(victim, signal.SIGKILL)
+    output, _ = running.communicate(timeout=120)
+    assert running.returncode not in (0, 10, 20)
+    assert "rank 1" in output
+    code, output = on_ranks(1, name, *flags)
+    assert code == 0, output[-2000:]
 
 
 @pytest.mark.parametrize("scene", ["disc-on-block", "hertz-line"])

@@ -4,7 +4,8 @@ work_precision.csv: on one mesh, error of the iteration against seconds, factori
 meshes.csv: over meshes and degrees of elements, error against the independent reference solution, against seconds.
 growth.csv: seconds, memory and cost ratio over the number of degrees of freedom; at one size over stiffness, degree and
 method. ingredients.csv: the default method with each of its ingredients exchanged in turn, scene by scene.
-hertz.csv: contact of elastic balls, and of a rigid sphere on a block, against Hertz.
+hertz.csv: contact of elastic balls, and of a rigid sphere on a block, against Hertz. large.csv, only if it is asked for:
+large bodies in space with `-solver multigrid`, on one process and two: `make bench-large`.
 
 One run at a time. The default method's are repeated three times, unless they are long; the rivals are run once. Failed
 runs are kept. Interrupted and started again, it goes on where it was. A part can be run alone: `python
@@ -197,6 +198,63 @@ def hertz(_root: Path) -> list[campaign.Case]:
         for h, layers in sizes:
             found.append(case("hertz", scene, 300, 1, 0.1 / h**2, method="xnewton", h=h, layers=layers, **flags))
     return found
+
+
+LARGE = {1: (0.3, 0.21, 0.15, 0.088), 2: (0.5, 0.3, 0.2)}  # h, by degree: 1e5 to 1e6 degrees of freedom
+LARGE_ONE = {1: 0.21, 2: 0.45}  # about 1e5, over stiffness and exponent
+LARGE_LAWS = [(1, 3), (1e4, 3), (1e8, 3), (1e12, 3), (1e3, 1.05), (1e3, 20)]
+MPIRUN = ("ff-mpirun", "-np")
+
+
+def large(_root: Path) -> list[campaign.Case]:
+    """Sizes on one process; laws at one of them; the one of 250 000 on two, against one: on two idle cores."""
+    found = []
+
+    def add(name, law, h, order, ranks=1):
+        flags = {
+            "solver": "multigrid",
+            "kappa": law[0],
+            "m": law[1],
+            "h": h,
+            "order": order,
+            "tol": 1e-8,
+            "estimate": 0,
+        }
+        item = case(name, SPHERE, 3600, 1, 2.7e-2 / h**2.5 * 240 * order**3 / ranks, **flags)
+        if ranks > 1:
+            item = dataclasses.replace(item, flags=(*item.flags, "-v", "0"), program=(*MPIRUN, str(ranks)))
+        found.append(item)
+
+    for order, sizes in LARGE.items():
+        for h in sizes:
+            add("size", (1e9, 3), h, order)
+    for order, h in LARGE_ONE.items():
+        for law in LARGE_LAWS:
+            add("law", law, h, order)
+    add("two", (1e9, 3), 0.147, 1, 2)
+    add("one", (1e9, 3), 0.147, 1, 1)
+    return found
+
+
+def solves(*_) -> campaign.Measure:
+    """How many iterations all solves took, and on how many processes."""
+
+    def measure(_item: campaign.Case, summary: dict, _folder: Path) -> dict:
+        return {"iterations": summary["iterations"], "ranks": summary["ranks"]}
+
+    return measure
+
+
+def large_table(rows: list[dict]) -> str:
+    header = "element, h|κ, m|processes|dofs|linearisations|solves / iterations|cost ratio|wall, s|MB"
+    lines = []
+    for row in rows:
+        good = row["status"] == "converged"
+        counts = [row["newton"], f"{row['backsolves']} / {row['iterations']}"] if good else [row["status"], "-"]
+        cost = [f"{value(row, 'costRatio'):.2f}", f"{value(row, 'wall'):.0f}", f"{value(row, 'memory'):.0f}"]
+        law = f"{row['kappa']}, {row['m']}"
+        lines.append([f"P{row['order']}, {row['h']}", law, row["ranks"], row["ndof"], *counts, *cost])
+    return markdown(header.split("|"), lines)
 
 
 # ---------------------------------------------------------------- errors
@@ -497,12 +555,16 @@ PARTS = {
     "growth": (growth, (), None, report_growth),
     "ingredients": (ingredients, (), None, report_ingredients),
     "hertz": (hertz, ("radius", "pressure"), hertz_differences, hertz_table),
+    "large": (large, ("iterations", "ranks"), solves, large_table),
 }
+OPT_IN = ("large",)
 
 
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)} (default: all)")
+    parser.add_argument(
+        "parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)} (default: all but {', '.join(OPT_IN)})"
+    )
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1: they are timed)")
     parser.add_argument("--repeats", type=int, default=REPEATS, help=f"of a timed run at most (default {REPEATS})")
     parser.add_argument("--out", type=Path, default=FOLDER, help="folder of the CSV files")
@@ -511,7 +573,7 @@ def main(argv: list[str] | None = None) -> int:
     unknown = set(arguments.parts) - set(PARTS)
     if unknown:
         parser.error(f"no such part: {', '.join(sorted(unknown))}")
-    for name in arguments.parts or PARTS:
+    for name in arguments.parts or [name for name in PARTS if name not in OPT_IN]:
         cases, columns, measure, report = PARTS[name]
         path = arguments.out / f"{name}.csv"
         chosen = cases(arguments.root)

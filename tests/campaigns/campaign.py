@@ -122,6 +122,7 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/**/*.idp"),
         *root.glob("edp/**/*.sh"),
         *root.glob("edp/**/*.txt"),
+        *root.glob("edp/**/*.cpp"),
         *root.glob("meshes/*.geo"),
         *root.glob("*.py"),  # of a copy: what a campaign has added
     ]
@@ -140,6 +141,8 @@ def frozen_sources(root: Path, files: dict[str, str] | None = None):
         (root / "meshes" / "generated").mkdir(parents=True, exist_ok=True)
         (copy / "meshes").mkdir(exist_ok=True)
         (copy / "meshes" / "generated").symlink_to(root / "meshes" / "generated")
+        if (root / "build").exists():
+            (copy / "build").symlink_to(root / "build")
         for relative, text in (files or {}).items():
             (copy / relative).write_text(text)
         yield copy
