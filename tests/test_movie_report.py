@@ -18,11 +18,12 @@ import freefem
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, run, run_in, script, tree
+from text_boxes import faults
 
 from postprocess import doctor, output, player, style
 from postprocess.__main__ import main
 from postprocess.commands.compare import table
-from postprocess.frames import Movie, title
+from postprocess.frames import Movie, line_words, off_law, title
 from postprocess.laws import law_of, overlap_at
 from postprocess.references import PAPER, checks
 from postprocess.results import Run, read_run
@@ -190,6 +191,25 @@ class TestFrames:
         assert movie.below.get_aspect() == 1
         assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1407$"
         assert title(found, 0) == "before the first of 12 Newton steps"
+        assert faults(movie.figure) == []
+        lines = [line_words(found, index) for index in range(movie.count)]
+        assert [index for index, words in enumerate(lines) if "back to line 1" in words] == [6, 10]
+        assert "line 4 is next" in lines[0] and "the end" in lines[-1]
+        assert all("back to line 4" in lines[index] for index in (1, 2, 3, 4, 5, 7, 8, 9, 11))
+
+    def test_points_off_the_law_are_told(self, paper):
+        """At the end every point shall be on the law or its wall; on the way those that are not shall be hollow."""
+        with style.look():
+            movie = Movie(read_run(paper), style.Units())
+            movie.draw(4)
+        assert not off_law(movie.steps, movie.plane, movie.count - 1)[0].any()
+        off, expected = off_law(movie.steps, movie.plane, 4)
+        assert 0 < off.sum() < len(off)
+        assert np.allclose(expected[off], 1e3 * np.maximum(movie.steps.s[4][off], 0) ** 3)
+        stems = movie.left.collections[1].get_segments()
+        assert 0 < len(stems) <= off.sum()
+        hollow = [line for line in movie.left.lines[1:] if line.get_markerfacecolor() == "white"]
+        assert sum(len(line.get_xdata()) for line in hollow if line.get_color() == style.BLUE) > 0
 
     def test_far_points_are_told(self, paper):
         """A point beyond the picture shall be an arrow at its edge, not left out."""
@@ -198,7 +218,7 @@ class TestFrames:
             movie.draw(0)
         steps = movie.steps
         shown = sum(len(line.get_xdata()) for line in movie.left.lines[1:])
-        arrows = sum(len(each.get_offsets()) for each in movie.left.collections[1:])
+        arrows = sum(len(each.get_offsets()) for each in movie.left.collections[2:])  # behind walls and stems
         assert arrows == np.sum(steps.s[0] > movie.plane.right) > 0
         assert shown + arrows == np.sum(steps.s[0] >= movie.plane.left)
 

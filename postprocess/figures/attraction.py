@@ -51,6 +51,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     axes.set_xlabel(r"approach $\delta/\varepsilon$" if spheres else f"approach [{units.length}]")
     axes.set_ylabel(r"force $F/(\pi w R)$" if spheres else f"force [{units.stress} × {units.length}]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.name_elements(figure, runs)
     return figure
 
 
