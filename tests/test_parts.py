@@ -287,6 +287,9 @@ BODIES = """
 include "case/case-file.idp"
 include "bodies/parts.idp"
 include "bodies/spaces.idp"
+IFMACRO(!threeDimensional)
+include "bodies/curved.idp"
+ENDIFMACRO
 {
     macro ofElement() include "bodies/stiffness.idp" //
     include "bodies/elements.idp"
