@@ -85,8 +85,8 @@ def test_pin_in_hole(tmp_path, force, size):
 
 
 def test_roller(tmp_path):
-    """Both contacts of the roller shall be Hertz's and carry the same force."""
-    case = example("roller", tmp_path, size=0.12)
+    """Both contacts of the roller shall be Hertz's and carry the same force, and so the stresses below one."""
+    case = example("roller", tmp_path, "", "-axis", "1", size=0.12)
     a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(STEEL, STEEL))
     above, below = case.summary["contacts"]
     for contact in (above, below):
@@ -96,6 +96,11 @@ def test_roller(tmp_path):
     assert above["force"][1] == pytest.approx(-2000, rel=1e-9)
     assert case.summary["newton"] <= 6 and case.summary["backsolves"] <= 35
     balanced(case)
+    below = table(tmp_path / "run" / "axis.csv")
+    exact = -greatest / np.sqrt(1 + (below["depth"] / a) ** 2)
+    assert below["depth"][-1] == pytest.approx(3 * a, rel=0.05)
+    np.testing.assert_allclose(below["s22"], exact, rtol=0, atol=0.04 * greatest)
+    assert np.abs(below["s12"]).mean() < 0.01 * greatest
 
 
 def test_roller_true_distance(tmp_path):
