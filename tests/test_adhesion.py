@@ -214,7 +214,7 @@ def test_two_jumps(per_length):
     assert off["approach"] / GAP == pytest.approx(JUMP_OFF[2], rel=0.01, abs=located)
     assert done.dissipated / (unit * GAP) == pytest.approx(LOOP[2], rel=0.03)
     assert done.dissipated == pytest.approx(done.loopWork, rel=0.01)
-    assert (rows["stability"] > 0).all()
+    assert (rows["stability"] >= 0).all()  # 0 at the folds
     assert rows["jump"].sum() == 2
     smooth = rows[rows["jump"] == 0]
     assert (smooth["dissipated"] == 0).all()
