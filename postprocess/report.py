@@ -31,6 +31,8 @@ ALTS = {
     "bench_meshes": "Errors against the independent reference solution, against run time, on logarithmic axes.",
     "bench_peers": "Error in force against seconds on logarithmic axes, a panel for each problem: this package's runs "
     "and NGSolve's, each marked by the degree of its elements.",
+    "bench_accuracy": "True error and estimate against seconds on logarithmic axes, a panel for each problem: runs "
+    "that make their own meshes, and meshes that a user would try.",
     "bench_growth": "Seconds, memory and cost ratio against the number of unknowns, on logarithmic axes.",
     "bench_ingredients": "A map of counts: each ingredient of the method exchanged in turn, scene by scene.",
     "stability_methods": "A map for each method: linearisations over stiffness and exponent; failures are hatched.",

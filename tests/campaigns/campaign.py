@@ -122,7 +122,11 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/**/*.idp"),
         *root.glob("edp/**/*.sh"),
         *root.glob("edp/**/*.txt"),
+        *root.glob("edp/**/*.awk"),
+        *root.glob("edp/examples/**/*.geo"),
+        *root.glob("edp/examples/**/*.case"),
         *root.glob("meshes/*.geo"),
+        *root.glob("meshes/*.awk"),
         *root.glob("*.py"),  # of a copy: what a campaign has added
     ]
     return sorted(path for path in found if path.is_file())

@@ -40,6 +40,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "cost-map": ("bench/growth", bench.cost_map),
     "ingredients": ("bench/ingredients", bench.report_ingredients),
     "hertz": ("bench/hertz", bench.hertz_table),
+    "asked": ("bench/accuracy", bench.accuracy_runs),
     "peers": ("bench/peers", peers.table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
