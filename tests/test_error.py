@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 import reference
 from freefem import ROOT, run_in, script
+from test_examples import example
+
+from postprocess import closed_forms as forms
 
 HARD = (float("inf"), 1.0)
 
@@ -164,6 +167,54 @@ def test_goals_refused(solved, scene, flags):
     """What is prescribed cannot be asked for."""
     run = solved(scene, "-accuracy", 1e-3, *flags, expect=10)
     assert "-goal" in run.stdout and "allowed" in run.stdout
+
+
+# ---------------------------------------------------------------- a user's own parts
+
+PERSSON = forms.pin_angle(forms.plane_modulus(210e3, 0.3) * 0.01 / 1000)  # of the example's pin in its hole
+PIN_MOVED = 0.0238430  # P4, 117 000 unknowns: -mesh with size 0.5
+
+
+def parts_of(case):
+    """The estimates of a case's only contact and load, and whether they hold for the pin."""
+    told = case.summary["estimates"]
+    contact, way = told["contacts"][0], told["loads"][0]["way"]
+    assert abs(contact["pressureMax"]["value"] - forms.pin_pressure(0, PERSSON) * 1000 / 10.01) <= (
+        contact["pressureMax"]["error"] + 0.05  # the plate is no infinite one
+    )
+    assert abs(contact["contactLength"]["value"] - 2 * 10.01 * PERSSON) <= contact["contactLength"]["error"]
+    assert abs(way["value"] - PIN_MOVED) <= way["error"]
+    return contact, way
+
+
+def test_own_parts(tmp_path):
+    """A floating pin: its force is told by the balance; pressure, length and the way of its load are known by an error."""
+    case = example("pin-in-hole", tmp_path, size=1.5)
+    contact, way = parts_of(case)
+    assert contact["force"]["error"] <= 1e-8 and way["error"] <= 0.01 * way["value"]
+    assert "weight core has gone" in case.stdout and "±" in case.stdout
+
+
+def test_accuracy_of_own_parts(tmp_path):
+    """New meshes of a user's parts shall keep their curves, and their errors what was asked for."""
+    case = example("pin-in-hole", tmp_path, "", "-order", 2, "-accuracy", 2e-2, "-goal", "pressure", size=2)
+    accuracy = case.summary["accuracy"]
+    assert accuracy["met"] and accuracy["meshes"] > 1
+    parts_of(case)
+    radius = np.hypot(case.contact["x"], case.contact["y"])[::4]
+    assert np.abs(radius - 10.01).max() < 1e-5
+
+
+def test_several_contacts(tmp_path):
+    """The roller's two contacts shall be known alike, and the way of what pushes it."""
+    told = example("roller", tmp_path, size=0.12).summary["estimates"]
+    above, below = told["contacts"]
+    a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(*[forms.plane_modulus(210e3, 0.3)] * 2))
+    for contact in (above, below):
+        assert contact["force"]["error"] <= 1e-7
+        assert abs(contact["contactLength"]["value"] - 2 * a) <= contact["contactLength"]["error"]
+        assert abs(contact["pressureMax"]["value"] - greatest) <= contact["pressureMax"]["error"] + 2e-3 * greatest
+    assert told["loads"][0]["name"] == "force grip" and 0 < told["loads"][0]["way"]["error"] < 0.01
 
 
 def test_coverage_is_judged():

@@ -89,6 +89,8 @@ def case(
 def script_of(scene: str, method: str | None = None) -> str:
     if method == "ipopt":
         return f"edp/scenes/{scene}-ipopt.edp"
+    if scene.startswith("parts"):
+        return f"edp/{scene}.edp"
     return "edp/main.edp" if scene == "disc-on-block" else f"edp/scenes/{scene}.edp"
 
 
@@ -121,6 +123,8 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/**/*.edp"),
         *root.glob("edp/**/*.idp"),
         *root.glob("edp/**/*.sh"),
+        *root.glob("edp/**/*.awk"),
+        *root.glob("meshes/*.awk"),
         *root.glob("edp/**/*.txt"),
         *root.glob("edp/**/*.awk"),
         *root.glob("edp/examples/**/*.geo"),
