@@ -225,7 +225,7 @@ SMALL := $(PYTHON) -m postprocess small
 pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the pages anew
 	$(SMALL) results/figures/figure1.png --out postprocess/readme-figure.png
 	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
-	$(SMALL) results/movies/disc-on-block/movie.gif --width 640 --colours 16 --out postprocess/readme-movie.gif
+	$(SMALL) results/movies/disc-on-block/movie.gif --width 600 --colours 16 --out postprocess/readme-movie.gif
 	$(SMALL) results/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
 	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
