@@ -433,7 +433,7 @@ class TestReport:
         assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
         for words in ("150.02947", "22.559747", "4.927623", "make results/figures/figure1.pdf", "make bench"):
             assert words in page
-        made = re.search(r"FreeFem\+\+ -nw -v 0 edp/main.edp (-.*-method paper.*) -out", page)[1].split()
+        made = re.search(r"FreeFem\+\+ -nw -v 0 edp/main.edp (.*-method paper.*) -out", page)[1].split()
         flags = {"-method": "paper", "-order": "1", "-h": "0.5", "-estimate": "0", "-states": "1", "-vtu": "0"}
         assert dict(zip(made[::2], made[1::2], strict=True)) == flags
         caption = captions()["figure1"]
