@@ -437,7 +437,7 @@ class TestReport:
         flags = {"-method": "paper", "-order": "1", "-h": "0.5", "-estimate": "0", "-states": "1", "-vtu": "0"}
         assert dict(zip(made[::2], made[1::2], strict=True)) == flags
         caption = captions()["figure1"]
-        assert seen["img"][0]["alt"] == caption and f"<strong>figure1</strong>: {caption}" in page
+        assert seen["img"][0]["alt"] == caption and f"<strong>figure1</strong>: {html.escape(caption)}" in page
         names = [name for name in re.findall(r'<th scope="col"[^>]*>([^<]*)</th>', page) if name in ("force", "dofs")]
         assert names[:2] == ["force", "dofs"]
         assert "T⁰ = d0" in page and "-T0 &lt;d0&gt;" in page  # the campaign's failed run, escaped

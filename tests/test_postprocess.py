@@ -454,8 +454,8 @@ class TestRefusals:
 FIGURES = {
     "figure1": [["meshed"], ["rigid"]],
     "figure2": [["rigid", "incremental"]],
-    "convergence": [["meshed"], ["rigid", "d0", "newton", "incremental"]],
-    "thresholds": [["rigid"], ["d0"], ["newton"]],
+    "convergence": [["rigid", "d0", "newton", "incremental"]],
+    "thresholds": [["rigid", "d0", "newton"]],
 }
 
 

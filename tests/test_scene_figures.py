@@ -97,7 +97,11 @@ def test_stress_below_the_contact(balls):
 
 
 @pytest.mark.parametrize(
-    "scene, flags", [("sphere-on-plane", SMALL), ("sphere-on-block", ["-law", "signorini", "-h", 0.6, "-layers", 1])]
+    "scene, flags",
+    [
+        ("sphere-on-plane", ["-h", 0.3, "-layers", 2]),
+        ("sphere-on-block", ["-law", "signorini", "-h", 0.6, "-layers", 1]),
+    ],
 )
 def test_sphere(tmp_path, scene, flags):
     """The figure of a contact in space shall have its section, and the obstacle where it is rigid."""

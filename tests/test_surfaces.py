@@ -283,7 +283,7 @@ def test_turned(tmp_path, load, flags):
     np.testing.assert_allclose(energies, energies[0], rtol=1e-9)
 
 
-@pytest.mark.parametrize("flags", [["-points", "nodal"], ["-points", "segment"]], ids=["nodal", "segment"])
+@pytest.mark.parametrize("flags", [["-order", 1, "-points", "nodal"], ["-points", "segment"]], ids=["nodal", "segment"])
 def test_true_distance_has_an_energy(tmp_path, flags):
     """With the true distance the energy's derivative in the approach shall be the force, to 1e-6 (here 1e-8)."""
 

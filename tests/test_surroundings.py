@@ -109,7 +109,7 @@ def comma(tmp_path_factory):
     return env
 
 
-@pytest.mark.parametrize("name", ["LANG", "LC_ALL"])
+@pytest.mark.parametrize("name", ["LC_ALL", pytest.param("LANG", marks=pytest.mark.long)])
 def test_comma_locale(mesh, comma, tmp_path, name):
     """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
     env = {**comma, name: "de_DE.UTF-8"}
