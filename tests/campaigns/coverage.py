@@ -87,7 +87,7 @@ PINS = {
     "20000 N": ("0 -20000", ""),
     "1000 N and a law": ("0 -1000", " law power kappa 1e6 m 2 d0 -0.005"),
 }
-PIN_SIZE = 2.0  # P4's coarsest
+PIN_SIZE = 3.0  # P4's coarsest
 FINEST = {"hertz-line": 10, "two-cylinders": 10}  # of the reference: P4's coarsest h over its own; 16 elsewhere
 
 
@@ -114,7 +114,7 @@ def pin_files() -> dict[str, str]:
     """Meshes and cases of the pins, for the campaign's folder."""
     geo = EXAMPLE.with_suffix(".geo").read_text().replace("half = {500,", "half = {100,")
     case_file = EXAMPLE.with_suffix(".case").read_text()
-    sizes = {PIN_SIZE * order / 4 / 2**halved for order in (1, 2, 4) for halved in range(3)} | {PIN_SIZE / 6}
+    sizes = {PIN_SIZE * order / 4 / 2**halved for order in (1, 2, 4) for halved in range(3)} | {PIN_SIZE / 12}
     files = {f"pin-{size:g}.geo": geo.replace("size = {0.28,", f"size = {{{size:g},") for size in sizes}
     for name, (force, law) in PINS.items():
         text = case_file.replace("0 -1000", force).replace("bore pin-surface", "bore pin-surface" + law)
@@ -126,7 +126,7 @@ def cases_of_pins(root: Path = campaign.ROOT) -> list[campaign.Case]:
     found = []
     for name in PINS:
         shared = {"case": f"pin-{name.replace(' ', '-')}.case", "tol": 1e-8}
-        for order, size, kind in [(4, PIN_SIZE / 6, ": reference")] + [
+        for order, size, kind in [(4, PIN_SIZE / 12, ": reference")] + [
             (order, PIN_SIZE * order / 4 / 2**halved, "") for order in (1, 2, 4) for halved in range(3)
         ]:
             flags = {"mesh": f"pin-{size:g}.geo", "order": order, **shared}
