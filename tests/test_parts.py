@@ -589,6 +589,14 @@ def test_nothing_presses(tmp_path, case, gap, flags):
     assert run.summary["outOfBalance"] < 1e-6
 
 
+def test_large_rotation(tmp_path):
+    """A body that turns by so much that linearised rotations show: said."""
+    case = STEEL + "rotate bottom 1.5 0 {}\nobstacle top plane 0 9 0 -1\n"
+    run = solve(tmp_path, block(Mesh()).text(), case.format(0.2))
+    assert "warning: block: turned by 0.2, and rotations are linearised" in run.stdout
+    assert "linearised" not in solve(tmp_path, block(Mesh()).text(), case.format(0.05)).stdout
+
+
 def test_slides(tmp_path):
     """A block that slides along another by more than what is loaded: said, and right with the true distance."""
     mesh = block(Mesh(), size=(6, 1), cells=(24, 4))
