@@ -81,7 +81,7 @@ def draw_path(axes, rows: dict, colour: str, name: str) -> None:
 
 
 def smooth(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The cubic between neighbours, where it stays near their chord; up to a fold, of infinite slope, a root and a line."""
+    """The cubic between neighbours where it is near their chord; up to a fold, of infinite slope, a root and a line."""
     t = np.linspace(0, 1, 21)[:, None]
     step = np.diff(x)
     rise, left, right = np.diff(y), slope[:-1] * step, slope[1:] * step
