@@ -115,7 +115,7 @@ tell("stretch", leastStretch);
 
 @pytest.mark.parametrize("order", [2, 4])
 def test_curved_elements(tmp_path, order):
-    """Rigid motions of curved elements shall be without stress, points shall lie on the circle, weights add up to it."""
+    """Rigid motions of curved elements shall be without stress, points lie on the circle, weights add up to it."""
     values = pairs(tmp_path, rings(24).text(), RINGS, more=CURVED, order=order)
     assert values["curved"] == 24 + 31 and 0.5 < values["stretch"] < 1
     assert abs(values["rigid"]).max() < 1e-10  # rounding of terms of 1e4
