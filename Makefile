@@ -126,12 +126,13 @@ run: .venv/run.stamp | system ## run a scene: make run [SCENE=name] [ARGS="-kapp
 # ---------------------------------------------------------------- figures
 
 # case.<name>: script and flags; the run writes results/figures/<name>/, summary.json last.
-case.paper-two-bodies := edp/scenes/meshed-disc.edp -method paper -h 0.5 -states 1
-case.paper            := edp/main.edp -method paper -h 0.25 -order 2
-case.incremental      := edp/main.edp -method incremental -steps 20 -h 0.25 -order 2
-case.signorini-start  := edp/main.edp -method paper -T0 d0 -h 0.25 -order 2
-case.newton           := edp/main.edp -method newton -h 0.25 -order 2
-case.xnewton          := edp/main.edp -method xnewton -h 0.25 -order 2
+# The paper's test, both bodies meshed: figures 1 and 2, convergence and thresholds are of one mesh.
+TEST                  := edp/scenes/meshed-disc.edp -order 1 -h 0.5
+case.paper            := $(TEST) -method paper -states 1
+case.incremental      := $(TEST) -method incremental -steps 20
+case.signorini-start  := $(TEST) -method paper -T0 d0
+case.newton           := $(TEST) -method newton
+case.xnewton          := $(TEST) -method xnewton
 case.hertz-line       := edp/scenes/hertz-line.edp -width 160 -depth 80 -grading 160 -order 2 -axis 1
 case.two-cylinders    := edp/scenes/two-cylinders.edp -R1 40 -R2 40 -force 2.158 -grading 80 -order 2 -axis 1
 case.hertz-sphere     := edp/main.edp -geometry axisymmetric -law signorini -force 10 -reach 2 -h 0.044 -grading 40 -order 2 -axis 1
@@ -174,10 +175,10 @@ ERRORS := \
     $(call error_case,$(scene),$(size),-h $(call part,$(size),1) -layers $(call part,$(size),2))))
 
 # figure.<name>: the cases that it draws.
-figure.figure1     := paper-two-bodies
+figure.figure1     := paper
 figure.figure2     := paper incremental
 figure.convergence := paper signorini-start newton xnewton
-figure.thresholds  := signorini-start
+figure.thresholds  := paper signorini-start
 figure.hertz-line    := hertz-line
 figure.two-cylinders := two-cylinders
 figure.hertz-sphere  := hertz-sphere
@@ -224,7 +225,7 @@ SMALL := $(PYTHON) -m postprocess small
 pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the pages anew
 	$(SMALL) results/figures/figure1.png --out postprocess/readme-figure.png
 	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
-	$(SMALL) results/movies/disc-on-block/movie.gif --width 640 --colours 16 --out postprocess/readme-movie.gif
+	$(SMALL) results/movies/disc-on-block/movie.gif --width 600 --colours 16 --out postprocess/readme-movie.gif
 	$(SMALL) results/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
 	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \

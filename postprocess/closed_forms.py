@@ -99,3 +99,14 @@ def press_fit(
         return ((ratio**2 + 1) / abs(ratio**2 - 1) + sign * effect) / plane
 
     return interference / joint / (softness(*outer, outside / joint, 1) + softness(*inner, joint / bore, -1))
+
+
+def rough_profile(x: np.ndarray, width: float, modes: float, hurst: float, rms: float, seed: float) -> np.ndarray:
+    """The height of the scene rough's wall towards the block: sum of n^(-H-1/2) cos(2 pi n x/width + phase_n)."""
+    n = np.arange(1, int(modes) + 1)
+    size = n ** (-hurst - 0.5)
+    state, phase = int(seed), []
+    for _ in n:
+        state = 16807 * state % (2**31 - 1)
+        phase.append(2 * np.pi * state / (2**31 - 1))
+    return rms * np.sqrt(2 / np.sum(size**2)) * np.cos(2 * np.pi * np.outer(x, n) / width + phase) @ size

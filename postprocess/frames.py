@@ -16,6 +16,7 @@ from postprocess.results import LAW, OPEN, WALL, ResultsError, Run, is_number
 
 SIZE = (8.6, 4.8)  # inches
 CROWD = 120  # points beyond which their dots are drawn smaller
+OFF = 0.01  # of the picture's height: points farther than this from the law are drawn as off it
 HUGE = 1e100  # overlaps and pressures beyond it are not drawn
 FILLS = ("#DCE9F3", "#E9E6E1", "#E3EFE3")  # of the bodies, by region
 LINES = (style.BLUE, "#6E675F", style.GREEN)
@@ -50,27 +51,30 @@ class Movie:
         self.rigid = len(np.unique(run.mesh.region)) == 1
         self.figure = Figure(figsize=SIZE)
         FigureCanvasAgg(self.figure)
-        self.left = self.figure.add_axes((0.075, 0.2, 0.4, 0.66))
-        self.above = self.figure.add_axes((0.575, 0.565, 0.405, 0.295))
-        self.below = self.figure.add_axes((0.575, 0.115, 0.405, 0.335))
+        self.left = self.figure.add_axes((0.075, 0.19, 0.4, 0.65))
+        self.above = self.figure.add_axes((0.575, 0.59, 0.405, 0.25))
+        self.below = self.figure.add_axes((0.575, 0.19, 0.405, 0.31))
         self.window = window_of(run, self.below.bbox.height / self.below.bbox.width)
 
     def draw(self, index: int) -> None:
         """Draws frame `index`, 0 ... count - 1, in place of the one before."""
-        for artist in list(self.figure.legends):
+        for artist in [*self.figure.legends, *self.figure.texts]:
             artist.remove()
         for axes in (self.left, self.above, self.below):
             axes.clear()
-        self.figure.suptitle(title(self.run, index), fontsize=11, y=0.975)
+        self.figure.text(0.5, 0.975, title(self.run, index), fontsize=11, ha="center", va="top")
+        self.figure.text(0.5, 0.93, f"Algorithm 1, {line_words(self.run, index)}", fontsize=9, ha="center", va="top")
         self.draw_plane(index)
         self.draw_profile(index)
         self.draw_bodies(index)
         handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in LOOKS.values()]
         handles.append(Line2D([], [], linestyle="none", marker=">", color=style.BLACK, label="beyond the picture"))
-        self.figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.06, 0.0), ncols=4, columnspacing=1.2)
+        hollow = {"marker": "o", "markerfacecolor": "white", "color": style.BLUE, "linewidth": 0.6}
+        handles.append(Line2D([], [], label="off the law: on its tangent of the step before", **hollow))
+        self.figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.05, 0.0), ncols=5, columnspacing=1.5)
 
     def draw_plane(self, index: int) -> None:
-        """The law, its walls, and the points, each where the linear solve left it."""
+        """The law, its walls, the points where the linear solve left them; hollow, with a line to it, off the law."""
         axes, plane, steps = self.left, self.plane, self.steps
         if plane.curve is not None:
             axes.plot(*plane.curve, color=style.BLACK, linewidth=1.0, zorder=2)
@@ -84,10 +88,17 @@ class Movie:
         bottom = -0.06 * plane.top
         at = np.clip(overlap, plane.left, plane.right), np.clip(pressure, bottom, plane.top)
         outside = (overlap > plane.right) | (pressure > plane.top) | (pressure < bottom)
+        off, expected = off_law(steps, plane, index)
+        stems = [[(s, p), (s, min(q, plane.top))] for s, p, q in zip(*at, expected, strict=True)]
+        drawn = off & ~outside & (overlap >= plane.left)
+        chosen = [stem for stem, each in zip(stems, drawn, strict=True) if each]
+        axes.add_collection(LineCollection(chosen, color=style.GREY, linewidth=0.6, zorder=3))
         for status, (_, look) in LOOKS.items():
-            chosen = (steps.status[index] == status) & ~outside & (overlap >= plane.left)
             size = {"markersize": self.scale * look["markersize"]}
-            axes.plot(at[0][chosen], at[1][chosen], linestyle="none", zorder=4, **{**look, **size})
+            for hollow in (False, True):
+                chosen = (steps.status[index] == status) & ~outside & (overlap >= plane.left) & (off == hollow)
+                face = {"markerfacecolor": "white"} if hollow else {}
+                axes.plot(at[0][chosen], at[1][chosen], linestyle="none", zorder=4, **{**look, **size, **face})
         for chosen, marker in (
             (outside & (overlap > plane.right), ">"),
             (outside & (overlap <= plane.right) & (pressure > plane.top), "^"),
@@ -153,6 +164,35 @@ def title(run: Run, index: int) -> str:
     words = f"adaptation {steps.adaptation[index]}, {words}"
     last = history["step"].max()
     return f"load step {history['step'][row]} of {last}, {words}" if last > 1 else words
+
+
+def line_words(run: Run, index: int) -> str:
+    """The lines of Algorithm 1 that a frame has come through, and the one where it goes on."""
+    if index == 0:
+        return "lines 1 to 3: first threshold, bodies at rest; line 4 is next"
+    history, row = run.history, int(run.steps.newton[index]) - 1
+    model = history["step"], history["adaptation"]
+    last = row + 1 == len(history["newton"])
+    if not last and all(each[row] == each[row + 1] for each in model):
+        changes = int(history["statusChanges"][row])
+        why = f"{style.count(changes, 'status change')}" if changes else "residual above the tolerance"
+        return f"lines 4, 5: one linear solve, multiplier and status; line 6: {why}, back to line 4"
+    if not last and model[0][row] != model[0][row + 1]:
+        return "line 10: the thresholds stand still; the next load step begins at line 1"
+    if not last:
+        return "line 6: this model is solved; line 8 raises the thresholds; line 9: not yet at rest, back to line 1"
+    return "line 10: the thresholds stand still, the end" if run.summary["converged"] else "stopped before its end"
+
+
+def off_law(steps, plane: Plane, index: int) -> tuple[np.ndarray, np.ndarray]:
+    """(off, pressure), a point each: whether it is off the law and its wall, and the law's pressure at its overlap."""
+    s, pressure, tau = steps.s[index], steps.pressure[index], steps.tau[index]
+    if plane.at is None:
+        return np.zeros(len(s), bool), pressure
+    expected = np.asarray(plane.at(s))
+    at_wall = (steps.status[index] == WALL) & (np.abs(s - tau) < OFF * plane.right)
+    expected = np.where(at_wall & (pressure >= expected), pressure, expected)
+    return np.abs(pressure - expected) > OFF * plane.top, expected
 
 
 def wall_words(walls: np.ndarray, tau: np.ndarray, plane: Plane) -> str:

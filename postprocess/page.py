@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 WIDE = 1.3  # ratio of width to height above which a picture keeps its size on a phone and scrolls sideways
+MANY = 4  # columns above which a table is wider than a phone
 TEMPLATES = Path(__file__).parent / "templates"
 
 
@@ -43,7 +44,8 @@ def document(title: str, body: Markup) -> str:
 def table(caption: str, columns: Sequence[str], rows: Iterable[Sequence], numbers: Iterable[int] = ()) -> Markup:
     """A table with a caption, column headers, and the first cell of each row as its header.
 
-    numbers: the columns set flush right. It scrolls sideways by itself where the screen is narrower.
+    numbers: the columns set flush right. It scrolls sideways by itself where the screen is narrower; a wide one
+    says so on a phone, which shows no scroll bar.
     """
     right = set(numbers)
 
@@ -63,7 +65,8 @@ def table(caption: str, columns: Sequence[str], rows: Iterable[Sequence], number
             element("tbody", joined(body)),
         ]
     )
-    return element("div", element("table", inner), class_="scroll", role="region", tabindex=0, aria_label=caption)
+    look = "scroll sideways" if len(columns) > MANY else "scroll"
+    return element("div", element("table", inner), class_=look, role="region", tabindex=0, aria_label=caption)
 
 
 def picture(png: bytes, alt: str, caption: Markup) -> Markup:

@@ -23,6 +23,9 @@ NAMES = {
     "halfWidth": "half-width",
     "overlapMax": "greatest overlap",
 }
+# Hertz's scenes; whether their contact is a circle
+ROUND = {"hertz-line": False, "two-cylinders": False}
+ROUND |= dict.fromkeys(("sphere-on-block", "sphere-on-plane", "two-spheres"), True)
 LEAST_POINTS = 5  # points in contact below which a comparison means nothing
 
 
@@ -50,6 +53,8 @@ def checks(run: Run) -> list[Check]:
     summary = run.summary
     if not summary["converged"] or not is_number(summary["h"]) or not summary["h"] > 0:
         return []
+    if found := closed_forms(run):
+        return found
     expected, source = paper_test(run), "paper's test"
     if not expected:
         expected, source = confined_block(run), "exact"
@@ -58,6 +63,50 @@ def checks(run: Run) -> list[Check]:
         for name, reference in expected.items()
         if is_number(summary[name]) and reference > 0
     ]
+
+
+def closed_forms(run: Run) -> list[Check]:
+    """Hard contact under a force beside its closed form on a half-space; none where it has none."""
+    summary, parameters = run.summary, run.summary["parameters"]
+    hard = "signorini" in (summary["method"], parameters.get("law"))
+    if not hard or not is_number(parameters.get("force")) or not parameters["force"] > 0:
+        return []
+    if summary["contactPoints"] < LEAST_POINTS or parameters.get("history"):
+        return []
+    scene = summary["scene"]
+    if scene in ROUND or (scene == "disc-on-block" and parameters.get("geometry") == "axisymmetric"):
+        return beside_hertz(run, ROUND.get(scene, True))
+    x, pressure = run.contact["x"], run.contact["pressure"]
+    if scene == "flat-punch" and 40 * run.positive("a") <= run.positive("width"):
+        middle, a = float(np.interp(0, x, pressure)), run.positive("a")
+        slack = explained(run, a) + a / run.positive("width")
+        return [
+            Check("pressure in the middle", middle, float(punch_pressure(run, np.zeros(1))[0]), slack, "flat punch")
+        ]
+    if scene == "wavy" and run.parameter("waves") >= 5:
+        length = run.positive("width") / run.parameter("waves")
+        inner = np.abs(x) <= 0.5 * run.positive("width") - 2 * length  # the outermost waves feel the block's sides
+        crest = float(wave_pressure(run, np.zeros(1))[0])
+        return [Check("greatest pressure", float(pressure[inner].max()), crest, explained(run, length), "Westergaard")]
+    return []
+
+
+def beside_hertz(run: Run, round_contact: bool) -> list[Check]:
+    """Half-width or radius, by the second moment, and greatest pressure of a contact under a force."""
+    a, greatest = hertz(run, prescribed_force(run), round_contact)
+    radius = min(run.positive(name) for name in ("R", "R1", "R2") if name in run.summary["parameters"])
+    slack = explained(run, a) + (a / radius) ** 2
+    names = ("halfWidthMoment", "radius" if round_contact else "half-width"), ("pressureMax", "greatest pressure")
+    pairs = zip(names, (a, greatest), strict=True)
+    found = [(name, run.summary.get(key), reference) for (key, name), reference in pairs]
+    return [
+        Check(name, float(value), reference, slack, "Hertz") for name, value, reference in found if is_number(value)
+    ]
+
+
+def explained(run: Run, length: float) -> float:
+    """The relative difference from a closed form that the mesh explains, length: of the contact or its wave."""
+    return (0.4 if run.summary["order"] == 1 else 0.1) * float(run.summary["h"]) / length
 
 
 def paper_test(run: Run) -> dict[str, float]:

@@ -12,31 +12,10 @@ from postprocess.page import Markup, element, folded, joined, section, table
 from postprocess.references import Check, checks
 from postprocess.results import ResultsError, Run, brief, is_number
 from postprocess.tree import Tree, read_bytes, read_png
-from postprocess.words import HISTORY_COLUMNS, command, history_rows, place, run_words, short
+from postprocess.words import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
 
 HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
 
-# What the figures show, for those who do not see them.
-ALTS = {
-    "figure1": "Deformed meshes of block and disc at successive states of the scheme, the whole bodies above and the "
-    "contact zone below. After the prescribed motion alone the bodies interpenetrate; at the end they only touch.",
-    "figure2": "Contact pressure over the contact's width, an arch that falls to zero at both edges: the scheme's "
-    "points lie on the reference's line. Below, their relative difference on a logarithmic axis.",
-    "convergence": "Relative residual against Newton step on a logarithmic axis, a curve for each run; it jumps up "
-    "where a new model begins and then falls faster and faster.",
-    "thresholds": "The threshold field over the contact, a curve for each model: it rises from one to the next, and "
-    "only where the points are at the wall.",
-    "bench_work_precision": "Error of the iteration against seconds, factorisations and back-substitutions, on "
-    "logarithmic axes, a curve for each method.",
-    "bench_meshes": "Errors against the independent reference solution, against run time, on logarithmic axes.",
-    "bench_peers": "Error in force against seconds on logarithmic axes, a panel for each problem: this package's runs "
-    "and NGSolve's, each marked by the degree of its elements.",
-    "bench_growth": "Seconds, memory and cost ratio against the number of unknowns, on logarithmic axes.",
-    "bench_ingredients": "A map of counts: each ingredient of the method exchanged in turn, scene by scene.",
-    "stability_methods": "A map for each method: linearisations over stiffness and exponent; failures are hatched.",
-    "stability_xnewton": "A map: the default method's greatest number of linearisations over stiffness and exponent.",
-    "stability_backsolves": "A map: the default method's most back-substitutions over stiffness and exponent.",
-}
 CAMPAIGNS = {
     "bench": ("Work and precision", "make bench", ("work_precision", "meshes", "growth", "ingredients")),
     "stability": ("Stability", "make stability", ("stability", "quick")),
@@ -53,16 +32,15 @@ def build(tree: Tree) -> str:
         raise ResultsError(
             tree.path, "holds no run and no figure; make run, make figures, make bench or make stability"
         )
-    own = {path: data for path, data in pictures.items() if path.parent.name == "figures"}
+    order = list(captions())
+    own = [path for path in pictures if path.parent.name == "figures"]
+    own.sort(key=lambda path: order.index(path.stem) if path.stem in order else len(order))
     parts = [
-        section("runs", "Runs", *overview(tree)) if tree.runs else "",
-        section("references", "Results against references", *references(tree, verdicts)) if tree.runs else "",
-        section("figures", "Figures", *(figure(tree, path, data) for path, data in own.items())) if own else "",
+        section("figures", "Figures", *(figure(path, pictures[path]) for path in own)) if own else "",
         section("movies", "Movies", *(movie(tree, path, part) for path, part in movies.items())) if movies else "",
+        section("references", "Results against references", *references(tree, verdicts)) if tree.runs else "",
+        section("runs", "Runs", *scenes(tree)) if tree.runs else "",
         *campaigns,
-        section("details", "Each run", *(details(tree, run, k) for k, run in enumerate(tree.runs, 1)))
-        if tree.runs
-        else "",
         section("machine", "Machine and versions", machine()),
     ]
     body = joined([header(tree, verdicts, parts), element("main", joined(filter(None, parts)), id="main")])
@@ -80,9 +58,8 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
     if newest is not None:
         when = datetime.datetime.fromtimestamp(newest, datetime.UTC)
         sentences.append(f"Newest run: {when:%Y-%m-%d %H:%M} UTC.")
-    names = {"runs": "Runs", "references": "References", "figures": "Figures", "movies": "Movies"}
-    names |= {name: title for name, (title, _, _) in CAMPAIGNS.items()}
-    names |= {"details": "Each run", "machine": "Machine and versions"}
+    names = {"figures": "Figures", "movies": "Movies", "references": "References", "runs": "Runs"}
+    names |= {name: title for name, (title, _, _) in CAMPAIGNS.items()} | {"machine": "Machine and versions"}
     there = [name for name in names if any(f'<section id="{name}"' in part for part in parts)]
     links = joined(element("li", element("a", names[name], href=f"#{name}")) for name in there)
     return element(
@@ -110,14 +87,27 @@ def with_error(summary: dict, name: str) -> str:
     return short(summary[name]) + (f" ± {error:.1g}" if error else "")
 
 
-def overview(tree: Tree) -> list[Markup]:
-    """A row per run."""
+def scenes(tree: Tree) -> list[Markup]:
+    """The runs scene by scene, folded: a table, then each run."""
+    groups: dict[str, list[tuple[int, Run]]] = {}
+    for index, run in enumerate(tree.runs, 1):
+        groups.setdefault(run.summary["scene"], []).append((index, run))
+    found = []
+    for scene, runs in sorted(groups.items()):
+        missed = sum(not run.summary["converged"] for _, run in runs)
+        words = f"{scene}: {style.count(len(runs), 'run')}" + (f", {missed} not converged" if missed else "")
+        found.append(folded(words, joined([overview(tree, scene, runs), *(details(tree, run, k) for k, run in runs)])))
+    return found
+
+
+def overview(tree: Tree, scene: str, runs: list[tuple[int, Run]]) -> Markup:
+    """A row per run of a scene."""
     columns = (
-        "run,converged,warnings,scene,method,element,h,dofs,adaptations,Newton steps,factorisations,back-substitutions,"
-        "force,greatest pressure,half-width,CPU s"
+        "run,converged,warnings,force,greatest pressure,half-width,method,element,h,dofs,adaptations,Newton steps,"
+        "factorisations,back-substitutions,CPU s"
     ).split(",")
     rows = []
-    for index, run in enumerate(tree.runs, 1):
+    for index, run in runs:
         summary = run.summary
         seconds = summary["seconds"].get("total")
         rows.append(
@@ -125,13 +115,13 @@ def overview(tree: Tree) -> list[Markup]:
                 element("a", tree.name(run.path), href=f"#run-{index}"),
                 verdict(summary["converged"], "yes", "NO"),
                 verdict(not summary["warnings"], "0", str(len(summary["warnings"]))),
-                *(summary["scene"], summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
-                *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
                 *(with_error(summary, name) for name in "force pressureMax halfWidth".split()),
+                *(summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
+                *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
                 f"{seconds:.2f}" if is_number(seconds) else "–",
             ]
         )
-    return [table("All runs", columns, rows, [2, 6, 7, *range(8, 16)])]
+    return table(f"Runs of {scene}", columns, rows, [2, 3, 4, 5, *range(8, 15)])
 
 
 def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
@@ -156,7 +146,10 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
         "The paper's test (κ = 1000 with m = 3 or m = 10, everything else at its default) is compared with an "
         "independent computation: NGSolve, P4 elements, h = 0.0125. Allowed, relative: force and pressure 0.1 h√h "
         "for P1 and 0.0025 h for P2, half-width 0.05 h, and ten times the run's tolerance. The confined block "
-        "has an exact state. Runs with other parameters have no reference and are not in the table.",
+        "has an exact state. Hard contact under a force is compared with closed forms on a half-space: Hertz's line "
+        "and circle, the flat punch's pressure in the middle, Westergaard's wave at its crests; allowed is 0.4 h/a for "
+        "P1 and 0.1 h/a for P2, a the half-width, radius or wavelength, and what a body of finite size is off. "
+        "Runs with other parameters have no reference and are not in the table.",
     )
     if not rows:
         return [words, element("p", "No run so far is one of these.")]
@@ -168,16 +161,14 @@ def verdict(passed: bool, good_word: str, bad_word: str) -> Markup:
     return element("span", good_word if passed else bad_word, class_="pass" if passed else "fail")
 
 
-def figure(tree: Tree, path, data: bytes) -> Markup:
-    """A picture, what it is, and the command that makes it."""
+def figure(path, data: bytes) -> Markup:
+    """A picture, what is seen in it, and the command that makes it."""
     name = path.stem
     module = figures.modules().get(name)
-    title = module.__doc__.splitlines()[0] if module else f"Picture {name}"
-    title = title[0].upper() + title[1:]
+    title = f"{module.__doc__.splitlines()[0]}." if module else f"Picture {name}."
+    seen = captions().get(name, title[0].upper() + title[1:])
     made = CAMPAIGNS[path.parent.name][1] if path.parent.name in CAMPAIGNS else f"make results/figures/{name}.pdf"
-    alt = ALTS.get(name, title)
-    caption = joined([element("strong", name), ": ", title, ". ", element("code", made)], "")
-    return page.picture(data, alt, caption)
+    return page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
 
 
 def read_movie(path) -> str | None:
@@ -217,7 +208,7 @@ def campaign(tree: Tree, name: str, pictures: dict) -> Markup | str:
     if not own and not there and not checked.exists():
         return ""
     parts = [element("p", joined(["Made by ", element("code", made), "."], ""))]
-    parts += [figure(tree, path, data) for path, data in own.items()]
+    parts += [figure(path, data) for path, data in own.items()]
     for each in there:
         parts += campaign_table(Campaign(folder), each)
     if checked.exists():

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import matplotlib as mpl
 import matplotlib.style
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 from matplotlib.tri import Triangulation
 
 from postprocess.results import ResultsError, Run, is_number
 
-COLUMN = 88 / 25.4  # inches: one column of a journal page
+COLUMN = 85 / 25.4  # inches: one column of a journal page
 PAGE = 180 / 25.4  # inches: two columns
 DPI = 300
 
@@ -181,6 +182,21 @@ def labels(runs: list[Run]) -> list[str]:
         f"{text} ({plain(run.path.name)})" if joined.count(text) > 1 else text
         for text, run in zip(joined, runs, strict=True)
     ]
+
+
+def elements(runs: list[Run]) -> str:
+    """Element and size of the runs' meshes, as far as they have them in common: "P2, h = 0.25" with h as mathtext."""
+    orders = {run.summary["order"] for run in runs}
+    sizes = {run.summary["h"] for run in runs}
+    texts = [f"P{int(*orders)}"] if len(orders) == 1 else []
+    if len(sizes) == 1 and all(map(is_number, sizes)):
+        texts.append(f"$h = {number(*sizes)}$")
+    return ", ".join(texts)
+
+
+def name_elements(figure: Figure, runs: list[Run]) -> None:
+    """Below the figure, at its right, element and size of the meshes."""
+    figure.supxlabel(elements(runs), x=0.995, ha="right", fontsize=8, color=GREY)
 
 
 def sequence(amount: int) -> np.ndarray:

@@ -1,6 +1,7 @@
 """A run in words, as numbers of a table, and as the command that makes it again."""
 
 import os
+import re
 import shlex
 from pathlib import Path
 
@@ -9,10 +10,18 @@ from postprocess.results import Run, is_number
 ROOT = Path(__file__).resolve().parent.parent
 
 LABS = "labs/"
+MANUAL = ROOT / "edp" / "MANUAL.md"
 
 HISTORY_COLUMNS = (
     "Newton step,adaptation,residual,in contact,status changes,at the wall,greatest overlap,force,back-substitutions"
 ).split(",")
+
+
+def captions() -> dict[str, str]:
+    """What each figure shows, by its name: the manual's tables of figures. Without the manual none."""
+    text = MANUAL.read_text(encoding="utf-8") if MANUAL.exists() else ""
+    found = re.findall(r"^\| `([\w-]+)` \| (.+) \| `make [\w/. -]+` \|$", text, re.M)
+    return {name: content.replace("`", "") + "." for name, content in found}
 
 
 def run_words(run: Run) -> str:

@@ -1,9 +1,12 @@
-"""The session's store of runs, shared by pytest-xdist's workers."""
+"""The session's store of runs, shared by pytest-xdist's workers; the texts of figures that tests write are measured."""
 
 import os
 
 import freefem
 import pytest
+from text_boxes import faults
+
+from postprocess import output
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -12,3 +15,15 @@ def run_store(tmp_path_factory):
     if "PYTEST_XDIST_WORKER" in os.environ:  # a worker's folder lies in the session's
         base = base.parent
     freefem.STORE = base / "runs"
+
+
+@pytest.fixture(autouse=True)
+def legible_figures(monkeypatch):
+    """No figure shall be written with a text on another one or beyond its edge."""
+    save = output.save_figure
+
+    def measured(figure, kind, metadata):
+        assert kind != "png" or faults(figure) == []
+        return save(figure, kind, metadata)
+
+    monkeypatch.setattr(output, "save_figure", measured)

@@ -532,7 +532,7 @@ def quick(tmp_path_factory):
 
 def test_the_quick_campaign_has_no_failure(quick):
     """The default method shall solve every case of the quick stability campaign."""
-    assert 30 <= len(quick) <= 45
+    assert 25 <= len(quick) <= 35
     assert [(row["flags"], row["status"], row["message"]) for row in quick if row["status"] != "converged"] == []
     assert all(value(row, "residual") <= 1e-8 for row in quick)
 
@@ -540,7 +540,7 @@ def test_the_quick_campaign_has_no_failure(quick):
 def test_the_quick_campaign_keeps_the_counts(quick):
     """On the paper's geometry it shall take at most 4 linearisations, 20 back-substitutions and 2 adaptations."""
     grid = campaign.select(quick, name="grid")
-    assert len(grid) >= 18
+    assert len(grid) >= 9
     for name, most in (("newton", 4), ("backsolves", 20), ("adaptations", 2), ("factorisations", 1)):
         assert [row["flags"] for row in grid if value(row, name) > most] == [], name
     for row in quick:

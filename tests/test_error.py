@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 import reference
 from freefem import ROOT, run_in, script
+from test_examples import example
+
+from postprocess import closed_forms as forms
 
 HARD = (float("inf"), 1.0)
 
@@ -51,6 +54,16 @@ def test_in_space(solved, order, h):
     for name in ("force", "pressureMax"):
         assert abs(run.summary[name] - known[name]) <= run.estimates[name]["error"], name
     assert run.estimates["force"]["error"] <= 15 * abs(run.force - known["force"])
+    # a quadratic function follows P2's pressures; their neighbours' mean would be 6 % away
+    assert order == 1 or run.estimates["pressureMax"]["error"] <= 0.035 * run.pressureMax
+
+
+def test_between_two_bodies_in_space(solved):
+    """Between two balls the gap and both traces shall be taken where they are: lines between points say much more."""
+    run = solved("two-spheres", "-h", 0.4)
+    fine = 0.29066
+    assert abs(run.approach - fine) <= run.estimates["approach"]["error"] <= 15 * abs(run.approach - fine)
+    assert run.estimates["parts"]["line"] < 0.03 * run.force
 
 
 def test_printed(solved):
@@ -136,6 +149,63 @@ def test_accuracy_is_deterministic(solved):
     assert first.force == second.force and first.ndof == second.ndof
 
 
+COARSE_SPHERE = ("sphere-on-block", "-h", 3, "-layers", 2)
+
+
+def test_accuracy_in_space(solved):
+    """In space gmsh's new mesh shall keep the true error below what is asked; each mesh is told."""
+    run = solved(*COARSE_SPHERE, "-accuracy", 1e-2)
+    known = reference.values()["sphere-on-block", 1e3, 3]["force"]
+    assert abs(run.force / known - 1) <= run.accuracy["reached"] <= 1e-2
+    unknowns, said, seconds = np.array(run.accuracy["rounds"]).T
+    assert len(said) == run.accuracy["meshes"] > 1 and run.ndof == unknowns[-1]
+    assert said[0] > 1e-2 >= said[-1] == run.accuracy["reached"] and all(np.diff(seconds) > 0)
+    assert not [path.name for path in (run.folder / ".run").glob(".*") if path.suffix in (".pos", ".msh")]
+
+
+def test_limit_in_space(solved):
+    """What needs too many unknowns shall be said, with code 21 and the best mesh's files."""
+    run = solved(*COARSE_SPHERE, "-accuracy", 1e-3, "-unknowns", 6000, expect=21)
+    assert "unknowns" in run.accuracy["why"] and run.ndof < 6000 and run.accuracy["reached"] < 0.03
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("scene", ["sphere-on-block", "sphere-on-plane", "two-spheres"])
+def test_space_is_deterministic(solved, scene):
+    """Two runs in space shall make the same meshes."""
+    first, second = (solved(scene, "-accuracy", 6e-3) for _ in range(2))
+    assert first.accuracy["meshes"] > 1 and first.ndof == second.ndof
+    assert first.force == second.force and first.approach == second.approach
+
+
+def crossed_cylinders(folder, *flags, size=0.3, expect=0):
+    """The example with elements of another size in the contact."""
+    example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders"
+    geo = folder / "own.geo"
+    geo.write_text(example.with_suffix(".geo").read_text().replace("size = {0.08", f"size = {{{size}"))
+    parts = "-mesh", geo, "-case", example.with_suffix(".case"), "-vtu", 0
+    return run_in(ROOT, "edp/parts-3d.edp", *parts, *flags, out=folder / "run", expect=expect)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size, asked", [(0.3, 1e-2), (0.16, 1e-2), (0.16, 3e-3)])
+def test_accuracy_of_parts_in_space(tmp_path, size, asked):
+    """A user's own .geo file shall be meshed again until the way that the force goes is as near as asked."""
+    run = crossed_cylinders(tmp_path, "-accuracy", asked, size=size)
+    way = run.estimates["loads"][0]["way"]
+    fine = 0.018438  # 74 613 unknowns, second order, fine everywhere: +- 0.2 %, two such meshes 0.04 % apart
+    assert run.accuracy["met"] and run.accuracy["meshes"] > 1
+    assert abs(way["value"] / fine - 1) <= asked and way["error"] <= asked * way["value"]
+
+
+def test_accuracy_needs_a_geometry(tmp_path):
+    """A mesh file in space cannot be meshed anew: said in one line."""
+    (tmp_path / "a.msh").write_text("")
+    flags = "-mesh", tmp_path / "a.msh", "-case", "none.case", "-accuracy", 1e-2
+    run = run_in(ROOT, "edp/parts-3d.edp", *flags, out=tmp_path / "run", expect=10)
+    assert "-accuracy 0.01: new meshes need the geometry" in run.stdout and not (tmp_path / "run").exists()
+
+
 def test_accuracy_on_curves(solved):
     """New meshes of two cylinders shall stay on the circles."""
     run = solved("two-cylinders", "-accuracy", 1e-4)
@@ -164,6 +234,54 @@ def test_goals_refused(solved, scene, flags):
     """What is prescribed cannot be asked for."""
     run = solved(scene, "-accuracy", 1e-3, *flags, expect=10)
     assert "-goal" in run.stdout and "allowed" in run.stdout
+
+
+# ---------------------------------------------------------------- a user's own parts
+
+PERSSON = forms.pin_angle(forms.plane_modulus(210e3, 0.3) * 0.01 / 1000)  # of the example's pin in its hole
+PIN_MOVED = 0.0238430  # P4, 117 000 unknowns: -mesh with size 0.5
+
+
+def parts_of(case):
+    """The estimates of a case's only contact and load, and whether they hold for the pin."""
+    told = case.summary["estimates"]
+    contact, way = told["contacts"][0], told["loads"][0]["way"]
+    assert abs(contact["pressureMax"]["value"] - forms.pin_pressure(0, PERSSON) * 1000 / 10.01) <= (
+        contact["pressureMax"]["error"] + 0.05  # the plate is no infinite one
+    )
+    assert abs(contact["contactLength"]["value"] - 2 * 10.01 * PERSSON) <= contact["contactLength"]["error"]
+    assert abs(way["value"] - PIN_MOVED) <= way["error"]
+    return contact, way
+
+
+def test_own_parts(tmp_path):
+    """A floating pin: its force is told by the balance; pressure, length and the way of its load are known by an error."""
+    case = example("pin-in-hole", tmp_path, size=1.5)
+    contact, way = parts_of(case)
+    assert contact["force"]["error"] <= 1e-8 and way["error"] <= 0.01 * way["value"]
+    assert "weight core has gone" in case.stdout and "±" in case.stdout
+
+
+def test_accuracy_of_own_parts(tmp_path):
+    """New meshes of a user's parts shall keep their curves, and their errors what was asked for."""
+    case = example("pin-in-hole", tmp_path, "", "-order", 2, "-accuracy", 2e-2, "-goal", "pressure", size=2)
+    accuracy = case.summary["accuracy"]
+    assert accuracy["met"] and accuracy["meshes"] > 1
+    parts_of(case)
+    radius = np.hypot(case.contact["x"], case.contact["y"])[::4]
+    assert np.abs(radius - 10.01).max() < 1e-5
+
+
+def test_several_contacts(tmp_path):
+    """The roller's two contacts shall be known alike, and the way of what pushes it."""
+    told = example("roller", tmp_path, size=0.12).summary["estimates"]
+    above, below = told["contacts"]
+    a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(*[forms.plane_modulus(210e3, 0.3)] * 2))
+    for contact in (above, below):
+        assert contact["force"]["error"] <= 1e-7
+        assert abs(contact["contactLength"]["value"] - 2 * a) <= contact["contactLength"]["error"]
+        assert abs(contact["pressureMax"]["value"] - greatest) <= contact["pressureMax"]["error"] + 2e-3 * greatest
+    assert told["loads"][0]["name"] == "force grip" and 0 < told["loads"][0]["way"]["error"] < 0.01
 
 
 def test_coverage_is_judged():

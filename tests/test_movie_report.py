@@ -11,6 +11,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import browser
@@ -18,15 +19,17 @@ import freefem
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, run, run_in, script, tree
+from test_scene_figures import WAVY
+from text_boxes import faults
 
 from postprocess import doctor, output, player, style
 from postprocess.__main__ import main
 from postprocess.commands.compare import table
-from postprocess.frames import Movie, title
+from postprocess.frames import Movie, line_words, off_law, title
 from postprocess.laws import law_of, overlap_at
 from postprocess.references import PAPER, checks
 from postprocess.results import Run, read_run
-from postprocess.words import command
+from postprocess.words import captions, command
 
 
 @pytest.fixture(scope="module")
@@ -104,6 +107,8 @@ def broken(brief, tmp_path):
 def rewritten(change):
     return lambda path: path.write_bytes(change(path.read_bytes()))
 
+
+PUNCH = ["-a", 1, "-force", 20, "-order", 2, "-h", 0.05, "-grading", 160, "-law", "signorini"]
 
 SPOILT = {
     "nan": rewritten(lambda data: data.rstrip(b"\n").rpartition(b",")[0] + b",nan\n"),
@@ -190,6 +195,25 @@ class TestFrames:
         assert movie.below.get_aspect() == 1
         assert title(found, 3) == "adaptation 1, Newton step 3 of 12, residual $0.1407$"
         assert title(found, 0) == "before the first of 12 Newton steps"
+        assert faults(movie.figure) == []
+        lines = [line_words(found, index) for index in range(movie.count)]
+        assert [index for index, words in enumerate(lines) if "back to line 1" in words] == [6, 10]
+        assert "line 4 is next" in lines[0] and "the end" in lines[-1]
+        assert all("back to line 4" in lines[index] for index in (1, 2, 3, 4, 5, 7, 8, 9, 11))
+
+    def test_points_off_the_law_are_told(self, paper):
+        """At the end every point shall be on the law or its wall; on the way those that are not shall be hollow."""
+        with style.look():
+            movie = Movie(read_run(paper), style.Units())
+            movie.draw(4)
+        assert not off_law(movie.steps, movie.plane, movie.count - 1)[0].any()
+        off, expected = off_law(movie.steps, movie.plane, 4)
+        assert 0 < off.sum() < len(off)
+        assert np.allclose(expected[off], 1e3 * np.maximum(movie.steps.s[4][off], 0) ** 3)
+        stems = movie.left.collections[1].get_segments()
+        assert 0 < len(stems) <= off.sum()
+        hollow = [line for line in movie.left.lines[1:] if line.get_markerfacecolor() == "white"]
+        assert sum(len(line.get_xdata()) for line in hollow if line.get_color() == style.BLUE) > 0
 
     def test_far_points_are_told(self, paper):
         """A point beyond the picture shall be an arrow at its edge, not left out."""
@@ -198,7 +222,7 @@ class TestFrames:
             movie.draw(0)
         steps = movie.steps
         shown = sum(len(line.get_xdata()) for line in movie.left.lines[1:])
-        arrows = sum(len(each.get_offsets()) for each in movie.left.collections[1:])
+        arrows = sum(len(each.get_offsets()) for each in movie.left.collections[2:])  # behind walls and stems
         assert arrows == np.sum(steps.s[0] > movie.plane.right) > 0
         assert shown + arrows == np.sum(steps.s[0] >= movie.plane.left)
 
@@ -400,18 +424,22 @@ def check_page(page):
 
 class TestReport:
     def test_the_page(self, results, film):
-        """One page, complete in itself: runs, references, iterations, figures, movie, campaign, machine, commands."""
+        """One page, complete in itself: figures, movie, references, runs by scene, campaign, machine, commands."""
         page = (results / "report" / "index.html").read_text()
         seen = check_page(page).seen
-        assert [each["id"] for each in seen["section"]] == (
-            "runs references figures movies bench details machine".split()
-        )
-        assert len(seen["img"]) == 2 and len(seen["details"]) == 5  # two runs, each twice; the failed runs
+        assert [each["id"] for each in seen["section"]] == ("figures movies references runs bench machine".split())
+        assert len(seen["img"]) == 2 and len(seen["details"]) == 6  # a scene, two runs, each twice; the failed runs
         assert len(seen["script"]) == 2  # matplotlib's player and nothing else
         assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
         for words in ("150.02947", "22.559747", "4.927623", "make results/figures/figure1.pdf", "make bench"):
             assert words in page
-        assert "FreeFem++ -nw -v 0 edp/main.edp -method paper -order 1 -h 0.5 -states 1 -vtu 0 -out" in page
+        made = re.search(r"FreeFem\+\+ -nw -v 0 edp/main.edp (.*-method paper.*) -out", page)[1].split()
+        flags = {"-method": "paper", "-order": "1", "-h": "0.5", "-estimate": "0", "-states": "1", "-vtu": "0"}
+        assert dict(zip(made[::2], made[1::2], strict=True)) == flags
+        caption = captions()["figure1"]
+        assert seen["img"][0]["alt"] == caption and f"<strong>figure1</strong>: {html.escape(caption)}" in page
+        names = [name for name in re.findall(r'<th scope="col"[^>]*>([^<]*)</th>', page) if name in ("force", "dofs")]
+        assert names[:2] == ["force", "dofs"]
         assert "T⁰ = d0" in page and "-T0 &lt;d0&gt;" in page  # the campaign's failed run, escaped
         text = re.sub(r"<[^>]*>", " ", page)
         for residual in read_run(film).history["residual"]:
@@ -450,6 +478,26 @@ class TestReport:
         assert [each.name for each in found] == ["force", "greatest pressure"]
         assert all(each.passed for each in found)
 
+    @pytest.mark.parametrize(
+        "scene, flags, source, names",
+        [
+            ("hertz-line", [], "Hertz", ["half-width", "greatest pressure"]),
+            ("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"]),
+            ("flat-punch", PUNCH, "flat punch", ["pressure in the middle"]),
+            ("wavy", [*WAVY, "-force", 31.41592654], "Westergaard", ["greatest pressure"]),
+        ],
+    )
+    def test_closed_forms_are_compared(self, scene, flags, source, names):
+        """Hard contact under a force shall be compared with its closed form, and fail a tenth off it."""
+        found = read_run(run(scene, *flags).folder)
+        several = checks(found)
+        assert [(each.name, each.source, each.passed) for each in several] == [(name, source, True) for name in names]
+        for each in several:
+            assert not replace(each, value=1.1 * each.value).passed
+            assert not replace(each, value=0.9 * each.value).passed
+        assert checks(loaded(found.path, parameters={"law": "power"})) == []
+        assert checks(loaded(found.path, parameters={"force": 0})) == []
+
     def test_nothing_to_report(self, tmp_path, capsys):
         assert "holds no run and no figure" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path)
         assert "no such folder" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path / "nowhere")
@@ -474,6 +522,8 @@ class TestInABrowser:
             assert page.evaluate("document.querySelector('.anim-slider').value") == "0"
             page.resize(390, 844)
             assert page.evaluate("document.documentElement.scrollWidth") <= 390
+            told = "e => getComputedStyle(e.querySelector('caption'), '::after').content.includes('scroll')"
+            assert page.evaluate(f"[...document.querySelectorAll('.sideways')].every({told})")
             assert page.evaluate("parseFloat(getComputedStyle(document.body).fontSize)") >= 16
             page.call("Emulation.setEmulatedMedia", media="print")
             assert page.evaluate("getComputedStyle(document.querySelector('nav')).display") == "none"
@@ -505,7 +555,7 @@ def test_the_command_makes_the_run_again(tmp_path, scene, flags):
     found = read_run(run(scene, *flags).folder)
     words = shlex.split(command(found))
     assert words[:4] == FREEFEM and words[4] == script(scene) and words[-2] == "-out"
-    assert set(words[5:-2:2]) - {"-vtu"} == {*flags[::2], "-order"}
+    assert set(words[5:-2:2]) - {"-vtu"} == {*flags[::2], "-order", "-estimate"}
     again = run_in(ROOT, words[4], *words[5:-2], out=tmp_path / "again").summary
     for name in ("force", "newton", "backsolves", "energy", "ndof"):
         assert again[name] == found.summary[name], name

@@ -287,6 +287,9 @@ BODIES = """
 include "case/case-file.idp"
 include "bodies/parts.idp"
 include "bodies/spaces.idp"
+IFMACRO(!threeDimensional)
+include "bodies/curved.idp"
+ENDIFMACRO
 {
     macro ofElement() include "bodies/stiffness.idp" //
     include "bodies/elements.idp"
@@ -584,6 +587,14 @@ def test_nothing_presses(tmp_path, case, gap, flags):
     run = solve(tmp_path, two_blocks_of(3, 9), f"{STACK}clamp bottom\n{case}\n", *flags)
     assert run.force == 0 and f"nothing presses on anything: the least gap left is {gap}" in run.stdout
     assert run.summary["outOfBalance"] < 1e-6
+
+
+def test_large_rotation(tmp_path):
+    """A body that turns by so much that linearised rotations show: said."""
+    case = STEEL + "rotate bottom 1.5 0 {}\nobstacle top plane 0 9 0 -1\n"
+    run = solve(tmp_path, block(Mesh()).text(), case.format(0.2))
+    assert "warning: block: turned by 0.2, and rotations are linearised" in run.stdout
+    assert "linearised" not in solve(tmp_path, block(Mesh()).text(), case.format(0.05)).stdout
 
 
 def test_slides(tmp_path):

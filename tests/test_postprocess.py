@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from text_boxes import faults
 
 from postprocess import figures, output, results, style
 from postprocess.__main__ import main
@@ -453,9 +454,13 @@ class TestRefusals:
 FIGURES = {
     "figure1": [["meshed"], ["rigid"]],
     "figure2": [["rigid", "incremental"]],
-    "convergence": [["meshed"], ["rigid", "d0", "newton", "incremental"]],
-    "thresholds": [["rigid"], ["d0"], ["newton"]],
+    "convergence": [["rigid", "d0", "newton", "incremental"]],
+    "thresholds": [["rigid", "d0", "newton"]],
 }
+
+
+def entries(legend):
+    return legend.get_texts(), legend.get_lines()
 
 
 def draw(name, *folders):
@@ -483,6 +488,7 @@ class TestFigures:
         expected = style.PAGE if name == "figure1" else style.COLUMN
         assert width == pytest.approx(expected * style.DPI, abs=1) and 0.4 < height / width < 1.5
 
+    @pytest.mark.long
     @pytest.mark.parametrize("name", ["figure1", "thresholds"])
     def test_the_same_bytes_again(self, runs, tmp_path, name):
         for folder in ("one", "two"):
@@ -511,7 +517,12 @@ class TestFigures:
             f"(d) converged\nadaptation 2, Newton step {first + second}",
         ]
         assert [each.get_title() for each in axes[4:6]] == ["gap 0.5", "greatest overlap 2"]
-        assert all(each.get_aspect() == 1 for each in axes)
+        assert all(each.get_aspect() == 1 for each in axes[:8])
+        table = read_run(runs["meshed"]).adaptations
+        for panel, model in ((axes[10], table[0]), (axes[11], table[-1])):
+            overlap, threshold = (line.get_ydata() for line in panel.lines[:2])
+            assert np.array_equal(overlap, model["overlap"]) and np.array_equal(threshold, model["threshold"])
+        assert axes[8].lines[0].get_ydata().max() == -0.5 and axes[9].lines[0].get_ydata().max() == 2
 
     def test_figure1_without_a_state_of_the_motion_alone(self, runs):
         axes = draw("figure1", runs["rigid"]).axes
@@ -536,7 +547,7 @@ class TestFigures:
 
     def test_figure1_of_a_run_without_contact(self, runs):
         axes = draw("figure1", runs["apart"]).axes
-        assert axes[-1].get_title() == "gap 0.3"
+        assert "gap 0.3" in [each.get_title() for each in axes]
 
     def test_figure2_subtracts_on_the_same_points(self, runs):
         below = draw("figure2", runs["rigid"], runs["incremental"]).axes[1]
@@ -586,18 +597,37 @@ class TestFigures:
     def test_convergence_marks_models_and_tolerance(self, runs):
         figure = draw("convergence", runs["rigid"])
         assert [text.get_text() for text in figure.axes[0].texts] == ["$T^{0}$", "$T^{1}$"]
-        texts = [text.get_text() for text in figure.legends[0].get_texts()]
+        texts = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
         steps = read_run(runs["rigid"]).summary["newton"]
         assert texts == [f"paper's scheme, $T^0 = 0$: 2 adaptations, {steps} steps", "tolerance $10^{-8}$"]
 
     def test_convergence_tells_what_did_not_converge(self, broken):
         folder = broken()
         edit_summary(folder, converged=False)
-        assert "not converged" in draw("convergence", folder).legends[0].get_texts()[0].get_text()
+        (axes,) = draw("convergence", folder).axes
+        assert "not converged" in axes.get_legend().get_texts()[0].get_text()
 
     def test_thresholds_of_a_method_without_wall(self, runs):
-        figure = draw("thresholds", runs["newton"])
-        assert len(figure.axes) == 1 and "no wall" in figure.get_suptitle()
+        (axes,) = draw("thresholds", runs["newton"]).axes
+        assert "no wall" in axes.get_title()
+
+    def test_thresholds_of_two_runs_side_by_side(self, runs):
+        figure = draw("thresholds", runs["rigid"], runs["d0"])
+        models = [read_run(runs[name]).adaptations for name in ("rigid", "d0")]
+        panels = np.array(figure.axes).reshape(-1, 2).T
+        for column, tables in zip(panels, models, strict=True):
+            for axes, table in zip(column, tables, strict=False):
+                drawn = {line.get_label(): line for line in axes.lines}
+                assert np.array_equal(drawn["threshold $T^N$"].get_ydata(), table["tau"])
+                assert np.array_equal(drawn["overlap $d^N$"].get_ydata(), table["s"])
+        colours = {text.get_text(): line.get_color() for text, line in zip(*entries(figure.legends[0]), strict=True)}
+        assert colours["threshold $T^N$"] == drawn["threshold $T^N$"].get_color() != colours["overlap $d^N$"]
+
+    def test_texts_on_each_other_are_found(self, runs):
+        figure = draw("thresholds", runs["rigid"])
+        assert faults(figure) == []
+        figure.axes[0].annotate("here", (0.5, 1.02), xycoords="axes fraction", ha="center")
+        assert [fault for fault in faults(figure) if "'here'" in fault]
 
     def test_thresholds_far_from_the_overlap_are_logarithmic(self, broken):
         folder = broken()
@@ -693,7 +723,7 @@ class TestCommandLine:
 
     @pytest.mark.parametrize(
         ("name", "folders", "words"),
-        [("figure2", 1, "takes 2 run folder(s), 1 given"), ("thresholds", 2, "takes 1 run folder(s), 2 given")],
+        [("figure2", 1, "takes 2 run folder(s), 1 given"), ("thresholds", 4, "run folder(s), 4 given")],
     )
     def test_wrong_number_of_runs(self, runs, tmp_path, capsys, name, folders, words):
         assert main(["figure", name, "--out", str(tmp_path / "f.pdf"), *[str(runs["rigid"])] * folders]) == 2

@@ -413,7 +413,13 @@ def value(done, quantity):
     return done.summary[name]
 
 
-@pytest.mark.parametrize("scene, command, expected", EXPERIMENTS, ids=[command for _, command, _ in EXPERIMENTS])
+SLOW = ("adhesive-sphere", "adhesive-sphere-3d", "adhesive-cylinder", "two-spheres", "sphere-on-plane", "flat-punch")
+
+
+@pytest.mark.parametrize(
+    "scene, command, expected",
+    [pytest.param(*each, id=each[1], marks=[pytest.mark.long] if each[0] in SLOW else []) for each in EXPERIMENTS],
+)
 def test_numbers(scene, command, expected, tmp_path):
     """The command shall give the table's numbers, and its references be those computed here from the flags alone."""
     done = result(command, tmp_path / "out")

@@ -236,14 +236,15 @@ EXTREMES = [
 )
 def test_extremes(scene, flags):
     """Runs far from the paper's case shall converge, keep every invariant and agree between the methods."""
+    place = EXTREMES.index(flags)
     if scene == TWO_BODIES and flags[:2] == ["-gap", -1]:
         flags = ["-gap", 1e-6]  # meshed bodies do not overlap at rest
     newton = run(scene, "-method", "newton", "-h", 1, *flags)
     assert newton.force > 0
     assert newton.contactPoints >= 1
-    for threshold in ("0", "d0"):
-        paper = run(scene, "-method", "paper", "-T0", threshold, "-h", 1, *flags)
-        assert paper.force == pytest.approx(newton.force, rel=1e-4)
+    threshold = "0" if place % 2 else "d0"
+    paper = run(scene, "-method", "paper", "-T0", threshold, "-h", 1, *flags)
+    assert paper.force == pytest.approx(newton.force, rel=1e-4)
 
 
 # ---------------------------------------------------------------- ParaView and the states

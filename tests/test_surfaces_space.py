@@ -88,7 +88,7 @@ def plane(group, point, normal, move=None):
     return text + (f" move {vector(move)}\n" if move is not None else "\n")
 
 
-@pytest.mark.parametrize("distance", ["linear", "exact"])
+@pytest.mark.parametrize("distance", ["linear", pytest.param("exact", marks=pytest.mark.long)])
 def test_turned_ball(tmp_path, distance):
     """A ball that only three pairs of planes hold, turned: the same counts, but for one product, results to 1e-9."""
 
@@ -257,6 +257,7 @@ def test_distance_there_and_back():
     assert run("two-spheres", *flags, "-force", pushed.force).approach == pytest.approx(0.5, rel=1e-9)
 
 
+@pytest.mark.long
 def test_distance_about_an_axis():
     """A rigid sphere on a block in space and on a cylinder of the same area: one force to 1 %."""
     flags = ["-distance", "exact", "-law", "signorini", "-depth", 40]

@@ -109,7 +109,7 @@ def comma(tmp_path_factory):
     return env
 
 
-@pytest.mark.parametrize("name", ["LANG", "LC_ALL"])
+@pytest.mark.parametrize("name", ["LC_ALL", pytest.param("LANG", marks=pytest.mark.long)])
 def test_comma_locale(mesh, comma, tmp_path, name):
     """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
     env = {**comma, name: "de_DE.UTF-8"}
@@ -526,3 +526,48 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
     assert rows["depth"][-1] <= depth * (1 + 1e-6)
     if scene == "disc-on-block":
         assert rows["depth"][-1] == pytest.approx(depth, rel=1e-6)
+
+
+# ---------------------------------------------------------------- a bare system
+
+
+def tracked(folder):
+    """The package's files in a folder, as `git clone` and Docker's COPY give them."""
+    names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=True).stdout
+    for name in names.split("\0")[:-1]:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, folder / name)
+
+
+@pytest.mark.long
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
+def test_dockerfile(tmp_path):
+    """The Dockerfile's commands shall set the package up in a bare Debian, where `make run` solves the paper's test."""
+    lines = (ROOT / "Dockerfile").read_text().splitlines()
+    words = {line.split()[0] for line in lines if not line.startswith("#")}
+    assert lines[1] == "FROM debian:12" and words == {"FROM", "RUN", "COPY", "WORKDIR", "CMD"}
+    system = tmp_path / "debian"
+    command = ["debootstrap", "--variant=minbase", "bookworm", system, "http://deb.debian.org/debian"]
+    if subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0:
+        pytest.skip("Debian's packages cannot be reached")
+    shutil.copy("/etc/resolv.conf", system / "etc/resolv.conf")
+    subprocess.run(["mount", "-t", "proc", "proc", system / "proc"], check=True)
+    try:
+        bare = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
+        folder = ""
+        for line in [*lines, "RUN make run"]:
+            word, _, rest = line.partition(" ")
+            folder = rest if word == "WORKDIR" else folder
+            if word == "COPY":
+                tracked(system / rest.split()[1].strip("/"))
+            elif word == "RUN":
+                done = subprocess.run(
+                    ["chroot", system, "sh", "-c", f"cd /{folder} && {rest}"], env=bare, capture_output=True, text=True
+                )
+                assert done.returncode == 0, f"{line}\n{done.stdout[-2000:]}{done.stderr[-2000:]}"
+                certificates = system / "etc/ssl/certs/ca-certificates.crt"
+                if certificates.exists():  # those of this machine's own network
+                    shutil.copy("/etc/ssl/certs/ca-certificates.crt", certificates)
+        assert (system / "contact/results/disc-on-block/xnewton/summary.json").exists()
+    finally:
+        subprocess.run(["umount", system / "proc"], check=True)

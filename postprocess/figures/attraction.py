@@ -51,13 +51,14 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     axes.set_xlabel(r"approach $\delta/\varepsilon$" if spheres else f"approach [{units.length}]")
     axes.set_ylabel(r"force $F/(\pi w R)$" if spheres else f"force [{units.stress} × {units.length}]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.name_elements(figure, runs)
     return figure
 
 
 def draw_path(axes, rows: dict, colour: str, name: str) -> None:
     """One run: pieces of equal stability, cut at jumps, which are arrows."""
     approach, force = rows["approach"], rows["force"]
-    stable, jumped = rows["stability"] > 0, rows["jump"] > 0
+    stable, jumped = rows["stability"] >= 0, rows["jump"] > 0  # 0 at a fold, where a stable branch ends
     cuts = [0, *np.nonzero(jumped | np.append(False, stable[1:] != stable[:-1]))[0], len(force)]
     for begin, end in pairwise(cuts):
         if begin == end:
@@ -80,13 +81,17 @@ def draw_path(axes, rows: dict, colour: str, name: str) -> None:
 
 
 def smooth(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The cubic between neighbours, where it stays near their chord: not at a fold, where slopes are infinite."""
+    """The cubic between neighbours where it is near their chord; up to a fold, of infinite slope, a root and a line."""
     t = np.linspace(0, 1, 21)[:, None]
     step = np.diff(x)
     rise, left, right = np.diff(y), slope[:-1] * step, slope[1:] * step
     bend = t * (1 - t) * ((1 - t) * (left - rise) - t * (right - rise))
     bend = np.where(np.abs(bend).max(axis=0) < 0.3 * np.ptp(y), bend, 0) if len(y) > 1 else bend
-    return (x[:-1] + t * step).T.ravel(), (y[:-1] + t * rise + bend).T.ravel()
+    curve = y[:-1] + t * rise + bend
+    for part in np.nonzero(slope[1:] > 1e200)[0]:
+        root = -2 * (rise[part] - left[part])
+        curve[:, part] = y[part + 1] + root * np.sqrt(1 - t[:, 0]) - (rise[part] + root) * (1 - t[:, 0])
+    return (x[:-1] + t * step).T.ravel(), curve.T.ravel()
 
 
 def draw_theories(axes, run: Run) -> None:

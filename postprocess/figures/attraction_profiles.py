@@ -45,4 +45,5 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     down, up = panels[0].get_ylim()
     panels[0].set_ylim(down, up + 0.3 * (up - down))
     panels[0].set_ylabel(f"pressure [{units.stress}]")
+    style.name_elements(figure, runs)
     return figure

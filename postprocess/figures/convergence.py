@@ -2,21 +2,19 @@
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
 from postprocess.results import ResultsError, Run, is_number
 
 RUNS = (1, None)
 
-LONGER = 8  # a run this many times longer than another asks for a logarithmic axis of steps
-
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
     """One curve per run, interrupted where the next model or load step begins; the last step before is a full marker.
 
-    A residual of exactly zero has no place on a logarithmic axis: it is drawn at the lower edge, pointing down.
-    Runs of very different length share a logarithmic axis of steps.
+    A residual of exactly zero has no place on a logarithmic axis: it is drawn at the lower edge, pointing down. The
+    legend stands within the axes, above the curves.
     """
     for run in runs:
         if len(run.history["newton"]) == 0:
@@ -25,30 +23,31 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     positive = positive[positive > 0]
     floor = 10 ** np.floor(np.log10(positive.min()) - 0.5) if len(positive) else 1e-16
 
-    figure = Figure(figsize=(style.COLUMN, 0.78 * style.COLUMN + 0.13 * len(runs)), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, 0.8 * style.COLUMN + 0.16 * len(runs)), layout="constrained")
     axes = figure.subplots()
     axes.set_yscale("log")
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
         draw_curve(axes, run, index, f"{label}: {style.price(run, 'step')}", floor)
     draw_tolerances(axes, runs)
-    if any((run.history["residual"] == 0).any() for run in runs):
-        axes.plot([], [], "v", color=style.GREY, markersize=6, label="exactly zero")
     if len(runs) == 1:
         mark_adaptations(axes, runs[0])
     axes.set_xlabel("cumulative Newton step")
     axes.set_ylabel("relative residual")
-    lengths = [run.history["newton"][-1] for run in runs]
-    if max(lengths) > LONGER * min(lengths):
-        axes.set_xscale("log")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:.0f}"))
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xlim(0.9, 1.15 * max(lengths))
-    else:
-        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-        axes.set_xlim(0, max(lengths) + 0.5)
-    figure.legend(loc="outside upper left", borderaxespad=0.2, labelspacing=0.3)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.set_xlim(0, max(run.history["newton"][-1] for run in runs) + 0.5)
+    place_legend(axes)
+    style.name_elements(figure, runs)
     return figure
+
+
+def place_legend(axes) -> None:
+    """The legend at the top within the axes, whose upper end is raised until no curve is behind it."""
+    legend = axes.legend(loc="upper right", labelspacing=0.3, borderaxespad=0.1)
+    axes.figure.draw_without_rendering()
+    bottom, top = np.log10(axes.dataLim.y0) - 0.5, np.log10(axes.dataLim.y1) + 0.5
+    covered = min(0.8, legend.get_window_extent().height / axes.get_window_extent().height + 0.03)
+    axes.set_ylim(10**bottom, 10 ** (bottom + (top - bottom) / (1 - covered)))
+    axes.set_yticks([tick for tick in axes.get_yticks() if tick <= 10 ** (top + 1e-9)])
 
 
 def draw_curve(axes, run: Run, index: int, label: str, floor: float) -> None:
@@ -70,6 +69,10 @@ def draw_curve(axes, run: Run, index: int, label: str, floor: float) -> None:
     exact = history["residual"] == 0
     if exact.any():
         axes.plot(newton[exact], residual[exact], "v", color=look["color"], markersize=6, zorder=5)
+        for place in newton[exact]:
+            axes.annotate(
+                "0", (place, floor), xytext=(6, -2), textcoords="offset points", fontsize=8, color=look["color"]
+            )
 
 
 def draw_tolerances(axes, runs: list[Run]) -> None:

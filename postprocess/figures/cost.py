@@ -45,6 +45,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.grid(color="0.9", linewidth=0.5)
     left.set_ylabel("relative error of the force")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    style.name_elements(figure, runs)
     return figure
 
 

@@ -61,6 +61,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_ylabel(f"pressure $p$ [{units.stress}]")
     right.set_xlabel(f"overlap of the asperities $s = d - d_0$ [{units.length}]")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=5)
+    style.name_elements(figure, runs)
     return figure
 
 

@@ -28,7 +28,7 @@ class Bodies:
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """A column per state: the whole bodies above, the contact zone below, all at true scale and on the same axes.
+    """A column per state: the whole bodies, the contact zone, all at true scale; below, overlap and threshold over x.
 
     Where the bodies overlap, the overlap is filled. A rigid disc without a mesh is drawn as the half disc that it is.
     """
@@ -43,24 +43,51 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         raise ResultsError(run.path / "triangles.csv", "has no triangle of region 1, the block")
     whole, close = windows(run)
 
-    figure = Figure(figsize=(style.PAGE, 0.5 * style.PAGE), layout="compressed")
-    grid = figure.subplots(2, len(chosen), sharex="row", sharey="row", squeeze=False)
+    figure = Figure(figsize=(style.PAGE, 0.64 * style.PAGE), layout="constrained")
+    grid = figure.subplots(3, len(chosen), sharex="row", sharey="row", squeeze=False, height_ratios=[1, 0.85, 0.85])
     for column, (state, words) in enumerate(chosen):
-        for axes, window in zip(grid[:, column], (whole, close), strict=True):
+        for axes, window in zip(grid[:2, column], (whole, close), strict=True):
             draw_state(axes, run, edges, state, line_weight(run, window, len(chosen)))
             axes.set_xlim(window[0], window[1])
             axes.set_ylim(window[2], window[3])
             axes.set_aspect("equal")
-        grid[0, column].set_title(f"{style.panel(column)} {words}", loc="left", linespacing=1.0)
+        grid[0, column].set_title(f"{style.panel(column)} {words}", loc="left", linespacing=1.0, fontsize=8)
         grid[0, column].add_patch(frame(close))
         grid[1, column].set_title(separation(run, state), fontsize=8)
-        grid[1, column].set_xlabel(f"$x$ [{units.length}]")
-    for row in grid:
-        row[0].set_ylabel(f"$y$ [{units.length}]")
+        draw_overlap(grid[2, column], run, state)
+        grid[2, column].set_xlim(close[:2])
+        grid[2, column].set_xlabel(f"$x$ [{units.length}]")
+    for row, label in zip(grid, (f"$y$ [{units.length}]",) * 2 + (f"overlap [{units.length}]",), strict=True):
+        row[0].set_ylabel(label)
         row[0].xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
-        row[0].yaxis.set_major_locator(MaxNLocator(nbins=4, integer=True))
+        row[0].yaxis.set_major_locator(MaxNLocator(nbins=4, integer=row is not grid[2]))
+    models = run.adaptations
+    low, high = run.parameter("d0"), max(table["overlap"].max() for table in models)
+    grid[2, 0].set_ylim(1.4 * low, high + 0.4 * (high - low))
+    grid[2, 1].legend(loc="center", fontsize=8, handlelength=1.5, labelspacing=0.2, bbox_to_anchor=(0.5, 0.42))
+    grid[2, 0].annotate(
+        "$d_0$", (close[0], low), xytext=(3, 2), textcoords="offset points", fontsize=8, color=style.GREY
+    )
     figure.align_ylabels()
+    style.name_elements(figure, runs)
     return figure
+
+
+def draw_overlap(axes, run: Run, state: int) -> None:
+    """The overlap d over x and the model's threshold T; before the first step that of the prescribed motion alone."""
+    newton, history = run.states.newton[state], run.history
+    until = history["newton"] <= max(newton, 1)
+    number = len(np.unique(np.stack([history["step"], history["adaptation"]])[:, until], axis=1).T)
+    table = run.adaptations[number - 1]
+    x, radius = table["x"], run.parameter("R")
+    overlap = table["overlap"]
+    if newton < history["newton"][until][-1] or newton == 0:
+        drop = radius - np.sqrt(np.maximum(radius**2 - x**2, 0))
+        overlap = load_share(run, state) * run.parameter("u0") - run.parameter("gap") - drop
+    axes.plot(x, overlap, color=style.VERMILION, label="$d$, overlap")
+    if np.isfinite(table["threshold"]).all():
+        axes.plot(x, table["threshold"], color=style.BLUE, linestyle=(0, (4, 1.5)), label="$T$, threshold")
+    axes.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6)
 
 
 def choose_states(run: Run) -> list[tuple[int, str]]:

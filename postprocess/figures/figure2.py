@@ -59,6 +59,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     below.set_xlabel(f"$x$ [{units.length}]")
     below.set_xlim(middle - edge, middle + edge)
     figure.align_ylabels()
+    style.name_elements(figure, runs)
     return figure
 
 

@@ -11,7 +11,7 @@ RUNS = (1, 1)
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """Left, p/p0 over x/a; right, the greatest shear stress |s11 - s22|/2 over the depth z/a, both with Hertz's curves.
+    """(a) p/p0 over x/a; (b) the greatest shear stress |s11 - s22|/2 over the depth z/a, both with Hertz's curves.
 
     a and p0 are Hertz's own, from the applied force and the parameters: nothing of the run enters them. Sources:
     Johnson, Contact Mechanics (1985), 4.2 for lines, 3.4 for circles.
@@ -20,35 +20,49 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     round_contact = run.summary["parameters"].get("geometry") == "axisymmetric"
     a, greatest = hertz(run, prescribed_force(run), round_contact)
     axis = read_table(run.path / "axis.csv", ["depth", "s11", "s22", "s12"], "the run needs -axis 1")
-    depth = np.linspace(1e-3, 3, 400)
-    shear, expected = np.abs(axis["s11"] - axis["s22"]) / 2 / greatest, shear_below(depth, run, round_contact)
 
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = Figure(figsize=(style.COLUMN, 1.3 * style.COLUMN), layout="constrained")
+    above, below = figure.subplots(2, 1)
     x, pressure = run.contact["x"] / a, run.contact["pressure"] / greatest
     shown = np.abs(x) <= 1.4
     line = np.linspace(0 if round_contact else -1, 1, 400)
-    left.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz")
+    above.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz, half-space")
     dots = {"linestyle": "none", "marker": "o", "markersize": 3.2, "markerfacecolor": "white", "color": style.VERMILION}
-    left.plot(x[shown], pressure[shown], label=f"{style.method(run)}, {run.summary['contactPoints']} points", **dots)
-    left.set_xlabel("$r/a$" if round_contact else "$x/a$")
-    left.set_ylabel("pressure $p/p_0$")
-    right.plot(expected, depth, color=style.BLACK)
-    below = axis["depth"] / a
-    right.plot(shear, below, color=style.VERMILION, linestyle=(0, (4, 1.5)))
-    peak, theirs = np.argmax(shear), np.argmax(expected)
-    right.annotate(
-        f"{shear[peak]:.3f} at {below[peak]:.2f} $a$\n(Hertz: {expected[theirs]:.3f} at {depth[theirs]:.2f} $a$)",
-        (shear[peak], below[peak]),
-        (0.35 * shear[peak], below[peak] + 0.7),
-        arrowprops={"arrowstyle": "-", "linewidth": 0.6},
-    )
-    right.set_ylim(min(3, below.max()), 0)
-    right.set_xlim(0, None)
-    right.set_xlabel(r"greatest shear stress $\tau/p_0$")
-    right.set_ylabel("depth $z/a$")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    above.plot(x[shown], pressure[shown], label=f"run, {run.summary['contactPoints']} points in contact", **dots)
+    above.set_xlabel("$r/a$" if round_contact else "$x/a$")
+    above.set_ylabel("pressure $p/p_0$")
+    draw_shear(below, run, axis["depth"] / a, np.abs(axis["s11"] - axis["s22"]) / 2 / greatest, round_contact)
+    for index, axes in enumerate((above, below)):
+        axes.set_title(style.panel(index), loc="left")
+    figure.legend(*above.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.name_elements(figure, runs)
     return figure
+
+
+def draw_shear(axes, run: Run, below: np.ndarray, shear: np.ndarray, round_contact: bool) -> None:
+    """The shear stress over the depth, both curves' greatest values marked and told beside them."""
+    depth = np.linspace(1e-3, 3, 400)
+    expected = shear_below(depth, run, round_contact)
+    axes.plot(expected, depth, color=style.BLACK)
+    axes.plot(shear, below, color=style.VERMILION, linestyle=(0, (4, 1.5)))
+    end, greatest = min(3, below.max()), max(shear.max(), expected.max())
+    for place, name, colour, at, values in (
+        (0.1, "Hertz", style.BLACK, depth, expected),
+        (0.55, "run", style.VERMILION, below, shear),
+    ):
+        peak = np.argmax(values)
+        axes.plot(values[peak], at[peak], "o", color=colour, markersize=3, zorder=4)
+        line = {"arrowstyle": "-", "linewidth": 0.6, "color": colour, "shrinkA": 0, "shrinkB": 0, "relpos": (0, 0.5)}
+        text = f"{name}: {values[peak]:.3f} at {at[peak]:.2f} $a$"
+        look = {"fontsize": 8, "color": colour, "va": "center", "arrowprops": line}
+        axes.annotate(text, (values[peak], at[peak]), (1.14 * greatest, place * end), **look)
+    if not round_contact:  # twice the size halves it
+        axes.text(1.14 * greatest, 0.8 * end, "offset: bodies of\nfinite size", fontsize=8, va="center")
+    axes.set_ylim(end, 0)
+    axes.set_xlim(0, 1.85 * greatest)
+    axes.set_xticks(np.arange(0, greatest + 1e-9, 0.1))
+    axes.set_xlabel(r"greatest shear stress $\tau/p_0$")
+    axes.set_ylabel("depth $z/a$")
 
 
 def shear_below(z: np.ndarray, run: Run, round_contact: bool) -> np.ndarray:

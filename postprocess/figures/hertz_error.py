@@ -12,24 +12,27 @@ RUNS = (2, None)
 
 LINES = ("hertz-line", "two-cylinders")  # of the scenes, those whose contact is a line
 CIRCLES = ("disc-on-block", "sphere-on-block", "sphere-on-plane", "two-spheres")
+PLANE = (*LINES, "axisymmetric sphere")  # meshes of triangles, the others of tetrahedra
 FLOOR = 3e-5  # of the first two errors: less than what Hertz leaves out, as a/R and the size of the bodies
-WHAT = ("half-width or radius", "greatest pressure", "pressure, root mean square")
+WHAT = ("half-width or radius", "greatest pressure", "pressure, r.m.s.")
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """Relative errors over h/a: (a) of the second moment, (b) of the greatest value, (c) of all points, weighted.
+    """Relative errors over h/a, a row each: of the second moment, of the greatest value, of all points, weighted.
 
-    The legend has each curve's slope, least squares over what is not below FLOOR, which is shaded; none where the
-    error changes its sign. a and p0 are Hertz's own, from the prescribed force and the parameters: nothing of the runs
-    enters them.
+    Scenes with meshes of triangles at the left, of tetrahedra at the right. The legends have each curve's slopes, least
+    squares over what is not below FLOOR, which is shaded; none where the error changes its sign. a and p0 are Hertz's
+    own, from the prescribed force and the parameters: nothing of the runs enters them.
     """
     groups: dict[tuple, list[Run]] = {}
     for run in runs:
         groups.setdefault((scene(run), run.summary["order"]), []).append(run)
     scenes = list(dict.fromkeys(name for name, _ in groups))
-    figure = Figure(figsize=(style.PAGE, 0.56 * style.PAGE), layout="constrained")
-    panels = figure.subplots(1, 3)
+    sides = [side for side in (True, False) if any((name in PLANE) is side for name in scenes)]
+    figure = Figure(figsize=(style.COLUMN, 1.95 * style.COLUMN), layout="constrained")
+    grid = figure.subplots(len(WHAT), len(sides), sharex="col", sharey="row", squeeze=False)
     for (name, order), group in groups.items():
+        panels = grid[:, sides.index(name in PLANE)]
         sizes, found = errors(group)
         look = style.curve(scenes.index(name)) | {"linewidth": 0.9}
         if order > 1:
@@ -37,23 +40,27 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         text = ", ".join(slope(sizes, each) for each in found)
         for axes, each in zip(panels, found, strict=True):
             axes.plot(sizes, np.abs(each), label=f"{name} P{order}: {text}", **look)
-    for index, (axes, what) in enumerate(zip(panels, WHAT, strict=True)):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("$h/a$")
-        axes.set_xticks([0.05, 0.1, 0.2], labels=["0.05", "0.1", "0.2"])
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_title(f"{style.panel(index)} {what}", loc="left")
-        axes.grid(color="0.9", linewidth=0.5)
-    for axes in panels[:2]:
-        axes.set_ylim(0.3 * FLOOR, None)
-        axes.axhspan(0.3 * FLOOR, FLOOR, color="0.93", linewidth=0, zorder=0)
-    panels[0].set_ylabel("relative error")
-    legend = figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    legend.set_title(
-        "slopes in (a), (b), (c), above what Hertz leaves out (shaded); × where the error changes its sign",
-        prop={"size": 8},
-    )
+    for panels, side in zip(grid.T, sides, strict=True):
+        panels[0].set_title("triangles" if side else "tetrahedra")
+        panels[-1].set_xlabel("$h/a$")
+        panels[0].set_xscale("log")
+        panels[0].set_xticks([0.05, 0.1, 0.2] if side else [0.14, 0.2, 0.4])
+        panels[0].xaxis.set_major_formatter("{x:g}")
+        panels[0].xaxis.set_minor_formatter(NullFormatter())
+        place = "outside lower left" if side else "outside lower right"
+        legend = figure.legend(*panels[0].get_legend_handles_labels(), loc=place, fontsize=7, handlelength=1.5)
+        legend.set_title("slopes of the three rows", prop={"size": 7})
+    for index, (row, what) in enumerate(zip(grid, WHAT, strict=True)):
+        row[0].set_yscale("log")
+        row[0].yaxis.set_minor_formatter(NullFormatter())
+        row[0].set_ylabel(f"{style.panel(index)} {what}")
+        for axes in row:
+            axes.grid(color="0.9", linewidth=0.5)
+            if index < 2:
+                axes.axhspan(0.3 * FLOOR, FLOOR, color="0.9", linewidth=0, zorder=0)
+        if index < 2:
+            row[0].set_ylim(0.3 * FLOOR, None)
+    figure.align_ylabels()
     return figure
 
 

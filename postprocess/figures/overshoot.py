@@ -42,6 +42,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     right.set_xlim(0, 1.3 * right.get_xlim()[1])  # room for the names of the dashed lines
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    style.name_elements(figure, runs)
     return figure
 
 

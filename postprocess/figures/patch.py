@@ -18,29 +18,41 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     plane = [run for run in runs if run.summary["scene"] == "patch-test"]
     space = [run for run in runs if run not in plane]
     off = [100 * (run.contact["pressure"] / patch_pressure(run) - 1) for run in plane + space]
-    widths = [1.5] * bool(plane) + [1] * len(space)
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    panels = list(figure.subplots(1, len(widths), width_ratios=widths, squeeze=False)[0])
+    rows = [["plane"] * max(len(space), 1)] * bool(plane) + [
+        [f"space {number}" for number in range(len(space))]
+    ] * bool(space)
+    figure = Figure(figsize=(style.COLUMN, 0.68 * len(rows) * style.COLUMN), layout="constrained")
+    panels = list(figure.subplot_mosaic(rows).values())
     maps = panels[1:] if plane else panels
     for index, (run, error) in enumerate(zip(plane, off[: len(plane)], strict=True)):
         panels[0].plot(run.contact["x"], error, label=words(run, error), **style.curve(index) | {"linewidth": 0.9})
     if plane:
         panels[0].set_xlabel(f"$x$ [{units.length}]")
         panels[0].set_ylabel(r"$p/p_{\mathrm{exact}} - 1$ [%]")
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+        panels[0].legend()
+        panels[0].set_title("(a) plane", loc="left")
     greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
     for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
         look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
         colours = axes.tripcolor(style.surface(run), error, shading="gouraud", **look)
         axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
         axes.set_aspect("equal")
-        axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}")
-        axes.set_ylabel(f"$y$ [{units.length}]")
+        axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}".replace(": ", ":\n"))
+        axes.label_outer()
     if space:
-        figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.7)
-    for index, axes in enumerate(panels):
-        axes.set_title(style.panel(index), loc="left")
+        maps[0].set_ylabel(f"$y$ [{units.length}]")
+        figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.9)
+    for index, axes in enumerate(maps, start=bool(plane)):
+        axes.set_title(f"{style.panel(index)} space", loc="left")
+    figure.supxlabel(meshes(runs), x=0.995, ha="right", fontsize=8, color=style.GREY)
     return figure
+
+
+def meshes(runs: list[Run]) -> str:
+    """The runs' element, and how many of them the two bodies have along a side, in the plane and in space."""
+    sides = [tuple(run.summary["parameters"].get(name) for name in ("lower", "upper")) for run in runs]
+    told = [f"{low} and {high}" for low, high in dict.fromkeys(sides) if low and high]
+    return f"P{runs[0].summary['order']}" + (f", {' / '.join(told)} elements a side" if told else "")
 
 
 def words(run: Run, error: np.ndarray) -> str:

@@ -17,8 +17,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
     The closed form is that of hard contact on a half-plane under the run's prescribed force.
     """
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = Figure(figsize=(style.COLUMN, 1.45 * style.COLUMN), layout="constrained")
+    left, right = figure.subplots(2, 1)
     across = 1 - np.geomspace(1e-4, 1, 300)
     for index, run in enumerate(runs):
         scene_of(run, "flat-punch")
@@ -42,8 +42,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_ylim(0.5, 20)
     right.set_yticks([0.5, 1, 2, 5, 10, 20], labels=["0.5", "1", "2", "5", "10", "20"])
     right.set_xlabel("distance from the corner $1 - |x|/a$")
-    right.annotate("slope $-1/2$", (0.02, 3.6), fontsize=8)
+    right.annotate("slope $-1/2$", (2.5e-3, 13), fontsize=8)
     for axes, number in ((left, 0), (right, 1)):
         axes.set_title(style.panel(number), loc="left")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=5)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.name_elements(figure, runs)
     return figure

@@ -26,8 +26,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             raise ResultsError(run.path / "contact.csv", f"has other points than {rigid.path / 'contact.csv'}")
     meshed.sort(key=lambda run: run.positive("Eratio"))
     ratio = np.array([run.positive("Eratio") for run in meshed])
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = Figure(figsize=(style.COLUMN, 1.4 * style.COLUMN), layout="constrained")
+    left, right = figure.subplots(2, 1)
     shown = np.abs(rigid.contact["x"]) <= 0.7 * rigid.parameter("R")
     x = rigid.contact["x"][shown]
     for index, run in enumerate(meshed):
@@ -51,7 +51,12 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_ylabel("difference from the rigid disc")
     for index, axes in enumerate((left, right)):
         axes.set_title(style.panel(index), loc="left")
-        axes.legend()
+    if ratio[0] < 10 and rigid.summary["parameters"].get("points", "nodal") == "nodal":
+        text = "the softest wiggles:\nnodes against another\nmesh's, as in patch-test"
+        left.annotate(text, (0.5, 0.06), xycoords="axes fraction", ha="center", fontsize=7.5, color=style.CURVES[0])
+    right.legend()
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.name_elements(figure, runs)
     return figure
 
 

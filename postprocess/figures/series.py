@@ -1,8 +1,10 @@
-"""force against approach of load series (runs with -history 1)"""
+"""force against approach of load series (runs with -history 1); of one run on a rough surface that surface too"""
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
+from postprocess.closed_forms import rough_profile
 from postprocess.results import Run, read_table
 
 RUNS = (1, 7)
@@ -11,18 +13,57 @@ COLUMNS = "step fraction approach force pressureMax overlapMax contactPoints new
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """Above, the force over the approach, a curve a run; below, the share of the surface that is in contact."""
-    figure = Figure(figsize=(style.COLUMN, 1.05 * style.COLUMN), layout="constrained")
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1])
-    names = [f"{run.summary['scene']}, {style.method(run)}" for run in runs]
-    for index, (run, name) in enumerate(zip(runs, names, strict=True)):
+    """(a) force over approach, a curve a run, steps without contact left out; (b) the share of points in contact.
+
+    Of one run (c) the pressure at its end over x, and of the scene rough (d) both surfaces there, heights enlarged.
+    """
+    alone = len(runs) == 1
+    rough = alone and runs[0].summary["scene"] == "rough"
+    heights = [1.4, 1] + [1] * (alone + rough)
+    figure = Figure(figsize=(style.COLUMN, 0.42 * sum(heights) * style.COLUMN), layout="constrained")
+    panels = list(figure.subplots(len(heights), 1, height_ratios=heights))
+    force, share = panels[:2]
+    share.sharex(force)
+    for index, run in enumerate(runs):
         rows = read_table(run.path / "series.csv", COLUMNS, "the run needs -history 1")
-        above.plot(rows["approach"], rows["force"], label=name, **style.curve(index))
-        below.plot(rows["approach"], 100 * rows["contactPoints"] / run.summary["points"], **style.curve(index))
-    above.set_ylabel(f"force [{units.stress} × {units.length}]")
-    above.set_ylim(0, None)
-    below.set_ylabel("points in contact [%]")
-    below.set_ylim(0, None)
-    below.set_xlabel(f"approach [{units.length}]")
-    figure.legend(*above.get_legend_handles_labels(), loc="outside upper center")
+        rows = {name: values[rows["force"] > 0] for name, values in rows.items()}
+        name = f"{run.summary['scene']}, {style.method(run)}"
+        force.plot(rows["approach"], rows["force"], label=name, **style.curve(index))
+        share.plot(rows["approach"], 100 * rows["contactPoints"] / run.summary["points"], **style.curve(index))
+    force.set_ylabel(f"force\n[{units.stress}\n× {units.length}]")
+    share.set_ylabel("points in\ncontact [%]")
+    share.set_xlabel(f"approach [{units.length}]")
+    for axes in (force, share):
+        axes.set_ylim(0, None)
+    if alone:
+        draw_end(panels[2:], runs[0], units)
+    for index, axes in enumerate(panels):
+        axes.set_title(style.panel(index), loc="left", pad=3)
+    if len(runs) > 1:
+        figure.legend(*force.get_legend_handles_labels(), loc="outside upper center")
+    figure.align_ylabels()
+    style.name_elements(figure, runs)
     return figure
+
+
+def draw_end(panels: list, run: Run, units: style.Units) -> None:
+    """The pressure at the end of the series, and of the scene rough the surfaces: the block's, the wall above it."""
+    x, pressure = run.contact["x"], run.contact["pressure"]
+    panels[0].plot(x, pressure, color=style.BLUE, linewidth=0.7)
+    panels[0].set_ylabel(f"pressure\n[{units.stress}]")
+    panels[0].set_ylim(0, None)
+    panels[-1].set_xlabel(f"$x$ [{units.length}]")
+    for axes in panels[1:]:
+        axes.sharex(panels[0])
+        wall = -rough_profile(x, *(run.parameter(name) for name in ("width", "modes", "hurst", "rms", "seed")))
+        block = wall + run.contact["s"]
+        top, bottom = wall.max() + 0.3 * np.ptp(wall), block.min() - 0.3 * np.ptp(wall)
+        axes.fill_between(x, wall, top, color="#E9E6E1", linewidth=0)
+        axes.plot(x, wall, color="#6E675F", linewidth=0.7)
+        axes.fill_between(x, block, bottom, color="#DCE9F3", linewidth=0)
+        axes.plot(x, block, color=style.BLUE, linewidth=0.7)
+        axes.set_ylabel(f"height\n[{units.length}]")
+        axes.set_ylim(bottom, top)
+        for text, at in (("rough wall", 0.88), ("block, pressed", 0.06)):
+            axes.text(0.5, at, text, transform=axes.transAxes, ha="center", fontsize=8)
+    panels[0].margins(x=0)

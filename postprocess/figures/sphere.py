@@ -36,6 +36,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     used = run.summary.get("used")
     whole = not isinstance(used, dict) or used.get("vtu", True)
     figure = Figure(figsize=(style.PAGE, (0.88 if whole else 0.42) * style.PAGE), layout="constrained")
+    figure.get_layout_engine().set(h_pad=0.09)
     top, *bottom = figure.subfigures(2, 1, height_ratios=[1, 1.05]) if whole else [figure]
     left, right = top.subplots(1, 2)
     images = np.concatenate(
@@ -50,7 +51,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     colours = left.tripcolor(mesh, images[once, 2], shading="gouraud", **look)
     turn = np.linspace(0, 2 * np.pi, 200)
     circle = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
-    left.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), **circle)
+    left.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), label="Hertz's circle, radius $a$", **circle)
     left.set_aspect("equal")
     left.set_xlabel(f"$x$ [{units.length}]")
     left.set_ylabel(f"$y$ [{units.length}]")
@@ -75,7 +76,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         ha="right",
         fontsize=8,
     )
-    top.legend(*right.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    top.legend(handles=[*left.lines, *right.lines], loc="outside upper center", ncols=3)
     for part in bottom:
         below = part.subplots()
         colours = draw_cut(below, run, middle, height, a)
@@ -84,7 +85,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         part.colorbar(colours, ax=below, label=f"von Mises stress [{units.stress}]", shrink=0.85, pad=0.01)
         for axes, index in ((left, 0), (right, 1), (below, 2)):
             axes.set_title(style.panel(index), loc="left")
-        below.set_title("section $y = 0$, displacements at true scale")
+        below.set_title(f"section $y = 0$, displacements at true scale; {style.elements(runs)}")
+    if not whole:
+        style.name_elements(figure, runs)
     return figure
 
 

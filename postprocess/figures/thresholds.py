@@ -1,129 +1,92 @@
-"""threshold field of one run from adaptation to adaptation"""
+"""threshold and overlap of one to three runs, model by model"""
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from postprocess import style
 from postprocess.results import WALL, ResultsError, Run
 
-RUNS = (1, 1)
+RUNS = (1, 3)
 
+MOST = 4  # models of a run that are shown: the first ones and the last
 CROWD = 40  # points beyond which their dots are drawn smaller
-FAR_WALL = 30  # walls this many times beyond the greatest penetration of the layer need a logarithmic axis
+FAR_WALL = 30  # walls this many times beyond the greatest overlap need a logarithmic axis
+OVERLAP = {"color": style.VERMILION, "linestyle": (0, (4, 1.5)), "zorder": 5}
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """Above, T^N - d0 of every model and d - d0 at convergence; below, how much each update moved the wall.
+    """A column a run, a panel a model: its threshold T^N, and the overlap d^N that Newton's steps have found with it.
 
-    Full dots are the points where the wall was active. Both panels are counted from d0, where asperities first touch.
+    Both are counted from d0, where asperities first touch. Dots are points where the wall carries: there d^N = T^N, and
+    there the next threshold is higher.
     """
-    (run,) = runs
-    tables = last_load_step(run)
-    x = tables[0]["x"]
-    for table in tables:
-        if not np.array_equal(table["x"], x):
-            raise ResultsError(run.path / "adaptations.csv", "the points differ from adaptation to adaptation")
-    heights = np.array([table["tau"] for table in tables])
-    walls = np.array([table["status"] == WALL for table in tables])
-    penetration = run.contact["s"]
-    moves = np.diff(heights, axis=0) if np.isfinite(heights).all() else np.zeros((0, len(x)))
-    moved = bool((moves > 0).any())
-
-    rows = 2 if moved else 1
-    size = (style.COLUMN, (1.3 if moved else 0.85) * style.COLUMN)
-    figure = Figure(figsize=size, layout="constrained")
-    panels = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=[1.6, 1][:rows])[:, 0]
-    colours = style.sequence(len(tables))
-    draw_heights(panels[0], run, heights, walls, penetration, colours, units)
-    if moved:
-        draw_moves(panels[1], x, moves, colours, units)
-    panels[-1].set_xlabel(f"$x$ [{units.length}]")
-    panels[-1].set_xlim(*interval(x, (penetration > 0) | walls.any(axis=0)))
-    figure.align_ylabels()
+    columns = [shown(run) for run in runs]
+    rows = max(map(len, columns))
+    figure = Figure(figsize=(style.COLUMN, (0.32 + 0.3 * rows) * style.COLUMN), layout="constrained")
+    grid = figure.subplots(rows, len(runs), sharex=True, sharey=True, squeeze=False)
+    for panels, run, models in zip(grid.T, runs, columns, strict=True):
+        for row, axes in enumerate(panels):
+            if row < len(models):
+                number, table = models[row]
+                draw_model(axes, number, table)
+                model = f"model $N = {number}$"
+                axes.set_title(f"{title(run)}\n{model}" if row == 0 else model, fontsize=8, pad=3)
+            else:
+                axes.set_visible(False)
+        panels[len(models) - 1].tick_params(labelbottom=True)
+        panels[len(models) - 1].set_xlabel(f"$x$ [{units.length}]")
+    limits(grid, [table for models in columns for _, table in models])
+    figure.supylabel(f"$T^N - d_0$, $d^N - d_0$ [{units.length}]", fontsize=9)
+    handles = {line.get_label(): line for axes in grid.ravel() for line in axes.lines if line.get_label()[0] != "_"}
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=3, columnspacing=1.2)
+    style.name_elements(figure, runs)
     return figure
 
 
-def draw_heights(axes, run: Run, heights, walls, penetration, colours, units: style.Units) -> None:
-    """The threshold of each model, (adaptations, points), and the overlap reached, both measured from d0."""
-    x = run.contact["x"]
-    finite = np.isfinite(heights)
-    size = 4 if np.count_nonzero(walls.any(axis=0)) < CROWD else 2.5
-    for number, colour in enumerate(colours):
-        if not finite[number].all():
-            continue
-        name = f"$T^{{{number}}}$" if number in style.named(len(colours)) else None
-        axes.plot(x, heights[number], color=colour, label=name, zorder=3)
-        active = walls[number]
-        axes.plot(x[active], heights[number, active], ".", color=colour, markersize=size, zorder=4)
-    axes.plot(x, penetration, color=style.VERMILION, linestyle=(0, (4, 1.5)), zorder=5)
-    top = max(heights[finite].max(initial=0), penetration.max())
+def shown(run: Run) -> list[tuple[int, np.ndarray]]:
+    """(N, table) of the models that were solved under the full load: all of a few, else the first ones and the last."""
+    history, tables = run.history, run.adaptations
+    if len(history["step"]):
+        last = history["step"] == history["step"][-1]
+        tables = tables[-len(np.unique(history["adaptation"][last])) :]
+    if any(not np.array_equal(table["x"], tables[0]["x"]) for table in tables):
+        raise ResultsError(run.path / "adaptations.csv", "the points differ from adaptation to adaptation")
+    models = list(enumerate(tables))
+    return models if len(models) <= MOST else [*models[: MOST - 1], models[-1]]
+
+
+def draw_model(axes, number: int, table) -> None:
+    """One model: the threshold where it has one, the points where its wall carries, the overlap."""
+    x, wall = table["x"], table["status"] == WALL
+    if np.isfinite(table["tau"]).all():
+        axes.plot(x, table["tau"], color=style.BLUE, label="threshold $T^N$", zorder=3)
+        size = 5 if np.count_nonzero(wall) < CROWD else 2.5
+        dots = {"linestyle": "none", "marker": ".", "markersize": size, "color": style.BLUE, "zorder": 6}
+        axes.plot(x[wall], table["tau"][wall], label="the wall carries" if wall.any() else "_", **dots)
+    axes.plot(x, table["s"], label="overlap $d^N$", **OVERLAP)
+    axes.axhline(0, color=style.GREY, linewidth=0.6)
+
+
+def limits(grid: np.ndarray, tables: list) -> None:
+    """Axes that all panels share: where there is an overlap or a wall, and a logarithmic height for far walls."""
+    x = tables[0]["x"]
+    reached = max(table["s"].max() for table in tables)
+    walls = np.concatenate([table["tau"][np.isfinite(table["tau"])] for table in tables])
+    top = max(walls.max(initial=0), reached)
     if top <= 0:
-        raise ResultsError(run.path / "contact.csv", "no overlap beyond d0 and no wall beyond it: nothing to draw")
-    reached = penetration.max()
+        raise ResultsError("adaptations.csv", "no overlap beyond d0 and no wall beyond it: nothing to draw")
+    touched = [table["x"][(table["s"] > 0) | (table["status"] == WALL)] for table in tables]
+    touched = np.concatenate(touched) if any(map(len, touched)) else x
+    margin = 0.15 * np.ptp(touched) or 0.05 * np.ptp(x)
+    grid[0, 0].set_xlim(max(touched.min() - margin, x.min()), min(touched.max() + margin, x.max()))
     if reached > 0 and top > FAR_WALL * reached:
-        axes.set_yscale("log")
-        axes.set_ylim(reached * 1e-2, top * 3)
+        grid[0, 0].set_yscale("log")
+        grid[0, 0].set_ylim(reached * 1e-2, top * 3)
     else:
-        axes.axhline(0, color=style.GREY, linewidth=0.8)
-        axes.annotate(
-            "first touch of asperities, $d = d_0$",
-            (0.5, 0),
-            xycoords=("axes fraction", "data"),
-            xytext=(0, 3.5),
-            textcoords="offset points",
-            ha="center",
-            fontsize=8,
-            color=style.GREY,
-        )
-        axes.set_ylim(-0.12 * top, 1.08 * top)
-    axes.set_ylabel(f"$T^N - d_0$ and $d - d_0$ [{units.length}]")
-    draw_legends(axes, title(run), bool(walls.any()))
-
-
-def draw_legends(axes, heading: str, any_wall: bool) -> None:
-    """The thresholds' names above the axes; what the other marks mean below the arch that the curves form."""
-    places = {"loc": "outside upper center", "ncols": 6, "borderaxespad": 0.2, "columnspacing": 1.0}
-    if axes.get_legend_handles_labels()[0]:
-        axes.figure.legend(**places, title=heading, title_fontsize=9)
-    else:
-        axes.figure.suptitle(heading, fontsize=9)
-    marks = [Line2D([], [], color=style.VERMILION, linestyle=(0, (4, 1.5)), label="overlap $d$ at convergence")]
-    if any_wall:
-        marks.append(Line2D([], [], color=style.GREY, marker=".", label="wall active", linewidth=0, markersize=4))
-    axes.legend(handles=marks, loc="center", bbox_to_anchor=(0.5, 0.42 if axes.get_yscale() == "linear" else 0.2))
-
-
-def draw_moves(axes, x, moves, colours, units: style.Units) -> None:
-    """T^{N+1} - T^N of each update, (updates, points), on a logarithmic axis, where it is positive."""
-    for number, move in enumerate(moves):
-        seen = np.where(move > 0, move, np.nan)
-        size = 3 if np.count_nonzero(move > 0) < CROWD else 2
-        axes.plot(x, seen, color=colours[number + 1], marker=".", markersize=size, linewidth=0.8)
-    axes.set_ylabel(f"$T^{{N+1}} - T^N$ [{units.length}]")
-    style.decades(axes, moves)
-
-
-def last_load_step(run: Run) -> list:
-    """The tables of the models that were solved under the full load."""
-    history = run.history
-    if len(history["step"]) == 0:
-        return run.adaptations
-    last = history["step"] == history["step"][-1]
-    return run.adaptations[-len(np.unique(history["adaptation"][last])) :]
+        grid[0, 0].set_ylim(-0.15 * top, 1.12 * top)
 
 
 def title(run: Run) -> str:
-    """The method and its count of models."""
-    if not any(np.isfinite(table["tau"]).any() for table in run.adaptations):
-        return f"{style.method(run)}: no wall, $T = \\infty$"
-    return f"{style.method(run)}: {style.count(run.summary['adaptations'], 'adaptation')}"
-
-
-def interval(x: np.ndarray, chosen: np.ndarray) -> tuple[float, float]:
-    """The part of the surface worth showing: the chosen points and a margin on both sides."""
-    if not chosen.any():
-        return x.min(), x.max()
-    left, right = x[chosen].min(), x[chosen].max()
-    margin = 0.15 * (right - left) or 0.05 * np.ptp(x)
-    return max(left - margin, x.min()), min(right + margin, x.max())
+    """The method, and whether its models have a wall."""
+    wall = any(np.isfinite(table["tau"]).any() for table in run.adaptations)
+    return style.method(run) if wall else f"{style.method(run)}: no wall"

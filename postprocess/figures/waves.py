@@ -11,13 +11,13 @@ RUNS = (1, 7)
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """(a) p/p* over x/lambda, points of all waves laid over each other, and Westergaard's curves; (b) the difference.
+    """(a) p/p_full over x/lambda, all waves' points laid over each other, and Westergaard's curves; (b) the difference.
 
-    p* is the mean pressure at which the contacts merge. The closed form is that of hard contact on a half-plane, which
-    has no sides: the outermost two waves on either side, which the block's free sides disturb, are left out.
+    p_full is the mean pressure at which the contacts merge. The closed form is that of hard contact on a half-plane,
+    which has no sides: the outermost two waves on either side, which the block's free sides disturb, are left out.
     """
-    figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = Figure(figsize=(style.COLUMN, 1.35 * style.COLUMN), layout="constrained")
+    left, right = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 1])
     line = np.linspace(-0.5, 0.5, 1001)
     dots = {"linestyle": "none", "markersize": 2.5, "markeredgewidth": 0.5, "markerfacecolor": "white"}
     for index, run in enumerate(runs):
@@ -32,15 +32,16 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         look = {**style.curve(index), **dots}
         share = style.number(float(f"{prescribed_force(run) / run.positive('width') / full:.3g}"))
         left.plot(line, wave_pressure(run, line) / full, color=style.BLACK, linewidth=0.8, zorder=3)
-        left.plot(x, pressure / full, label=rf"$\bar p/p^* = {share}$", **look)
+        left.plot(x, pressure / full, label=rf"$\bar p = {share}\, p_{{\mathrm{{full}}}}$", **look)
         right.plot(x, 100 * (pressure - wave_pressure(run, x)) / full, **look)
     left.plot([], [], color=style.BLACK, linewidth=0.8, label="Westergaard")
-    left.set_ylabel("pressure $p/p^*$")
+    left.set_ylabel(r"pressure $p/p_{\mathrm{full}}$")
     left.set_ylim(0, None)
-    right.set_ylabel("difference [% of $p^*$]")
+    right.set_ylabel(r"difference [% of $p_{\mathrm{full}}$]")
     for number, axes in enumerate((left, right)):
-        axes.set_xlabel(r"$x/\lambda$, from the crest")
         axes.set_xlim(-0.5, 0.5)
         axes.set_title(style.panel(number), loc="left")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=5)
+    right.set_xlabel(r"$x/\lambda$, from the crest; the contacts merge at $\bar p = p_{\mathrm{full}}$")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.name_elements(figure, runs)
     return figure

@@ -4,8 +4,11 @@ work_precision.csv: on one mesh, error of the iteration against seconds, factori
 meshes.csv: over meshes and degrees of elements, error against the independent reference solution, against seconds.
 growth.csv: seconds, memory and cost ratio over the number of degrees of freedom; at one size over stiffness, degree and
 method. ingredients.csv: the default method with each of its ingredients exchanged in turn, scene by scene.
-hertz.csv: contact of elastic balls, and of a rigid sphere on a block, against Hertz. large.csv, only if it is asked for:
-large bodies in space with `-solver multigrid`, on one process and two: `make bench-large`.
+hertz.csv: contact of elastic balls, and of a rigid sphere on a block, against Hertz.
+accuracy.csv: runs that make their own meshes, `-accuracy`, beside meshes that a user would try: the true error, the
+estimate, and CPU seconds from the first mesh to the result, estimates and later meshes included.
+large.csv, only if asked for, by `make bench-large`: large bodies in space with `-solver multigrid`, on one process
+and two.
 
 One run at a time. The default method's are repeated three times, unless they are long; the rivals are run once. Failed
 runs are kept. Interrupted and started again, it goes on where it was. A part can be run alone: `python
@@ -101,6 +104,24 @@ HERTZ = {
     "sphere-on-plane": ({}, HERTZ_SIZES[1]),
 }
 HERTZ_PRESSURE = 1.5 * 14.652014652 / np.pi
+
+
+# Series of the part accuracy: flags, and what is varied. Uniform: elements of one size.
+ADAPTIVE_PLANE = (1e-3, 1e-4, 1e-5, 1e-6)
+ADAPTIVE_SPACE = (3e-2, 1e-2, 3e-3, 1e-3)
+TRIED: dict[str, dict[str, tuple[dict, tuple[float, ...]]]] = {
+    "disc-on-block": {
+        "graded": ({"order": 4, "grading": 60}, (2.0, 1.0, 0.5, 0.25)),
+        "uniform": ({"order": 2, "grading": 0.01, "corners": 0}, (2.0, 1.0, 0.5)),
+    },
+    SPHERE: {
+        "graded": ({"order": 2, "layers": 1, "grading": 10}, (3.0, 2.0, 1.5, 1.0)),
+        "uniform": ({"order": 2, "layers": 1, "grading": 0.01}, (4.0, 2.8, 2.0)),
+    },
+}
+CROSSED = "crossed-cylinders"
+CROSSED_SIZES = (0.16, 0.11, 0.08)  # the geometry's own parameter; growing away from the contact as it says
+CROSSED_FINE = 0.06
 
 
 def rivals(root: Path) -> list[dict]:
@@ -211,16 +232,8 @@ def large(_root: Path) -> list[campaign.Case]:
     found = []
 
     def add(name, law, h, order, ranks=1):
-        flags = {
-            "solver": "multigrid",
-            "kappa": law[0],
-            "m": law[1],
-            "h": h,
-            "order": order,
-            "tol": 1e-8,
-            "estimate": 0,
-        }
-        item = case(name, SPHERE, 3600, 1, 2.7e-2 / h**2.5 * 240 * order**3 / ranks, **flags)
+        flags = {"kappa": law[0], "m": law[1], "h": h, "order": order, "tol": 1e-8, "estimate": 0}
+        item = case(name, SPHERE, 3600, 1, 0.35 / h**2.5 * order**3 / ranks, solver="multigrid", **flags)
         if ranks > 1:
             item = dataclasses.replace(item, flags=(*item.flags, "-v", "0"), program=(*MPIRUN, str(ranks)))
         found.append(item)
@@ -257,7 +270,80 @@ def large_table(rows: list[dict]) -> str:
     return markdown(header.split("|"), lines)
 
 
+def crossed_geometry(root: Path, size: float) -> str:
+    """The example's geometry with another size of elements.
+
+    The finest is fine far away too, and has the surfaces' own nodes in the middles of sides."""
+    text = (
+        (root / "edp" / "examples" / CROSSED / f"{CROSSED}.geo")
+        .read_text()
+        .replace("size = {0.08", f"size = {{{size:g}")
+    )
+    if size == CROSSED_FINE:
+        text = (
+            text.replace("growth = {0.5", "growth = {0.3").replace("extent / 3", "extent / 10")
+            + "Mesh.ElementOrder = 2;\n"
+        )
+    return text
+
+
+def crossed(size: float, name: str, **flags) -> campaign.Case:
+    texts = tuple(text for flag, value in flags.items() for text in (f"-{flag}", campaign.flag_text(value)))
+    mesh = ("-mesh", f"{CROSSED}-{size:g}.geo", "-case", f"edp/examples/{CROSSED}/{CROSSED}.case")
+    return campaign.Case(name, "edp/parts-3d.edp", mesh + texts, 300, 1, 5)
+
+
+def accuracy_files(root: Path) -> dict[str, str]:
+    return {f"{CROSSED}-{size:g}.geo": crossed_geometry(root, size) for size in (*CROSSED_SIZES, CROSSED_FINE)}
+
+
+def accuracy_cases(_root: Path) -> list[campaign.Case]:
+    """By problem: asked accuracies, then the meshes that a user would try."""
+    found = []
+    for scene, law in (("disc-on-block", CASES[0]), *(("disc-on-block", law) for law in CASES[2:]), (SPHERE, CASES[0])):
+        flags = {"method": "xnewton", "law": "power", "kappa": law[0], "m": law[1]}
+        for asked in ADAPTIVE_SPACE if scene == SPHERE else ADAPTIVE_PLANE:
+            found.append(case("adaptive", scene, weight=3, **flags, accuracy=asked))
+        for name, (further, sizes) in TRIED[scene].items():
+            found += [case(name, scene, weight=2, **flags, **further, h=h, tol=1e-8) for h in sizes]
+    found += [crossed(CROSSED_SIZES[0], "adaptive", accuracy=asked) for asked in ADAPTIVE_SPACE[:3]]
+    return found + [crossed(size, "graded") for size in CROSSED_SIZES]
+
+
 # ---------------------------------------------------------------- errors
+
+
+def accuracy_errors(sources: Path, processes: campaign.Processes) -> campaign.Measure:
+    """The relative error, true and said, of the force; of the crossed cylinders of how far the force has gone."""
+
+    @functools.cache
+    def fine() -> float:
+        item = crossed(CROSSED_FINE, "reference")
+        with tempfile.TemporaryDirectory() as name:
+            command = [*campaign.FREEFEM, item.script, *item.flags, "-vtu", "0", "-out", name]
+            outcome = processes.execute(command, sources, Path(name), 900)
+            if outcome.code != 0:
+                raise RuntimeError(f"the finest mesh's run did not converge: {outcome.output[-300:]}")
+            return outcome.summary["estimates"]["loads"][0]["way"]["value"]
+
+    def measure(item: campaign.Case, summary: dict, _folder: Path) -> dict:
+        told, seconds = summary["estimates"], summary["seconds"]
+        if summary["scene"] == "parts-3d":
+            number, known = told["loads"][0]["way"], fine()
+        else:
+            law = (float(item.parameters[name]) for name in ("kappa", "m"))
+            number, known = told["force"], reference.values()[summary["scene"], *law]["force"]
+        parts = ("assembly", "factorisation", "contact", "estimate")
+        reached = summary.get("accuracy") or {}
+        return {
+            "forceError": abs(number["value"] / known - 1),
+            "said": number["error"] / abs(number["value"]),
+            "asked": reached.get("asked"),
+            "meshes": reached.get("meshes", 1),
+            "seconds": reached.get("seconds") or sum(seconds[part] for part in parts),
+        }
+
+    return measure
 
 
 def hertz_differences(*_) -> campaign.Measure:
@@ -505,6 +591,24 @@ def cost_table(rows: list[dict]) -> str:
     return markdown(["method", *words], lines)
 
 
+def accuracy_runs(rows: list[dict]) -> str:
+    """What was asked, said and true, and the seconds; beside it the meshes that a user would try."""
+    lines = []
+    for row in rows:
+        words = problem_words(row) if row["kappa"] else "crossed cylinders"
+        asked = f"{value(row, 'asked'):.0e}" if row["name"] == "adaptive" else f"{row['name']}, {tried(row)}"
+        good = row["status"] == "converged"
+        numbers = [f"{value(row, name):.1e}" for name in ("said", "forceError")] if good else [row["status"], "–"]
+        lines.append([words, asked, row["ndof"], row["meshes"], *numbers, f"{value(row, 'seconds'):.2g}"])
+    return markdown("κ, m|asked|dofs|meshes|said|true|CPU s".split("|"), lines)
+
+
+def tried(row: dict[str, str]) -> str:
+    """The size of the elements of a run of part accuracy."""
+    size = row["h"] or row["flags"].split(f"{CROSSED}-")[1].split(".geo")[0]
+    return f"h = {float(size):g}"
+
+
 def report_growth(rows: list[dict]) -> str:
     return "\n\n".join(part(rows) for part in (growth_table, exponents_table, cost_map, cost_table))
 
@@ -556,8 +660,15 @@ PARTS = {
     "ingredients": (ingredients, (), None, report_ingredients),
     "hertz": (hertz, ("radius", "pressure"), hertz_differences, hertz_table),
     "large": (large, ("iterations", "ranks"), solves, large_table),
+    "accuracy": (
+        accuracy_cases,
+        ("forceError", "said", "asked", "meshes", "seconds"),
+        accuracy_errors,
+        accuracy_runs,
+    ),
 }
 OPT_IN = ("large",)
+FILES = {"accuracy": accuracy_files}  # what a part adds to the sources: name to text
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -579,7 +690,8 @@ def main(argv: list[str] | None = None) -> int:
         chosen = cases(arguments.root)
         chosen = [dataclasses.replace(item, repeats=min(item.repeats, arguments.repeats)) for item in chosen]
         try:
-            rows = campaign.run(chosen, path, arguments.jobs, columns, measure, arguments.root, title=name)
+            files = FILES[name](arguments.root) if name in FILES else None
+            rows = campaign.run(chosen, path, arguments.jobs, columns, measure, arguments.root, files, title=name)
         except KeyboardInterrupt:
             print("\ninterrupted; started again, it goes on from here", file=sys.stderr)
             return 130

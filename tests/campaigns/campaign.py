@@ -49,7 +49,7 @@ ENDED = "status message repeats".split()
 COUNTS = "adaptations newton kernelNewton factorisations backsolves contactPoints wallPoints ndof points".split()
 RESULTS = "residual modelError force pressureMax overlapMax halfWidth energy".split()
 TIMES = "wall cpu memory costRatio seconds_mesh seconds_assembly seconds_factorisation seconds_contact".split()
-MACHINE = "machine cores freefem threads".split()
+MACHINE = "machine cores freefem threads commit day".split()
 COLUMNS = [*CASE, "scene", *PARAMETERS, *ENDED, *COUNTS, *RESULTS, *TIMES, *MACHINE]
 WORDS = frozenset([*CASE, "scene", *MACHINE, "status", "message"])
 
@@ -89,6 +89,8 @@ def case(
 def script_of(scene: str, method: str | None = None) -> str:
     if method == "ipopt":
         return f"edp/scenes/{scene}-ipopt.edp"
+    if scene.startswith("parts"):
+        return f"edp/{scene}.edp"
     return "edp/main.edp" if scene == "disc-on-block" else f"edp/scenes/{scene}.edp"
 
 
@@ -121,8 +123,12 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/**/*.edp"),
         *root.glob("edp/**/*.idp"),
         *root.glob("edp/**/*.sh"),
+        *root.glob("edp/**/*.awk"),
+        *root.glob("meshes/*.awk"),
         *root.glob("edp/**/*.txt"),
         *root.glob("edp/**/*.cpp"),
+        *root.glob("edp/examples/**/*.geo"),
+        *root.glob("edp/examples/**/*.case"),
         *root.glob("meshes/*.geo"),
         *root.glob("*.py"),  # of a copy: what a campaign has added
     ]
@@ -150,7 +156,7 @@ def frozen_sources(root: Path, files: dict[str, str] | None = None):
 
 @functools.cache
 def machine() -> dict[str, object]:
-    """Columns MACHINE of this computer."""
+    """Columns MACHINE: this computer, the package's commit ("+": its sources were changed since) and the day, UTC."""
     model = "unknown"
     with contextlib.suppress(OSError):
         found = re.search(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
@@ -162,7 +168,26 @@ def machine() -> dict[str, object]:
         head = subprocess.run(command, cwd=name, capture_output=True, timeout=30, stdin=subprocess.DEVNULL).stdout
         found = re.search(rb"FreeFem\+\+ +v?([\w.]+)", head)
         version = found.group(1).decode() if found else version
-    return {"machine": model, "cores": os.cpu_count(), "freefem": version, "threads": THREADS}
+    return {
+        "machine": model,
+        "cores": os.cpu_count(),
+        "freefem": version,
+        "threads": THREADS,
+        "commit": commit_of(ROOT),
+        "day": time.strftime("%Y-%m-%d", time.gmtime()),
+    }
+
+
+def commit_of(root: Path) -> str:
+    """The commit that is checked out, "+" behind it if sources were changed since; "unknown" without git."""
+    said = []
+    for words in (["rev-parse", "--short=10", "HEAD"], ["status", "--porcelain", "--", "edp", "meshes"]):
+        with contextlib.suppress(OSError, subprocess.SubprocessError):
+            done = subprocess.run(
+                ["git", "-C", str(root), *words], capture_output=True, text=True, timeout=30, check=True
+            )
+            said.append(done.stdout.strip())
+    return said[0] + ("+" if said[1] else "") if len(said) == 2 else "unknown"
 
 
 # ---------------------------------------------------------------- one run

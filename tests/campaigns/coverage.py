@@ -79,6 +79,15 @@ IN_SPACE: list[tuple[str, dict]] = [
     ("ball on a plane", {}),
     ("two balls", {}),
 ]
+# a user's own parts: the example's pin in its hole, in a plate of 10 radii, under forces, hard or with a law
+EXAMPLE = campaign.ROOT / "edp/examples/pin-in-hole/pin-in-hole"
+PINS = {
+    "50 N": ("0 -50", ""),
+    "1000 N": ("0 -1000", ""),
+    "20000 N": ("0 -20000", ""),
+    "1000 N and a law": ("0 -1000", " law power kappa 1e6 m 2 d0 -0.005"),
+}
+PIN_SIZE = 3.0  # P4's coarsest
 FINEST = {"hertz-line": 10, "two-cylinders": 10}  # of the reference: P4's coarsest h over its own; 16 elsewhere
 
 
@@ -101,6 +110,30 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     return found
 
 
+def pin_files() -> dict[str, str]:
+    """Meshes and cases of the pins, for the campaign's folder."""
+    geo = EXAMPLE.with_suffix(".geo").read_text().replace("half = {500,", "half = {100,")
+    case_file = EXAMPLE.with_suffix(".case").read_text()
+    sizes = {PIN_SIZE * order / 4 / 2**halved for order in (1, 2, 4) for halved in range(3)} | {PIN_SIZE / 12}
+    files = {f"pin-{size:g}.geo": geo.replace("size = {0.28,", f"size = {{{size:g},") for size in sizes}
+    for name, (force, law) in PINS.items():
+        text = case_file.replace("0 -1000", force).replace("bore pin-surface", "bore pin-surface" + law)
+        files[f"pin-{name.replace(' ', '-')}.case"] = text
+    return files
+
+
+def cases_of_pins(root: Path = campaign.ROOT) -> list[campaign.Case]:
+    found = []
+    for name in PINS:
+        shared = {"case": f"pin-{name.replace(' ', '-')}.case", "tol": 1e-8}
+        for order, size, kind in [(4, PIN_SIZE / 12, ": reference")] + [
+            (order, PIN_SIZE * order / 4 / 2**halved, "") for order in (1, 2, 4) for halved in range(3)
+        ]:
+            flags = {"mesh": f"pin-{size:g}.geo", "order": order, **shared}
+            found.append(case(f"pin in a hole {name}{kind}", "parts", weight=5 if kind else 1, **flags))
+    return found
+
+
 def cases_in_space(root: Path = campaign.ROOT) -> list[campaign.Case]:
     """The same; P2's meshes grow finer by 1.4 each, P1's have half their sizes."""
     found = []
@@ -117,9 +150,12 @@ def profile_path(name: str) -> Path:
     return FOLDER / "profiles" / f"{name.replace(' ', '_')}.csv"
 
 
-def measured(folder: Path) -> dict:
+def measured(folder: Path, round_hole: bool) -> dict:
+    """x of a scene's points, of a pin's the angle."""
     contact = campaign.read_contact(folder)
-    return {name: contact[name] for name in ("x", "pressure", "weight")}
+    x = np.arctan2(contact["x"], -contact["y"]) if round_hole else contact["x"]
+    order = np.argsort(x, kind="stable")
+    return {"x": x[order], **{name: contact[name][order] for name in ("pressure", "weight")}}
 
 
 def profile_error(contact: dict, exact: np.ndarray) -> float:
@@ -133,7 +169,7 @@ def measure(*_) -> campaign.Measure:
     """COLUMNS of a run; a reference leaves its profile behind."""
 
     def gauge(item: campaign.Case, summary: dict, folder: Path) -> dict:
-        contact = measured(folder)
+        contact = measured(folder, "pin" in item.name)
         name, _, is_reference = item.name.partition(": ")
         path = profile_path(name)
         found: dict = {}
@@ -148,6 +184,8 @@ def measure(*_) -> campaign.Measure:
         for quantity in QUANTITIES:
             found[f"{quantity}Value"] = summary.get(quantity)
             found[f"{quantity}Said"] = (told.get(quantity) or {}).get("error")
+        for way in [load["way"] for load in told.get("loads", []) if load["way"]]:
+            found["approachValue"], found["approachSaid"] = way["value"], way["error"]
         found |= {part: told.get("parts", {}).get(part) for part in PARTS}
         found["contactStiffness"] = told.get("contactStiffness")
         found["estimateBacksolves"] = told.get("backsolves")
@@ -178,8 +216,9 @@ def judged(rows: list[dict]) -> list[dict]:
             else:
                 true = abs(value(row, f"{quantity}Value") - value(fine, f"{quantity}Value"))
                 doubt = value(fine, f"{quantity}Said")
-            # what is prescribed has no error
-            if said > 0 and np.isfinite(true):
+            # what is prescribed, or told by the balance, has no error
+            least = 1e-10 * np.nan_to_num(abs(value(row, f"{quantity}Value")))
+            if said > least and np.isfinite(true):
                 found.append({"row": row, "quantity": quantity, "said": said, "true": true, "doubt": doubt})
     return found
 
@@ -208,10 +247,14 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("part", nargs="?", default="", help="only problems whose name has this text")
     arguments = parser.parse_args(argv)
-    for name, part in (("coverage", cases), ("space", cases_in_space)):
+    for name, part, files in (
+        ("coverage", cases, {}),
+        ("pins", cases_of_pins, pin_files()),
+        ("space", cases_in_space, {}),
+    ):
         wanted = [item for item in part() if arguments.part in item.name]
         if wanted:
-            rows = campaign.run(wanted, FOLDER / f"{name}.csv", columns=COLUMNS, measure=measure)
+            rows = campaign.run(wanted, FOLDER / f"{name}.csv", columns=COLUMNS, measure=measure, files=files)
             print(table(judged(rows)))
     return 0
 

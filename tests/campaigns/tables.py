@@ -40,6 +40,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "cost-map": ("bench/growth", bench.cost_map),
     "ingredients": ("bench/ingredients", bench.report_ingredients),
     "hertz": ("bench/hertz", bench.hertz_table),
+    "asked": ("bench/accuracy", bench.accuracy_runs),
     "peers": ("bench/peers", peers.table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
@@ -70,12 +71,14 @@ def written(text: str, tables: dict[str, str]) -> str:
 
 
 def told(rows: Rows, whole: int) -> str:
-    """One line below a table: how many runs, of how many, each how often, and on what."""
+    """One line below a table: how many runs, of how many, each how often, of which sources, when, and on what."""
     repeats = sorted({int(row["repeats"]) for row in rows})
     often = " or ".join(map(str, repeats)) + (" repeat" if repeats == [1] else " repeats")
     count = f"{len(rows)} runs" if len(rows) >= whole else f"{len(rows)} of {whole} runs"
     last = rows[-1]
-    return f"*{count}, {often}; {last['machine']}, {last['cores']} cores, {last['threads']} BLAS thread.*"
+    commits, days = (sorted({row[name] for row in rows}) for name in ("commit", "day"))
+    when = f"commit {', '.join(commits)}, {' to '.join(dict.fromkeys((days[0], days[-1])))}"
+    return f"*{count}, {often}; {when}; {last['machine']}, {last['cores']} cores, {last['threads']} BLAS thread.*"
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -1,0 +1,47 @@
+"""The boxes of a figure's texts: none may lie on another one, or leave the figure."""
+
+from itertools import combinations
+
+from matplotlib.text import Text
+
+PIXEL = 1.0  # what boxes may share, at 100 dots an inch: they are larger than their letters
+
+
+def shown(figure):
+    """Every text that is drawn, tick labels within the axes' limits only."""
+    ticks = {}
+    for axes in figure.findobj(lambda artist: hasattr(artist, "get_xticks")):
+        for axis in (axes.xaxis, axes.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            for tick in [*axis.get_major_ticks(), *axis.get_minor_ticks()]:
+                inside = low - 1e-9 * (high - low) <= tick.get_loc() <= high + 1e-9 * (high - low)
+                ticks |= dict.fromkeys((tick.label1, tick.label2), inside and axes.get_visible())
+    hidden = {
+        text
+        for axes in figure.findobj(lambda artist: hasattr(artist, "get_xticks"))
+        if not axes.get_visible()
+        for text in axes.findobj(Text)
+    }
+    for text in figure.findobj(Text):
+        if text.get_visible() and text.get_text().strip() and ticks.get(text, True) and text not in hidden:
+            yield text
+
+
+def faults(figure):
+    """What lies on something else or outside, in words."""
+    figure.draw_without_rendering()
+    scale = figure.dpi / 100
+    boxes = [(text.get_text(), text.get_window_extent()) for text in shown(figure)]
+    boxes = [(text, box) for text, box in boxes if box.width > 0 and box.height > 0]
+    whole = figure.bbox.padded(2 * scale)
+    found = [
+        f"{text!r} is outside"
+        for text, box in boxes
+        if not (whole.x0 <= box.x0 and box.x1 <= whole.x1 and whole.y0 <= box.y0 and box.y1 <= whole.y1)
+    ]
+    for (one, a), (other, b) in combinations(boxes, 2):
+        across = min(a.x1, b.x1) - max(a.x0, b.x0)
+        along = min(a.y1, b.y1) - max(a.y0, b.y0)
+        if min(across, along) > PIXEL * scale and across * along > 0:
+            found.append(f"{one!r} lies on {other!r}")
+    return found
