@@ -1,8 +1,8 @@
 """One look for all figures: fonts, colours, widths, and the words for methods, runs and units."""
 
 import contextlib
-import itertools
 from dataclasses import dataclass
+from string import ascii_lowercase
 
 import matplotlib as mpl
 import matplotlib.style
@@ -199,11 +199,6 @@ def name_elements(figure: Figure, runs: list[Run]) -> None:
     figure.supxlabel(elements(runs), x=0.995, ha="right", fontsize=8, color=GREY)
 
 
-def sequence(amount: int) -> np.ndarray:
-    """(amount, 4) colours from light to dark, equally spaced to the eye and all visible on white."""
-    return mpl.colormaps["viridis_r"](np.linspace(1.0, 0.12, max(amount, 1))[::-1])
-
-
 def named(amount: int) -> set[int]:
     """Which curves of a sequence are named in a figure: all of a few, else the first, the last and some between."""
     return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
@@ -229,7 +224,7 @@ def surface(run: Run) -> Triangulation:
 
 def panel(index: int) -> str:
     """(a), (b), (c) ..."""
-    return f"({next(itertools.islice('abcdefghijklmnopqrstuvwxyz', index, None))})"
+    return f"({ascii_lowercase[index]})"
 
 
 def shades(share: np.ndarray) -> np.ndarray:

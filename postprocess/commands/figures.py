@@ -125,9 +125,10 @@ def choose_histories(runs: list[Run]) -> list[Run]:
 
 
 def choose_thresholds(runs: list[Run]) -> list[Run]:
-    """The paper's scheme, from hard contact if possible, where the threshold goes the longest way."""
+    """The paper's scheme on one problem, a run for each first threshold, those made for the figures first."""
     fit = [run for run in runs if run.summary["method"] == "paper" and run.summary["contactPoints"] > 0]
-    return sorted(fit, key=lambda run: run.summary["parameters"].get("T0") != "d0")[:1]
+    found = {str(run.summary["parameters"].get("T0")): run for run in fit[::-1] if problem(run) == problem(fit[0])}
+    return sorted(found.values(), key=fit.index)[:3]
 
 
 def choose_overshoots(runs: list[Run]) -> list[Run]:

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
 from postprocess.campaign import Campaign, Row, contact_seconds, good, number, read_campaign, select
@@ -25,7 +25,7 @@ PROBLEMS = {
     "sphere": {"scene": "sphere-on-block"},
     "crossed cylinders": {"scene": "parts-3d"},
 }
-COLUMNS = "name status scene kappa m forceError said seconds"
+COLUMNS = "name status scene kappa m ndof forceError said asked seconds"
 PEERS = "script flags status scene kappa m forceError seconds_assembly seconds_factorisation seconds_contact"
 
 
@@ -44,6 +44,8 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         draw_peers(axes, select(peers, m=3.0, **wanted))
         axes.set_xscale("log")
         axes.set_yscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
         axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.set_title(title, loc="left", fontsize=8, pad=3)
@@ -59,12 +61,13 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
 
 
 def draw_series(axes, rows: list[Row], looks: dict) -> None:
-    """Of each run a stroke from the true error to what was said; the true ones joined in the order of seconds."""
-    for row in sorted(rows, key=lambda row: number(row, "seconds")):
+    """Of each run a stroke from the true error to what was said; the true ones joined from the coarse to the fine."""
+    for row in rows:
         x, true, said = (number(row, name) for name in ("seconds", "forceError", "said"))
         axes.plot([x, x], [true, said], color=looks["color"], linewidth=0.7)
         axes.plot(x, said, **looks, markersize=3.2, markerfacecolor="white", markeredgewidth=0.7, zorder=3)
-    points = sorted((number(row, "seconds"), number(row, "forceError")) for row in rows)
+    rows = sorted(rows, key=lambda row: (-number(row, "asked") if row["asked"] else 0, number(row, "ndof")))
+    points = [(number(row, "seconds"), number(row, "forceError")) for row in rows]
     if points:
         axes.plot(*zip(*points, strict=True), **looks, markersize=3.2, linewidth=0.9, alpha=0.9, zorder=2)
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from postprocess import style
 from postprocess.campaign import Campaign, Row, contact_seconds, good, number, read_campaign
@@ -32,6 +33,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             draw_code(axes, [row for row in rows if problem(row) == which and of(row) == code], color)
         axes.set_xscale("log")
         axes.set_yscale("log")
+        axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
         axes.set_title(name_of(*which), loc="left", fontsize=8)
         axes.grid(color="0.9", linewidth=0.5)
         axes.margins(0.08)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
+from matplotlib.patches import Polygon, Rectangle
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
@@ -52,7 +52,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             axes.set_ylim(window[2], window[3])
             axes.set_aspect("equal")
         grid[0, column].set_title(f"{style.panel(column)} {words}", loc="left", linespacing=1.0, fontsize=8)
-        grid[0, column].add_patch(frame(close))
+        corner, size = close[::2], np.subtract(close[1::2], close[::2])
+        grid[0, column].add_patch(Rectangle(corner, *size, fill=False, linewidth=0.6, zorder=5))
         grid[1, column].set_title(separation(run, state), fontsize=8)
         draw_overlap(grid[2, column], run, state)
         grid[2, column].set_xlim(close[:2])
@@ -234,10 +235,3 @@ def windows(run: Run) -> tuple[tuple, tuple]:
     height = 1.5 * reach
     close = (-reach, reach, depth - 0.68 * height, depth + 0.32 * height)
     return whole, close
-
-
-def frame(window: tuple) -> Polygon:
-    """The contact zone's place in the picture of the whole bodies."""
-    left, right, bottom, top = window
-    corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
-    return Polygon(corners, closed=True, fill=False, edgecolor=style.BLACK, linewidth=0.6, zorder=5)
