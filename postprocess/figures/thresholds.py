@@ -30,7 +30,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
                 number, table = models[row]
                 draw_model(axes, number, table)
                 model = f"model $N = {number}$"
-                axes.set_title(f"{title(run)}\n{model}" if row == 0 else model, fontsize=8, pad=3)
+                heading = title(run) if len(runs) < 3 else title(run).replace(", ", ",\n").replace(": ", ":\n")
+                axes.set_title(f"{heading}\n{model}" if row == 0 else model, fontsize=8, pad=3)
             else:
                 axes.set_visible(False)
         panels[len(models) - 1].tick_params(labelbottom=True)
