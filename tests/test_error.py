@@ -255,7 +255,7 @@ def parts_of(case):
 
 
 def test_own_parts(tmp_path):
-    """A floating pin: its force is told by the balance; pressure, length and the way of its load are known by an error."""
+    """A floating pin: its force is told by the balance; pressure, length, the way of its load are known by an error."""
     case = example("pin-in-hole", tmp_path, size=1.5)
     contact, way = parts_of(case)
     assert contact["force"]["error"] <= 1e-8 and way["error"] <= 0.01 * way["value"]

@@ -319,7 +319,7 @@ tell("slave", seen);
     ],
 )
 def test_master_map(tmp_path, order, element, h, surface):
-    """The overlap shall be the slave's trace less the master's: exact for linear functions of the nodes' places on curved
+    """The overlap shall be the slave's trace less the master's: exact for linear functions of the places on curved
     elements, on straight ones for polynomials of the elements' degree."""
     text = scene_text("meshed-disc") + MASTER.replace("ELEMENT", element)
     values = told(snippet(tmp_path, text, "-method", "newton", "-h", h, "-order", order, "-surface", surface))

@@ -275,7 +275,7 @@ def test_what_a_scene_loads(scene, tmp_path):
     (row,) = [row for row in rows(text) if quoted(row[0]) == [scene]]
     h = {"wavy": 0.5, "rough": 0.25, "sphere-on-plane": 0.5, "two-spheres": 0.5}
     h |= {"adhesive-sphere": 0.02, "adhesive-sphere-3d": 0.04, "adhesive-cylinder": 0.02, "adhesive-wavy": 0.0125}
-    result = run(scene, "-h", h.get(scene, 2))
+    result = run_in(ROOT, script(scene), "-h", h.get(scene, 2), out=tmp_path / "out")
     assert set(result.modules) == common | set(quoted(row[1]))
     assert set(result.plugins) == {"shell"} | set(quoted(row[2]))
 
@@ -298,6 +298,8 @@ def test_freefem_commands(line, tmp_path):
     """FreeFEM's commands shall run, on a coarse mesh and with a value for each placeholder."""
     words = [str(VALUES.get(word, word)) for word in shlex.split(line)]
     assert words[: len(FREEFEM)] == FREEFEM
+    if "multigrid" in words and not (ROOT / "build/multigrid.so").exists():
+        pytest.skip("the plugin is not built: make mpi")
     if "-h" in words:
         words[words.index("-h") + 1] = "2"
     if "bodies.msh" in words:

@@ -108,6 +108,10 @@ for (int k = 0; k < 3; k++)
     worst[k] = reaction.linfty;
 }
 tell("rigid", worst);
+for (int d = 0; d < ndof; d++) unit[d] = dofPlaces(d, 0) * ofComponent(d, 0) + dofPlaces(d, 1) * ofComponent(d, 1);
+tell("swelling", wholeLoad' * unit);
+for (int d = 0; d < ndof; d++) unit[d] = ofComponent(d, 1);
+tell("weighs", wholeLoad' * unit);
 tell("curved", curvedElements);
 tell("stretch", leastStretch);
 """
@@ -115,8 +119,12 @@ tell("stretch", leastStretch);
 
 @pytest.mark.parametrize("order", [2, 4])
 def test_curved_elements(tmp_path, order):
-    """Rigid motions of curved elements shall be without stress, points lie on the circle, weights add up to it."""
-    values = pairs(tmp_path, rings(24).text(), RINGS, more=CURVED, order=order)
+    """Rigid motions of curved elements shall be without stress, points and loads those of the circles."""
+    loads = RINGS + "pressure bore 5\nweight inner 0 -1\n"
+    values = pairs(tmp_path, rings(24).text(), loads, more=CURVED, order=order)
+    assert values["swelling"] == pytest.approx(5 * 2 * np.pi * 10.05**2, rel=2e-5)  # parabolas: 1.0e-5
+    hole = 31 / 2 * 7**2 * np.sin(2 * np.pi / 31)
+    assert values["weighs"] == pytest.approx(-(np.pi * 10**2 - hole), rel=2e-5)
     assert values["curved"] == 24 + 31 and 0.5 < values["stretch"] < 1
     assert abs(values["rigid"]).max() < 1e-10  # rounding of terms of 1e4
     assert values["weight"].sum() == pytest.approx(2 * np.pi * 10.05, rel=1e-5)
