@@ -136,6 +136,7 @@ def test_symmetry():
     assert run(SCENE, *flags).summary["parameters"]["symmetry"] == "quarter"
 
 
+@pytest.mark.long
 def test_grading():
     """Sizes that grow half as fast, the default, shall halve the error of the force: 1567.7 by an independent code."""
     coarse, usual = run(SCENE, "-grading", 20), run(SCENE)

@@ -494,7 +494,9 @@ def campaigns(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if place % 2 else []) for place, name in enumerate(FIGURES)]
+)
 def test_figures(campaigns, tmp_path, name):
     """Each figure of a campaign shall be written as PDF and PNG, failed runs included."""
     out = tmp_path / f"{name}.pdf"

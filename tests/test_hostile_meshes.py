@@ -436,7 +436,13 @@ def untouched(tmp_path_factory):
     return run.force
 
 
-@pytest.mark.parametrize("name", MESHES)
+# of the refused ones every other is long: each has its like beside it
+REFUSED = [name for name, (_, expected) in MESHES.items() if isinstance(expected, list)]
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if name in REFUSED[1::2] else []) for name in MESHES]
+)
 def test_hostile(name, tmp_path, untouched):
     """A mesh shall be refused in one line that names the file and what is wrong, or solved rightly."""
     change, expected = MESHES[name]

@@ -110,7 +110,7 @@ def commands(lab):
 
 
 DRAW = ".venv/bin/python -m postprocess "
-SLOW = ("5-cost", "6-sphere", "8-error")  # their instructors' numbers are tested always
+SLOW = ("5-cost", "6-sphere", "7-gecko", "8-error", "9-own-part")  # their instructors' numbers are tested always
 
 
 @pytest.mark.parametrize("lab", [pytest.param(lab, marks=[pytest.mark.long] if lab in SLOW else []) for lab in LABS])

@@ -204,9 +204,8 @@ def test_refused_with_exact(tmp_path):
 def test_true_distance_to_a_nearly_rigid_disc(points):
     """In hard contact the meshed disc's true distance shall give the rigid disc's force, up to 1/Eratio."""
     flags = ["-law", "signorini", "-d0", 0, "-distance", "exact", "-tol", 1e-8, "-order", 2]
-    for h in (0.5, 0.2):
-        rigid = run("disc-on-block", *flags, "-h", h).force
-        assert run("meshed-disc", *flags, "-h", h, "-points", points).force == pytest.approx(rigid, rel=2e-6)
+    rigid = run("disc-on-block", *flags, "-h", 0.5).force
+    assert run("meshed-disc", *flags, "-h", 0.5, "-points", points).force == pytest.approx(rigid, rel=2e-6)
 
 
 @pytest.mark.parametrize("kappa", [1e-2, 1, 1e3, 1e6, 1e12, 1e30])

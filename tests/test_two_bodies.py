@@ -61,7 +61,7 @@ def test_exchange_of_slave_and_master():
     assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
 
 
-@pytest.mark.parametrize("ratio", [1, 1.37])
+@pytest.mark.parametrize("ratio", [pytest.param(1, marks=pytest.mark.long), 1.37])
 def test_interface_of_equal_cylinders(ratio):
     """Two equal cylinders shall meet in a plane half-way: flat to 1e-3 of the height that the arc loses there."""
     done = run("two-cylinders", "-force", 0, "-u0", 0.4, "-h", 0.05, "-ratio", ratio, "-corners", 0, "-states", 1)
@@ -105,7 +105,7 @@ def test_meshed_disc_counts():
     assert run("meshed-disc", "-method", "paper", "-h", 0.5).summary["newtonPerAdaptation"] == [6, 4, 2]
 
 
-@pytest.mark.parametrize("kappa", [1e3, 1e9])
+@pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
 def test_many_contacts(kappa):
     """Wavy and rough surfaces: many separate contacts, to plain Newton's answer."""
     for scene, flags in (("wavy", ["-u0", 0.7, "-h", 0.2]), ("rough", ["-h", 0.2])):
@@ -118,6 +118,7 @@ def test_many_contacts(kappa):
             assert np.count_nonzero(np.diff(contact.astype(int)) == 1) >= 5
 
 
+@pytest.mark.long
 def test_flat_punch():
     """Away from the corners a flat punch's pressure shall be that of the rigid punch on a half-plane, within 5 %."""
     done = run(

@@ -31,7 +31,7 @@ def faults(figure):
     """What lies on something else or outside, in words."""
     figure.draw_without_rendering()
     scale = figure.dpi / 100
-    boxes = [(text.get_text(), text.get_window_extent()) for text in shown(figure)]
+    boxes = [(text.get_text(), Text.get_window_extent(text)) for text in shown(figure)]  # without its arrow
     boxes = [(text, box) for text, box in boxes if box.width > 0 and box.height > 0]
     whole = figure.bbox.padded(2 * scale)
     found = [
