@@ -14,7 +14,7 @@ from postprocess.references import hertz, merging_pressure
 from postprocess.results import read_run
 from postprocess.vtu import crossings, cut, read_grid
 
-SMALL = ["-h", 0.14, "-layers", 3]
+SMALL = ["-h", 0.2, "-layers", 2]
 PUNCH = ["-a", 1, "-force", 20, "-order", 2, "-h", 0.025, "-grading", 80]
 WAVY = ["-law", "signorini", "-nu", 0, "-width", 20, "-depth", 5, "-waves", 10, "-amplitude", 0.02]
 WAVY += ["-order", 2, "-h", 0.1]
