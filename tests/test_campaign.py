@@ -95,7 +95,7 @@ def test_failures_stay_as_rows(runner, flags, timeout, status):
     begin = time.monotonic()
     rows = runner([runner.case(*flags, timeout=timeout), runner.case("-after", "1")])
     assert [row["status"] for row in rows] == [status, "converged"]
-    assert time.monotonic() - begin < 30
+    assert time.monotonic() - begin < 55
     if status.startswith(("refused", "crash")):
         assert "first line" in rows[0]["message"] or rows[0]["message"] == ""
 
@@ -183,7 +183,7 @@ except KeyboardInterrupt:
     while runner.runs() < 2 and time.monotonic() < deadline:
         time.sleep(0.05)
     os.kill(process.pid, how)
-    assert process.wait(timeout=20) == 130
+    assert process.wait(timeout=100) == 130
     assert [row["flags"].split()[1] for row in read_rows(runner.path)] == ["0"]
     assert not list(tmp_path.glob(".campaign*"))
 

@@ -355,13 +355,13 @@ def test_gmsh_ends_with_its_run(tmp_path, slow_gmsh, how):
         process.kill()
     else:
         os.killpg(process.pid, signal.SIGKILL if how == "kill all" else signal.SIGINT)
-    wait_for(lambda: not started(gmsh), 10)
+    wait_for(lambda: not started(gmsh))
     code, stdout = ended(process)
     assert code == (130 if how == "interrupt" else -signal.SIGKILL)
     if how == "interrupt":
         assert stdout.splitlines()[-1] == "interrupted"
     if how != "kill all":
-        wait_for(lambda: listing(package) == before, 10)
+        wait_for(lambda: listing(package) == before)
     run_in(package, DISC, "-h", 2, "-vtu", 0, out=tmp_path / "out")
     left = set(listing(package)) - set(before) - {"meshes/generated"}
     assert len(left) == 1 and left.pop().endswith(".msh")
