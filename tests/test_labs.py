@@ -90,7 +90,7 @@ def test_where_includes_are_found():
     """All labs shall have the same freefem++.pref, the scenes' but for the way up to edp/."""
     texts = {(folder / "freefem++.pref").read_text() for folder in FOLDERS}
     scenes = (ROOT / "edp/scenes/freefem++.pref").read_text()
-    assert texts == {scenes.replace('includepath += ".."', 'includepath += "../.."')}
+    assert texts == {scenes.replace('"..', '"../..')}
 
 
 # ---------------------------------------------------------------- commands

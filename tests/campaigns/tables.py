@@ -22,9 +22,9 @@ MARKED = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->)", re.S)
 
 Rows = list[dict[str, str]]
 
-# The list of cases of each CSV below results/: its number of rows when it has been run whole
+# The list of cases of each CSV below results/ that tables are made of: its number of rows when it has been run whole
 LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
-    f"bench/{name}": part[0] for name, part in bench.PARTS.items()
+    f"bench/{name}": part[0] for name, part in bench.PARTS.items() if name != "large"
 }
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
 LISTS |= {"coverage/space": coverage.cases_in_space, "coverage/pins": coverage.cases_of_pins}
