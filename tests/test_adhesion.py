@@ -317,7 +317,8 @@ def test_path_goes_on(tmp_path):
     running.wait()
     kept = len(table(again / "path.csv"))
     done = run_in(ROOT, script(SPHERE), *given, "-vtu", 0, out=again)
-    assert f"goes on after state {kept}" in done.stdout or "complete" in done.stdout
+    # the state that is gone on from is in place before the table: a kill in between leaves it one ahead
+    assert any(f"goes on after state {last}," in done.stdout for last in (kept, kept + 1)), (kept, done.stdout)
     np.testing.assert_allclose(
         table(again / "path.csv")["force"], table(tmp_path / "whole" / "path.csv")["force"], rtol=1e-6
     )
