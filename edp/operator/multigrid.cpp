@@ -358,20 +358,27 @@ void spread(const KN_<double> & from, Vec to)
     CHECK(VecRestoreArray(to, &value));
 }
 
-void collect(Vec from, KN_<double> to)
-// The same back, on every rank.
+Vec gathered(Vec from)
+// All of it, on every rank; the caller's to destroy.
 {
     VecScatter all;
     Vec here;
     CHECK(VecScatterCreateToAll(from, &all, &here));
     CHECK(VecScatterBegin(all, from, here, INSERT_VALUES, SCATTER_FORWARD));
     CHECK(VecScatterEnd(all, from, here, INSERT_VALUES, SCATTER_FORWARD));
+    CHECK(VecScatterDestroy(&all));
+    return here;
+}
+
+void collect(Vec from, KN_<double> to)
+// The same back, on every rank.
+{
+    Vec here = gathered(from);
     const double * value;
     CHECK(VecGetArrayRead(here, &value));
     for (int n = 0; n < (int) numberOf.size(); n++)
         for (int c = 0; c < components; c++) to[components * n + c] = value[components * numberOf[n] + c];
     CHECK(VecRestoreArrayRead(here, &value));
-    CHECK(VecScatterDestroy(&all));
     CHECK(VecDestroy(&here));
 }
 
@@ -455,11 +462,7 @@ long multigridForces(KN<double> * const & field, KN<double> * const & forces)
 {
     spread(*field, work);
     CHECK(MatMult(K, work, load));
-    VecScatter all;
-    Vec here;
-    CHECK(VecScatterCreateToAll(work, &all, &here));
-    CHECK(VecScatterBegin(all, work, here, INSERT_VALUES, SCATTER_FORWARD));
-    CHECK(VecScatterEnd(all, work, here, INSERT_VALUES, SCATTER_FORWARD));
+    Vec here = gathered(work);
     const double * u;
     double * f;
     CHECK(VecGetArrayRead(here, &u));
@@ -467,7 +470,6 @@ long multigridForces(KN<double> * const & field, KN<double> * const & forces)
     for (const HeldEntry & e : heldEntries) f[e.row - components * firstNode] += e.value * u[e.column];
     CHECK(VecRestoreArrayRead(here, &u));
     CHECK(VecRestoreArray(load, &f));
-    CHECK(VecScatterDestroy(&all));
     CHECK(VecDestroy(&here));
     collect(load, *forces);
     return 0;
