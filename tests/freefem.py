@@ -133,6 +133,8 @@ def execute(command, cwd=ROOT, env=None):
 def run(scene, *flags, expect=0):
     """The run of a scene with these flags; its exit code must be `expect`. Shared: its files must not be changed.
 
+    Flags are pairs of a name and a value; in another order they are the same run.
+
     The elements are P1, whatever the scene's default, unless -order is among the flags: most meshes are made for it.
     The error is not estimated unless a flag asks for it: that is half of a short run.
     """
@@ -140,7 +142,8 @@ def run(scene, *flags, expect=0):
         flags = (*flags, "-order", 1)
     if not {"-estimate", "-accuracy"} & set(flags):
         flags = (*flags, "-estimate", 0)
-    result = stored(scene, tuple(map(flag_text, flags)))
+    pairs = sorted(zip(flags[::2], flags[1::2], strict=True), key=lambda pair: pair[0])
+    result = stored(scene, tuple(flag_text(word) for pair in pairs for word in pair))
     assert result.code == expect, f"exit code {result.code} of {scene} {flags}:\n{result.stdout[-2000:]}"
     if expect == 0:
         check_invariants(result)
