@@ -3,6 +3,7 @@
 SCENE  ?= disc-on-block
 ARGS   ?=
 TESTS  ?= tests
+NP     :=
 PYTEST_ARGS ?=
 
 # One thread: runs are compared by CPU seconds, and the tests already use every core.
@@ -96,12 +97,13 @@ system:
 PETSC = $(firstword $(if $(PETSC_DIR),$(PETSC_DIR)/$(PETSC_ARCH)) $(wildcard /usr/lib/petscdir/petsc*/*-linux-gnu-real))
 
 mpi: | petsc ## build the plugin for -solver multigrid and several processes: make mpi [PETSC=/its/folder]
-	@$(MAKE) --no-print-directory build/multigrid-plugin.idp
+	@$(MAKE) -s --no-print-directory build/multigrid-plugin.idp
 
 petsc: | system
 	@missing=; \
 	test -n "$(PETSC)" || missing=' libpetsc-real-dev'; \
 	command -v mpicxx >/dev/null || missing="$$missing libopenmpi-dev"; \
+	command -v g++ >/dev/null || missing="$$missing g++"; \
 	$(INSTALL_MISSING)
 
 # ff-c++ writes beside its source. The .idp comes last: what it names is there.
@@ -110,7 +112,7 @@ build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 	ff-c++ -mpi -I$(PETSC)/include $$(mpicxx --showme:compile) -L$(PETSC)/lib -Wl,-rpath,$(PETSC)/lib \
 	  $$(if ls $(PETSC)/lib/libpetsc_real.* >/dev/null 2>&1; then echo -lpetsc_real; else echo -lpetsc; fi) \
 	  $$(mpicxx --showme:link) multigrid.cpp >multigrid.log 2>&1 && test -e multigrid.so || { \
-	  grep -m 3 'error' multigrid.log; echo "the plugin could not be built with the PETSc in $(PETSC): build/multigrid.log"; exit 1; \
+	  grep -m 3 'error:' multigrid.log || tail -n 5 multigrid.log; echo "the plugin could not be built with the PETSc in $(PETSC): build/multigrid.log"; exit 1; \
 	}
 	@rm -f build/multigrid.cpp build/multigrid.o
 	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
@@ -118,8 +120,11 @@ build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 
 # ---------------------------------------------------------------- runs
 
-run: .venv/run.stamp | system ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"]
-	@$(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS); code=$$?; \
+# NP=2: on two processes, under Open MPI, which wants to be told that it may run as root.
+AS_ROOT := OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+RUN = $(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS)
+run: .venv/run.stamp | system $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"] [NP=processes, in space]
+	@$(if $(NP),$(AS_ROOT) ff-mpirun -np $(NP) $(SCRIPT) -solver multigrid $(ARGS) -v 0,$(RUN)); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
 
@@ -251,7 +256,7 @@ bench: .venv/run.stamp | system ## error against run time, cost growth, ingredie
 
 # Large bodies: up to a million unknowns in space, 4 GB.
 bench-large: .venv/run.stamp | system mpi ## sizes in space up to a million unknowns with -solver multigrid, laws, two processes, into results/bench/
-	@OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 $(PYTHON) tests/campaigns/bench.py large
+	@$(AS_ROOT) $(PYTHON) tests/campaigns/bench.py large
 
 # NGSolve is wanted by this target alone.
 .venv-peers/run.stamp: requirements-peers.txt | system
@@ -309,7 +314,7 @@ doctor: ## say what is installed, what is missing and how to get it
 
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
-	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) --no-print-directory build/multigrid-plugin.idp
+	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory build/multigrid-plugin.idp
 	@$(PYTHON) -m pytest -q -n 2 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
 test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun

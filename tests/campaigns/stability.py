@@ -743,10 +743,10 @@ def space_table(rows: list[dict]) -> str:
 def stiffer_table(rows: list[dict]) -> str:
     """The paper's scheme with the disc meshed, ever stiffer, beside the rigid disc."""
     rows = select(rows, name="stiffer disc", status="converged")
-    rigid = next((row for row in rows if " -Eratio " not in row["flags"]), None)
+    ratios = [flags_of(row).get("-Eratio") for row in rows]
+    rigid = next((row for row, ratio in zip(rows, ratios, strict=True) if ratio is None), None)
     lines = []
-    for row in rows:
-        ratio = flags_of(row).get("-Eratio")
+    for row, ratio in zip(rows, ratios, strict=True):
         words, away = "`disc-on-block`", ["", ""]
         if ratio is not None and rigid is not None:
             words = decade(float(ratio))

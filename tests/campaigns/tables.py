@@ -24,7 +24,7 @@ Rows = list[dict[str, str]]
 
 # The list of cases of each CSV below results/ that tables are made of: its number of rows when it has been run whole
 LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
-    f"bench/{name}": part[0] for name, part in bench.PARTS.items() if name != "large"
+    f"bench/{name}": part[0] for name, part in bench.PARTS.items()
 }
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
 LISTS |= {"coverage/space": coverage.cases_in_space, "coverage/pins": coverage.cases_of_pins}
@@ -40,6 +40,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "cost-map": ("bench/growth", bench.cost_map),
     "ingredients": ("bench/ingredients", bench.report_ingredients),
     "hertz": ("bench/hertz", bench.hertz_table),
+    "large": ("bench/large", bench.large_table),
     "asked": ("bench/accuracy", bench.accuracy_runs),
     "peers": ("bench/peers", peers.table),
     "counts": ("stability/stability", stability.parts_table),
