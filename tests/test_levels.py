@@ -1,9 +1,10 @@
 """Products with the kernel of many points without its matrix: against the matrix, and whole runs."""
 
 import pytest
-from freefem import run_in, scene_text, script, snippet, told, tree
+from freefem import run, run_in, scene_text, script, snippet, told, tree
 
 PRODUCTS = """
+topNodes = 100;                               // three grids of few points
 setUpKernel();
 {
     int[int] all(points);
@@ -35,10 +36,10 @@ setUpKernel();
 @pytest.mark.parametrize(
     "scene, flags",
     [
-        ("rough", ["-order", 1, "-h", 0.05, "-modes", 32]),
-        ("rough", ["-order", 2, "-h", 0.1, "-modes", 32]),
-        ("disc-on-block", ["-order", 4, "-h", 0.1]),
-        ("sphere-on-block", ["-order", 1, "-h", 0.4]),
+        ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
+        ("rough", ["-order", 2, "-h", 0.2, "-modes", 32]),
+        ("disc-on-block", ["-order", 4, "-h", 0.2]),
+        ("sphere-on-block", ["-order", 1, "-h", 0.5]),
         ("sphere-on-block", ["-order", 2, "-h", 0.8]),
         ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
     ],
@@ -46,7 +47,7 @@ setUpKernel();
 def test_products(scene, flags, tmp_path):
     """The same as with the matrix to 1 %, for a smooth pressure and for one force."""
     values = told(snippet(tmp_path, scene_text(scene) + PRODUCTS, *flags))
-    assert values["levels"][0] >= 1
+    assert values["levels"][0] >= 3
     assert values["off0"][0] < 0.01
     assert values["off1"][0] < 0.02
 
@@ -111,7 +112,7 @@ tell("force", forces.sum);
 """
 
 
-@pytest.mark.parametrize("side", [60, pytest.param(224, marks=pytest.mark.long)])
+@pytest.mark.parametrize("side", [45, pytest.param(224, marks=pytest.mark.long)])
 def test_start(side, tmp_path):
     """The start of a stiff law on a half-space without body: found on some points, solved on all; Hertz's force."""
     scene = scene_text("sphere-on-block").split("flagsDone(")[0]
@@ -121,17 +122,18 @@ def test_start(side, tmp_path):
     assert values["force"][0] == pytest.approx(values["hertz"][0], rel=0.02)
 
 
-@pytest.mark.parametrize("scene, flags", [("rough", ["-h", 0.2]), ("sphere-on-block", ["-h", 0.6, "-kappa", 1e9])])
+@pytest.mark.parametrize(
+    "scene, flags", [("rough", ["-order", 1, "-h", 0.2]), ("sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9])]
+)
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
     name = package / "edp" / "kernel" / "levels.idp"
     text = name.read_text()
     assert text.count("int manyOnLevels = 1500;") == 1
-    flags = [*flags, "-vtu", 0]
-    usual = run_in(package, script(scene), *flags, out=tmp_path / "usual").summary
-    name.write_text(text.replace("int manyOnLevels = 1500;", "int manyOnLevels = 50;"))
-    other = run_in(package, script(scene), *flags, out=tmp_path / "levels").summary
-    assert other["force"] == pytest.approx(usual["force"], rel=1e-5)
+    usual = run(scene, *flags).summary
+    name.write_text(text.replace("int manyOnLevels = 1500;", "int manyOnLevels = 20;"))
+    other = run_in(package, script(scene), *flags, "-estimate", 0, "-vtu", 0, out=tmp_path / "levels").summary
+    assert other["force"] == pytest.approx(usual["force"], rel=1e-5) and other["force"] != usual["force"]
     assert other["newton"] <= usual["newton"] + 1
     assert other["backsolves"] <= usual["backsolves"] + 5
