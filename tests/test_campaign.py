@@ -528,14 +528,21 @@ def test_a_table_cut_off_is_read_to_its_last_whole_line(tmp_path):
 # ---------------------------------------------------------------- the real runs
 
 
-@pytest.fixture(scope="module")
-def quick(tmp_path_factory):
-    return stability.run(tmp_path_factory.mktemp("stability") / "quick.csv", stability.quick(), jobs=2)
+@pytest.fixture(scope="module", params=["a third", pytest.param("whole", marks=pytest.mark.long)])
+def quick(request, tmp_path_factory):
+    """The rows of the quick campaign, or of every fourth case of its grid and one of each other part."""
+    cases = stability.quick()
+    assert 25 <= len(cases) <= 35
+    if request.param == "a third":
+        of_each = {item.name: item for item in cases}
+        cases = [*[item for item in cases if item.name == "grid"][::4], *of_each.values()]
+    rows = stability.run(tmp_path_factory.mktemp("stability") / "quick.csv", cases, jobs=2)
+    assert {row["name"] for row in rows} == {item.name for item in stability.quick()}
+    return rows
 
 
 def test_the_quick_campaign_has_no_failure(quick):
     """The default method shall solve every case of the quick stability campaign."""
-    assert 25 <= len(quick) <= 35
     assert [(row["flags"], row["status"], row["message"]) for row in quick if row["status"] != "converged"] == []
     assert all(value(row, "residual") <= 1e-8 for row in quick)
 
@@ -543,7 +550,7 @@ def test_the_quick_campaign_has_no_failure(quick):
 def test_the_quick_campaign_keeps_the_counts(quick):
     """On the paper's geometry it shall take at most 4 linearisations, 20 back-substitutions and 2 adaptations."""
     grid = campaign.select(quick, name="grid")
-    assert len(grid) >= 9
+    assert len(grid) >= 4
     for name, most in (("newton", 4), ("backsolves", 20), ("adaptations", 2), ("factorisations", 1)):
         assert [row["flags"] for row in grid if value(row, name) > most] == [], name
     for row in quick:

@@ -1,6 +1,7 @@
 """laws/: the contact law, its inverse and potential, and the law wrapped in its wall, against values of our own."""
 
 from decimal import Decimal, getcontext
+from itertools import product
 
 import numpy as np
 import pytest
@@ -46,6 +47,12 @@ tell("state", dg);
 """
 
 
+# stiffness and exponent: the ends of their ranges and the usual ones; between them in the long run
+RANGE = [(1e-2, 1.05), (1e-2, 30), (1e3, 3), (1e30, 1.05), (1e30, 30)]
+BETWEEN = [pair for pair in product((1e-2, 1e3, 1e12, 1e30), (1.05, 3, 10, 30)) if pair not in RANGE]
+RANGE += [pytest.param(*pair, marks=pytest.mark.long) for pair in BETWEEN]
+
+
 def evaluate(folder, code, rows, *flags):
     rows = np.array(rows, float)
     lines = [str(len(rows))] + [" ".join(map(repr, map(float, np.atleast_1d(row)))) for row in rows]
@@ -76,8 +83,7 @@ def test_law_is_zero_without_overlap(tmp_path):
         assert (values == 0).all()
 
 
-@pytest.mark.parametrize("kappa", [1e-2, 1e3, 1e12, 1e30])
-@pytest.mark.parametrize("m", [1.05, 3, 10, 30])
+@pytest.mark.parametrize("kappa, m", RANGE)
 def test_law_over_its_range(tmp_path, kappa, m):
     """The law shall keep its relative precision for any stiffness and exponent, however thin the layer."""
     top = (100 / kappa) ** (1 / m)  # where p = 100
@@ -150,8 +156,7 @@ def graph_rows(kappa, m):
     return rows
 
 
-@pytest.mark.parametrize("kappa", [1e-2, 1e3, 1e12, 1e30])
-@pytest.mark.parametrize("m", [1.05, 3, 30])
+@pytest.mark.parametrize("kappa, m", RANGE)
 def test_graph_point(tmp_path, kappa, m):
     """The graph's point along the body's response shall be the one that bisection finds, in every state."""
     rows = graph_rows(kappa, m)

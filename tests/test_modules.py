@@ -1,6 +1,7 @@
 """case/, bodies/, surface/ and solve/: each module by itself, against values worked out by hand."""
 
 import json
+from itertools import product
 
 import numpy as np
 import pytest
@@ -313,8 +314,8 @@ tell("slave", seen);
     [
         (1, "[P1, P1]", 1.7, "smooth"),
         (2, "[P2, P2]", 1.7, "facets"),
-        (2, "[P2, P2]", 0.5, "smooth"),
-        (4, "[P4, P4]", 1.7, "facets"),
+        pytest.param(2, "[P2, P2]", 0.5, "smooth", marks=pytest.mark.long),
+        pytest.param(4, "[P4, P4]", 1.7, "facets", marks=pytest.mark.long),
         (4, "[P4, P4]", 1.7, "smooth"),
     ],
 )
@@ -347,7 +348,10 @@ tell("linear", seen);
 """
 
 
-@pytest.mark.parametrize("share", [0.35, 0.56, 0.62, 0.68, 0.7, 0.74, 0.75, 0.8, 0.95, 1])
+SHORT, LONG = (0.62, 0.74, 1), (0.35, 0.56, 0.68, 0.7, 0.75, 0.8, 0.95)
+
+
+@pytest.mark.parametrize("share", [*SHORT, *(pytest.param(share, marks=pytest.mark.long) for share in LONG)])
 @pytest.mark.parametrize("order, element", [(1, "[P1, P1]"), (2, "[P2, P2]"), (4, "[P4, P4]")])
 def test_partly_covered(tmp_path, share, order, element):
     """Whatever part the master covers, no weight shall be negative, and together they give the integrals."""
@@ -402,7 +406,7 @@ func int imbalance(real[int] & u, real[int] & G)
 }
 real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points);
 displacement = 0;
-for (int k = 1; k <= STEPS; k++)
+for (int k = 1; k <= 5; k++)
 {
     uBefore = displacement;
     traceOf(uBefore, trace);
@@ -410,24 +414,35 @@ for (int k = 1; k <= STEPS; k++)
     lawPressure(s, p, slope);
     for (int i = 0; i < points; i++) state[i] = slope[i] > 0 ? compliant : open;
     solveLinearised();
+    if (k != 2 && k != 5) continue;
+    fullStep = displacement - uBefore;
+    imbalance(uBefore, G0);
+    real smallness = 1e-5;
+    real[int] uForward = uBefore + smallness * fullStep;
+    real[int] uBackward = uBefore - smallness * fullStep;
+    imbalance(uForward, Gplus);
+    imbalance(uBackward, Gminus);
+    real[int] JfullStep = Gplus - Gminus;
+    JfullStep /= 2 * smallness;
+    real[int] tangentError = JfullStep + G0;
+    tell("imbalance" + k, G0.l2);
+    tell("error" + k, tangentError.l2);
 }
-fullStep = displacement - uBefore;
-imbalance(uBefore, G0);
-real smallness = 1e-5;
-real[int] uForward = uBefore + smallness * fullStep;
-real[int] uBackward = uBefore - smallness * fullStep;
-imbalance(uForward, Gplus);
-imbalance(uBackward, Gminus);
-real[int] JfullStep = Gplus - Gminus;
-JfullStep /= 2 * smallness;
-real[int] tangentError = JfullStep + G0;
-tell("imbalance", G0.l2);
-tell("error", tangentError.l2);
 """
 
 
-@pytest.mark.parametrize("scene", ["disc-on-block", "meshed-disc", "confined-block"])
-@pytest.mark.parametrize("order", [1, 2, 4])
+@pytest.mark.parametrize(
+    "scene, order",
+    [
+        ("disc-on-block", 4),
+        ("meshed-disc", 2),
+        ("confined-block", 1),
+        *(
+            pytest.param(*case, marks=pytest.mark.long)
+            for case in product(("disc-on-block", "meshed-disc", "confined-block"), (1, 2, 4))
+        ),
+    ],
+)
 def test_tangent(tmp_path, scene, order):
     """The linearised system shall be the derivative of the equilibrium residual, by central differences."""
     solver = (ROOT / "edp/solve/solve.idp").read_text()
@@ -436,11 +451,10 @@ def test_tangent(tmp_path, scene, order):
         'openOutput(outFolder, (loadSeries ? " series.csv series.state" : ""));', ""
     )
     flags = ["-method", "newton", "-order", order, "-h", 1, *(["-Eratio", 50] if scene == "meshed-disc" else [])]
-    for steps in (2, 5):
-        code = scene_text(scene) + solver + TANGENT.replace("STEPS", str(steps))
-        values = told(snippet(tmp_path, code, *flags))
-        assert values["imbalance"] > 1e-3
-        assert values["error"] < 1e-7 * values["imbalance"]
+    values = told(snippet(tmp_path, scene_text(scene) + solver + TANGENT, *flags))
+    for step in (2, 5):
+        assert values[f"imbalance{step}"] > 1e-3
+        assert values[f"error{step}"] < 1e-7 * values[f"imbalance{step}"]
 
 
 # ---------------------------------------------------------------- lists of a scene's own
