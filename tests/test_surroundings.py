@@ -296,7 +296,7 @@ def test_files_of_the_user_stay(tmp_path):
     own = ["notes.vtu", "notes.tmp", "state-99.vtu", "mine.gif", "axis.csv"]
     for name in own:
         (tmp_path / name).write_text("mine")
-    run_in(ROOT, BLOCK, "-method", "newton", "-tol", 0.5, "-h", 5, "-states", 1, out=tmp_path)
+    run_in(ROOT, BLOCK, "-method", "newton", "-kappa", 0.01, "-tol", 0.9, "-h", 5, "-states", 1, out=tmp_path)
     states = [name for name in files(tmp_path) if name.startswith("state-") and name not in own]
     assert len(states) > 1
     assert main(["movie", "--out", str(tmp_path), str(tmp_path)]) == 0
@@ -445,7 +445,7 @@ def interrupted_series(*words, cwd=ROOT, rows=4):
 @pytest.mark.parametrize("method", ["xnewton", "paper"])
 def test_series_counts_go_on(tmp_path, method):
     """An interrupted series shall end with the forces and counts of one that was not."""
-    flags = ["-method", method, "-h", 0.5, "-order", 1, "-history", 1, "-steps", 20, "-vtu", 0, "-estimate", 0]
+    flags = ["-method", method, "-h", 1, "-order", 1, "-history", 1, "-steps", 20, "-vtu", 0, "-estimate", 0]
     whole = run_in(ROOT, DISC, *flags, out=tmp_path / "whole")
     out = tmp_path / "halved"
     interrupted_series(DISC, *flags, "-out", out)
