@@ -20,7 +20,7 @@ FORCE_M10, PRESSURE_MAX_M10, HALF_WIDTH_M10 = 114.04577, 19.478949, 5.464573
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 PAPER = ["-method", "paper", "-T0", "0", "-h", 0.5, "-tol", 1e-6, "-eps", 1e-4, "-order", 1]
-FINE = ["-order", 2, "-h", 0.2]
+FINE = ["-order", 2, "-h", 0.25]
 EXACT_STOP = ["-eps", 1e-12, "-tol", 1e-10]
 
 
@@ -31,17 +31,10 @@ def near(value, reference, relative):
 # ---------------------------------------------------------------- the paper's count
 
 
-def test_the_papers_count():
-    """The paper's scheme on the paper's test at h = 0.5 shall take 3 adaptations and 11 to 13 Newton steps."""
-    paper = run(DISC, *PAPER)
-    assert paper.adaptations == 3
-    assert 11 <= paper.newton <= 13
-    assert all(steps <= most for steps, most in zip(paper.newtonPerAdaptation, (6, 4, 2), strict=True))
-
-
-def test_the_papers_count_on_two_meshed_bodies():
-    """With both bodies meshed the paper's scheme shall take 3 adaptations and 11 to 13 Newton steps too."""
-    paper = run(TWO_BODIES, *PAPER)
+@pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
+def test_the_papers_count(scene):
+    """The paper's scheme at h = 0.5 shall take 3 adaptations, 11 to 13 Newton steps, with the disc meshed as well."""
+    paper = run(scene, *PAPER)
     assert paper.adaptations == 3
     assert 11 <= paper.newton <= 13
     assert all(steps <= most for steps, most in zip(paper.newtonPerAdaptation, (6, 4, 2), strict=True))
@@ -51,7 +44,6 @@ def test_the_papers_count_on_two_meshed_bodies():
 CEILINGS = [
     (DISC, ["-method", "paper", "-h", 1], 3, 12),
     (DISC, ["-method", "paper", "-h", 0.25], 4, 13),
-    (DISC, ["-method", "paper", "-h", 0.25, "-corners", 0], 4, 13),
     (DISC, ["-method", "paper", *FINE], 5, 15),
     (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.5], 3, 13),
     (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.25], 4, 18),
@@ -60,23 +52,24 @@ CEILINGS = [
     (DISC, ["-method", "newton", "-h", 0.5, "-kappa", 1e12], 1, 26),
     (DISC, ["-method", "incremental", "-h", 0.5], 1, 73),
     (DISC, ["-method", "signorini", "-h", 0.5], 1, 4),
-    (TWO_BODIES, ["-method", "paper", "-h", 0.5, "-order", 2], 3, 12),
     (TWO_BODIES, ["-method", "newton", "-h", 0.5], 1, 8),
     (TWO_BODIES, ["-method", "signorini", "-h", 0.5], 1, 4),
     (TWO_BODIES, ["-method", "signorini", "-h", 0.5, "-order", 2], 1, 5),
-    (DISC, ["-method", "signorini", *FINE], 1, 6),
     (BLOCK, ["-method", "paper", "-h", 4], 1, 4),
     (BLOCK, ["-method", "newton", "-h", 4, "-kappa", 1e12], 1, 25),
 ]
 CEILINGS += [
-    pytest.param(DISC, flags, adaptations, newton, marks=pytest.mark.long)
-    for flags, adaptations, newton in (
-        (["-method", "paper", "-h", 0.1, "-corners", 0], 4, 16),
-        (["-method", "paper", "-h", 0.1], 5, 17),
-        (["-method", "paper", "-h", 0.1, "-order", 2], 6, 21),
-        (["-method", "paper", "-T0", "d0", "-h", 0.1], 7, 28),
-        (["-method", "newton", "-h", 0.1, "-order", 2], 1, 9),
-        (["-method", "signorini", "-h", 0.1, "-order", 2], 1, 8),
+    pytest.param(*counted, marks=pytest.mark.long)
+    for counted in (
+        (DISC, ["-method", "paper", "-h", 0.25, "-corners", 0], 4, 13),
+        (DISC, ["-method", "paper", "-h", 0.1, "-corners", 0], 4, 16),
+        (DISC, ["-method", "paper", "-h", 0.1], 5, 17),
+        (DISC, ["-method", "paper", "-h", 0.1, "-order", 2], 6, 21),
+        (DISC, ["-method", "paper", "-T0", "d0", "-h", 0.1], 7, 28),
+        (DISC, ["-method", "newton", "-h", 0.1, "-order", 2], 1, 9),
+        (DISC, ["-method", "signorini", "-h", 0.2, "-order", 2], 1, 6),
+        (DISC, ["-method", "signorini", "-h", 0.1, "-order", 2], 1, 8),
+        (TWO_BODIES, ["-method", "paper", "-h", 0.5, "-order", 2], 3, 12),
     )
 ]
 
@@ -94,7 +87,7 @@ def test_ceilings(scene, flags, adaptations, newton):
 
 @pytest.mark.parametrize("method", ["paper", "newton"])
 def test_accuracy(method):
-    """P2 at h = 0.2 shall give force, pressure, half-width and pressure profile of the independent computation."""
+    """P2 at h = 0.25 shall give force, pressure, half-width and pressure profile of the independent computation."""
     result = run(DISC, "-method", method, *FINE)
     assert near(result.force, FORCE, 2e-4)
     assert near(result.pressureMax, PRESSURE_MAX, 2e-4)
@@ -127,9 +120,11 @@ def test_order_of_convergence(order, sizes, slowest):
 @pytest.mark.parametrize(
     "scene, h, order",
     [
-        *((scene, h, order) for scene, h in ((DISC, 0.5), (BLOCK, 4)) for order in (1, 2, 4)),
+        (DISC, 0.5, 1),
+        (DISC, 0.5, 4),
         (TWO_BODIES, 1, 1),
-        *(pytest.param(TWO_BODIES, 1, order, marks=pytest.mark.long) for order in (2, 4)),
+        *(pytest.param(scene, h, 2, marks=pytest.mark.long) for scene, h in ((DISC, 0.5), (TWO_BODIES, 1), (BLOCK, 4))),
+        *(pytest.param(scene, h, 4, marks=pytest.mark.long) for scene, h in ((TWO_BODIES, 1), (BLOCK, 4))),
     ],
 )
 def test_same_answer(scene, h, order):
@@ -147,7 +142,7 @@ def test_same_answer(scene, h, order):
         assert near(other.energy, newton.energy, 1e-10)
 
 
-@pytest.mark.parametrize("kappa, m", [(1e6, 3), (1e3, 10), (1e9, 2)])
+@pytest.mark.parametrize("kappa, m", [pytest.param(1e6, 3, marks=pytest.mark.long), (1e3, 10), (1e9, 2)])
 def test_same_answer_of_stiff_laws(kappa, m):
     """Both first thresholds of the paper's scheme shall lead to Newton's answer for stiffer laws too."""
     flags = ["-h", 0.5, "-kappa", kappa, "-m", m, *EXACT_STOP]
@@ -161,7 +156,7 @@ def test_same_answer_of_stiff_laws(kappa, m):
 def test_rho_does_not_matter():
     """The weight rho of the overlap in the status shall not change the paper's answer."""
     flags = ["-method", "paper", "-T0", "d0", "-h", 0.5, *EXACT_STOP]
-    forces = [run(DISC, *flags, "-rho", rho).force for rho in (1e-3, 100, 1e6)]
+    forces = [run(DISC, *flags, *rho).force for rho in (["-rho", 1e-3], [], ["-rho", 1e6])]
     assert near(min(forces), max(forces), 1e-7)
 
 
@@ -176,11 +171,7 @@ def test_energy_is_the_work_of_the_load():
 def test_energy_is_the_least():
     """No model on the way to the solution shall have less energy: a wall only takes states away."""
     best = run(DISC, "-method", "newton", "-h", 0.5, *EXACT_STOP).energy
-    for flags in (
-        ["-method", "paper", "-eps", 0.9],
-        ["-method", "paper", "-T0", "d0", "-eps", 0.9],
-        ["-method", "signorini"],
-    ):
+    for flags in (["-method", "paper", "-eps", 0.9], ["-method", "signorini"]):
         assert run(DISC, "-h", 0.5, *flags).energy >= best * (1 - 1e-12)
 
 
@@ -188,12 +179,11 @@ def test_energy_is_the_least():
 
 
 @pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
-@pytest.mark.parametrize("threshold", ["0", "d0"])
-def test_thresholds(scene, threshold):
+@pytest.mark.parametrize("flags, first", [(PAPER, 0), (["-method", "paper", "-T0", "d0", "-h", 0.5], -0.25)])
+def test_thresholds(scene, flags, first):
     """Thresholds shall start at T0, rise, and follow eq. (6) at every point where the wall carried, stay elsewhere."""
-    result = run(scene, "-method", "paper", "-T0", threshold, "-h", 0.5)
-    models = result.models
-    assert (models[0]["threshold"] == (0 if threshold == "0" else -0.25)).all()
+    models = run(scene, *flags).models
+    assert (models[0]["threshold"] == first).all()
     assert len(models) >= 3
     for before, after in pairwise(models):
         wall = before["status"] == WALL
@@ -206,8 +196,8 @@ def test_thresholds(scene, threshold):
 
 def test_model_error():
     """The model error shall be eq. (7)'s, in the shifted threshold, and stop the loop below eps and not before."""
-    for eps in (0.5, 0.2, 0.02):
-        result = run(DISC, "-method", "paper", "-T0", "d0", "-h", 0.25, "-eps", eps)
+    for eps in (0.5, 0.02):
+        result = run(DISC, "-method", "paper", "-T0", "d0", "-h", 0.5, "-eps", eps)
         errors = []
         for model in result.models:
             wall = model["status"] == WALL
@@ -220,7 +210,7 @@ def test_model_error():
 
 def test_residual_is_the_distance_to_the_law():
     """The residual of the summary shall be the law's own, evaluated from the contact table."""
-    for flags in (["-tol", 1e-2], ["-tol", 1e-4]):
+    for flags in (["-tol", 1e-2], []):
         result = run(DISC, "-method", "newton", "-h", 0.5, *flags)
         contact, weight = result.contact, result.contact["weight"]
         law = 1e3 * (contact["overlap"] + 0.25).clip(0) ** 3
@@ -232,6 +222,7 @@ def test_residual_is_the_distance_to_the_law():
 
 # ---------------------------------------------------------------- invariance
 
+# the scenes' defaults, but for h
 LENGTHS = {
     DISC: {"width": 40.0, "depth": 20.0, "R": 10.0, "gap": 0.5, "u0": 2.5, "d0": -0.25, "h": 0.5},
     BLOCK: {"width": 20.0, "depth": 20.0, "gap": 0.5, "u0": 2.5, "d0": -0.25, "h": 4.0},
@@ -239,10 +230,10 @@ LENGTHS = {
 LENGTHS[TWO_BODIES] = LENGTHS[DISC]
 
 
-def in_units(scene, length, pressure, m=3):
+def in_units(scene, length, pressure):
     """The case's flags where one of its units of length, of pressure, is `length`, `pressure` new ones."""
     flags = {name: value * length for name, value in LENGTHS[scene].items()}
-    flags.update(E=100.0 * pressure, kappa=1e3 * pressure / length**m, rho=100.0 * pressure / length, m=float(m))
+    flags.update(E=100.0 * pressure, kappa=1e3 * pressure / length**3, rho=100.0 * pressure / length)
     return [word for name, value in flags.items() for word in ("-" + name, value)]
 
 
@@ -256,10 +247,9 @@ LARGER = (1 / 7e7, 3e11)
         (DISC, ["-method", "paper"], *SMALLER),
         (DISC, ["-method", "paper", "-T0", "d0"], *LARGER),
         (DISC, ["-method", "newton", "-order", 2], *SMALLER),
-        (DISC, ["-method", "incremental", "-steps", 4], *LARGER),
+        (DISC, ["-method", "incremental", "-steps", 4, *EXACT_STOP], *LARGER),
         (DISC, ["-method", "signorini"], *SMALLER),
         (TWO_BODIES, ["-method", "paper", "-T0", "d0"], *SMALLER),
-        (TWO_BODIES, ["-method", "newton", "-order", 2], *LARGER),
         (TWO_BODIES, ["-method", "signorini"], *LARGER),
         (BLOCK, ["-method", "paper"], *LARGER),
         (BLOCK, ["-method", "incremental", "-steps", 4], *SMALLER),
@@ -268,7 +258,7 @@ LARGER = (1 / 7e7, 3e11)
 )
 def test_invariance(scene, flags, length, pressure):
     """A change of units (m and Pa to mm and MPa) shall change no count, and scale every result to 1e-9."""
-    first = run(scene, *in_units(scene, 1.0, 1.0), *flags)
+    first = run(scene, "-h", LENGTHS[scene]["h"], *flags)
     other = run(scene, *in_units(scene, length, pressure), *flags)
     assert first.contactPoints >= 5
     assert other.newtonPerAdaptation == first.newtonPerAdaptation
@@ -300,7 +290,7 @@ def test_invariance(scene, flags, length, pressure):
 # ---------------------------------------------------------------- both bodies meshed
 
 
-@pytest.mark.parametrize("order", [1, 2, pytest.param(4, marks=pytest.mark.long)])
+@pytest.mark.parametrize("order", [1, *(pytest.param(order, marks=pytest.mark.long) for order in (2, 4))])
 def test_meshed_disc_converges_to_the_rigid_disc(order):
     """With both bodies meshed the result shall tend to the rigid disc's, the difference falling like 1/Eratio."""
     flags = ["-method", "newton", "-h", 2 if order == 4 else 1, "-order", order, *EXACT_STOP]
@@ -327,7 +317,7 @@ def test_hard_contact_is_the_limit():
     """Stiffer and stiffer laws shall tend to hard contact at d0, the difference falling like kappa^(-1/m)."""
     m = 3
     hard = run(DISC, "-method", "signorini", "-h", 0.5)
-    stiffnesses = np.array([1e6, 1e9, 1e12, 1e15])
+    stiffnesses = np.array([1e6, 1e9, 1e15])
     forces = np.array(
         [run(DISC, "-method", "newton", "-h", 0.5, *EXACT_STOP, "-kappa", kappa).force for kappa in stiffnesses]
     )
@@ -339,7 +329,7 @@ def test_hard_contact_is_the_limit():
 
 def test_hard_contact_is_complementary():
     """Hard contact shall be a wall at d0: pressure only at it, no overlap beyond it, no law."""
-    result = run(DISC, "-method", "signorini", "-h", 0.25)
+    result = run(DISC, "-method", "signorini", "-h", 0.5)
     contact = result.contact
     assert (contact["threshold"] == -0.25).all()
     assert (contact["overlap"] <= -0.25).all()
@@ -350,7 +340,7 @@ def test_hard_contact_is_complementary():
 
 def test_hard_contact_does_not_depend_on_rho():
     """The weight rho of the overlap shall have no effect on hard contact's result or steps."""
-    runs = [run(DISC, "-method", "signorini", "-h", 0.5, "-rho", rho) for rho in (1, 100, 1e6)]
+    runs = [run(DISC, "-method", "signorini", "-h", 0.5, *rho) for rho in (["-rho", 1], [], ["-rho", 1e6])]
     assert len({(result.force, tuple(result.newtonPerAdaptation)) for result in runs}) == 1
 
 
@@ -364,25 +354,8 @@ def test_wall_where_the_planes_meet_is_another_problem():
 
 def test_hertz():
     """A light hard contact shall have Hertz's half-width (by the second moment) and greatest pressure."""
-    result = run(
-        DISC,
-        "-method",
-        "signorini",
-        "-d0",
-        0,
-        "-gap",
-        0,
-        "-u0",
-        0.02,
-        "-order",
-        2,
-        "-h",
-        0.05,
-        "-R",
-        8,
-        "-grading",
-        100,
-    )
+    small = ["-d0", 0, "-gap", 0, "-u0", 0.02, "-R", 8, "-reach", 2, "-h", 0.1, "-grading", 100]
+    result = run(DISC, "-method", "signorini", "-order", 2, *small)
     hertz = math.sqrt(4 * result.force * 8 / (math.pi * 100 / (1 - 0.3**2)))
     assert near(result.summary["halfWidthMoment"], hertz, 0.01)
     assert near(result.pressureMax, 2 * result.force / (math.pi * hertz), 0.01)
@@ -392,11 +365,19 @@ def test_hertz():
 
 
 @pytest.mark.parametrize(
-    "scene, order", [(DISC, 1), (DISC, 2), (DISC, 4), (TWO_BODIES, 1), (TWO_BODIES, 2), (BLOCK, 1)]
+    "scene, flags",
+    [
+        (DISC, PAPER),
+        (DISC, ["-method", "paper", *FINE]),
+        (DISC, ["-method", "paper", "-T0", "d0", "-h", 2, "-order", 4, *EXACT_STOP]),
+        (TWO_BODIES, PAPER),
+        (BLOCK, ["-method", "paper", "-h", 4]),
+    ],
+    ids=named,
 )
-def test_one_factorisation_a_step(scene, order):
+def test_one_factorisation_a_step(scene, flags):
     """The paper's scheme shall factorise once, and back-substitute once, for each Newton step."""
-    result = run(scene, "-method", "paper", "-h", 4 if scene == BLOCK else 0.5 if order < 4 else 2, "-order", order)
+    result = run(scene, *flags)
     assert result.factorisations == result.newton
     assert result.backsolves == result.newton
     assert (np.diff(result.history["factorisations"], prepend=0) == 1).all()
