@@ -9,9 +9,13 @@ SCENE = "sphere-on-block"
 E, NU = 100.0, 0.3
 COARSE = ["-h", 1.2, "-layers", 2, "-tol", 1e-8]
 FORCE = 40 * E / (1 - NU**2) / 300  # contact radius a = 1 on a half-space, with R = 10
+FINE = ["-law", "signorini", "-d0", 0, "-gap", 0, "-force", FORCE, "-patch", 1.3, "-grading", 80]
+FINE_HALF = [*FINE, "-h", 0.1, "-layers", 4, "-symmetry", "half"]
 
 
-@pytest.mark.parametrize("symmetry, points", [("whole", 49), ("half", 28), ("quarter", 16)])
+@pytest.mark.parametrize(
+    "symmetry, points", [("whole", 49), pytest.param("half", 28, marks=pytest.mark.long), ("quarter", 16)]
+)
 def test_stiffness_and_points(tmp_path, symmetry, points):
     """Energies of linear displacements, and the weights of the points, shall be exact, and those of the whole."""
     code = """
@@ -48,7 +52,7 @@ def test_stiffness_and_points(tmp_path, symmetry, points):
     assert len(values["top"]) == points
 
 
-@pytest.mark.parametrize("kappa", [1e3, 1e9])
+@pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
 def test_methods_agree(kappa):
     """The paper's scheme, Newton's method, load steps and xnewton shall find one solution, the energy's minimum."""
     best = run(SCENE, *COARSE, "-kappa", kappa)
@@ -71,9 +75,7 @@ def test_hertz():
     """Under a force: radius and greatest pressure within 3 % of Hertz at h = a/10, the error falling with h."""
     greatest = 3 * FORCE / (2 * np.pi)
     errors = []
-    for h, layers in ((0.2, 2), (0.1, 4)):
-        flags = ["-law", "signorini", "-force", FORCE, "-patch", 1.3, "-h", h, "-layers", layers, "-grading", 80]
-        flags += ["-symmetry", "half"]
+    for flags in ([*FINE, "-h", 0.2, "-layers", 2, "-symmetry", "half"], FINE_HALF):
         sphere = run(SCENE, *flags)
         assert sphere.force == pytest.approx(FORCE, rel=1e-12)
         errors.append((abs(sphere.halfWidthMoment - 1), abs(sphere.pressureMax / greatest - 1)))
@@ -87,7 +89,14 @@ LAWS = [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1, 1e12) for m
 
 
 @pytest.mark.parametrize(
-    "law, symmetry", [*((law, "quarter") for law in LAWS), (LAWS[1], "half"), (LAWS[4], "half"), (LAWS[0], "whole")]
+    "law, symmetry",
+    [
+        *((law, "quarter") for law in LAWS),
+        (LAWS[4], "half"),
+        (LAWS[4], "whole"),
+        pytest.param(LAWS[1], "half", marks=pytest.mark.long),
+        pytest.param(LAWS[0], "whole", marks=pytest.mark.long),
+    ],
 )
 def test_counts(law, symmetry):
     """At most 5 linearisations and 20 back-substitutions, one factorisation, whatever the law's stiffness."""
@@ -106,14 +115,13 @@ mesh3 Th = side + movemesh(side, [x, -y, z], orientation = -1);
 """
 
 
-@pytest.mark.parametrize("loads", [[], ["-bodyForce", 0.1, "-traction", -1]], ids=["bare", "loaded"])
-def test_quarter_is_a_quarter_of_its_images(tmp_path, loads):
-    """A quarter, and the block on the quarter's mesh and its mirror images, shall have one solution."""
+def test_quarter_is_a_quarter_of_its_images(tmp_path):
+    """A loaded quarter, and the block on the quarter's mesh and its mirror images, shall have one solution."""
     package = tree(tmp_path / "package")
     block = package / "edp" / "bodies" / "block-mesh.idp"
     assert block.read_text().count(MESH) == 1
     block.write_text(block.read_text().replace(MESH, UNFOLDED))
-    flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-tol", 1e-10, *loads]
+    flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-tol", 1e-10, "-bodyForce", 0.1, "-traction", -1]
     quarter = run(SCENE, *flags, "-symmetry", "quarter")
     whole = run_in(package, script(SCENE), *flags, "-symmetry", "whole", "-vtu", 0, out=tmp_path / "out")
     assert whole.points == 169
@@ -127,13 +135,13 @@ def test_quarter_is_a_quarter_of_its_images(tmp_path, loads):
 
 def test_symmetry():
     """Whole, half and quarter shall agree better than the mesh allows, the half and the quarter with fewer unknowns."""
-    flags = ["-h", 0.8, "-grading", 20]
+    flags = [*LAWS[4], "-h", 0.8, "-grading", 20]
     whole, half, quarter = (run(SCENE, *flags, "-symmetry", each) for each in ("whole", "half", "quarter"))
     assert half.force == pytest.approx(whole.force, rel=0.01)
     assert quarter.force == pytest.approx(whole.force, rel=0.01)
     assert half.ndof < 0.6 * whole.ndof
     assert quarter.ndof < 0.33 * whole.ndof
-    assert run(SCENE, *flags).summary["parameters"]["symmetry"] == "quarter"
+    assert run(SCENE, *COARSE).summary["parameters"]["symmetry"] == "quarter"
 
 
 @pytest.mark.long
@@ -154,12 +162,9 @@ def ridge(sphere):
     return error[inside & onX].mean(), error[inside & onY].mean(), error[inside & ~onX & ~onY].mean()
 
 
-FINE = ["-law", "signorini", "-d0", 0, "-gap", 0, "-force", FORCE, "-patch", 1.3, "-grading", 80]
-
-
 def test_no_ridge_on_the_mirror():
     """P1 on a half: pressures on its mirror shall be those beside it, within half a per cent of the greatest."""
-    onX, onY, inner = ridge(run(SCENE, *FINE, "-h", 0.1, "-symmetry", "half"))
+    onX, onY, inner = ridge(run(SCENE, *FINE_HALF))
     assert abs(onX - inner) < 0.005
     assert abs(onY - inner) < 0.005
 
@@ -169,6 +174,7 @@ def test_no_ridge_on_two_mirrors(scene):
     """P2 on a quarter, h = a/5: pressures on both planes shall be those beside them, within 1.5 % of the greatest."""
     flags = FINE if scene == SCENE else ["-force", FORCE]
     balls = run(scene, *flags, "-h", 0.2, "-layers", 2, "-order", 2)
+    assert balls.newton <= 4
     onX, onY, inner = ridge(balls)
     assert abs(onX - inner) < 0.015
     assert abs(onY - inner) < 0.015
@@ -240,7 +246,11 @@ def hertz(force, radius, modulus):
 
 
 @pytest.mark.parametrize(
-    "scene, radius, modulus", [("two-spheres", 5, 50 / (1 - NU**2)), ("sphere-on-plane", 10, 100 / (1 - NU**2))]
+    "scene, radius, modulus",
+    [
+        ("two-spheres", 5, 50 / (1 - NU**2)),
+        pytest.param("sphere-on-plane", 10, 100 / (1 - NU**2), marks=pytest.mark.long),
+    ],
 )
 def test_balls_against_hertz(scene, radius, modulus):
     """Balls under a force: within 4 % of Hertz at h = a/10; radius and profile converge."""
@@ -263,10 +273,10 @@ def test_balls_against_hertz(scene, radius, modulus):
 
 def test_unequal_balls_exchanged():
     """Exchanging slave and master shall change the force by less than the discretisation error does."""
-    flags = ["-force", 0, "-u0", 0.3, "-h", 0.2, "-layers", 2, "-tol", 1e-8]
+    flags = ["-force", 0, "-u0", 0.3, "-h", 0.3, "-layers", 1, "-tol", 1e-8]
     one = run("two-spheres", *flags, "-E2", 300, "-R2", 8)
     other = run("two-spheres", *flags, "-E1", 300, "-E2", 100, "-R1", 8, "-R2", 10, "-ratio", 0.73)
-    finer = run("two-spheres", *flags[:5], 0.1, "-layers", 4, "-tol", 1e-8, "-E2", 300, "-R2", 8)
+    finer = run("two-spheres", *flags[:5], 0.15, "-layers", 2, "-tol", 1e-8, "-E2", 300, "-R2", 8)
     assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
 
 
@@ -284,7 +294,7 @@ def test_two_balls_by_all_methods(kappa):
             )
 
 
-@pytest.mark.parametrize("ratio", [1, 1e-6, 1e9])
+@pytest.mark.parametrize("ratio", [1e-6, 1e9])
 def test_patch_in_space(ratio):
     """Between meshes of 4 and 7 elements a side the pressure shall be exact to 1e-10, whatever the stiffness ratio."""
     done = run("patch-test-3d", "-tol", 1e-11, "-Eratio", ratio)
@@ -300,8 +310,15 @@ def test_patch_in_space_nodal_fails():
     assert np.ptp(pressure) > 0.05 * pressure.mean()
 
 
-@pytest.mark.parametrize("points", ["nodal", "segment"])
-@pytest.mark.parametrize("scene, flags", [("patch-test-3d", []), ("two-spheres", ["-h", 0.3, "-layers", 1])])
+@pytest.mark.parametrize(
+    "scene, flags, points",
+    [
+        ("patch-test-3d", [], "nodal"),
+        ("two-spheres", ["-h", 0.3, "-layers", 1], "segment"),
+        pytest.param("patch-test-3d", [], "segment", marks=pytest.mark.long),
+        pytest.param("two-spheres", ["-h", 0.3, "-layers", 1], "nodal", marks=pytest.mark.long),
+    ],
+)
 def test_action_is_reaction(scene, flags, points):
     """Contact forces on the two bodies shall be equal and opposite to 1e-12, their moments to 1e-8."""
     done = run(scene, *flags, "-points", points)
