@@ -51,11 +51,9 @@ def bodies():
 
 
 @pytest.fixture(scope="module")
-def block(tmp_path_factory):
+def block():
     """A run with a single Newton step, so two frames."""
-    folder = tmp_path_factory.mktemp("block") / "run"
-    flags = ("-method", "paper", "-h", 5, "-u0", 0.1, "-states", 1, "-vtu", 0)
-    return run_in(ROOT, script("confined-block"), *flags, out=folder).folder
+    return run("confined-block", "-method", "paper", "-h", 5, "-u0", 0.1, "-states", 1).folder
 
 
 @pytest.fixture(scope="module")
@@ -69,19 +67,19 @@ def results(paper, brief):
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (root / "report").exists():
             folder = root / "movies" / "disc-on-block"
-            shutil.copytree(paper, folder)
-            shutil.copytree(brief, root / "disc-on-block" / "xnewton")
+            shutil.copytree(brief, folder)
+            shutil.copytree(paper, root / "disc-on-block" / "paper")
             (root / "bench").mkdir()
             (root / "bench" / "work_precision.csv").write_text(CAMPAIGN)
             assert main(["movie", "--out", str(folder), str(folder)]) == 0
-            assert main(["figure", "figure1", "--out", str(root / "figures" / "figure1.pdf"), str(folder)]) == 0
+            assert main(["figure", "convergence", "--out", str(root / "figures/convergence.pdf"), str(folder)]) == 0
             assert main(["report", "--out", str(root / "report" / "index.html"), str(root)]) == 0
     return root
 
 
 @pytest.fixture(scope="module")
 def film(results):
-    """The folder of the paper's movie, beside its run."""
+    """The folder of the movie, beside its run."""
     return results / "movies" / "disc-on-block"
 
 
@@ -240,27 +238,26 @@ class TestFrames:
 class TestMovie:
     def test_the_player(self, film):
         """The page shall hold every frame, ask nothing of the network, and tell in words what it shows."""
-        page = (film / "movie.html").read_text()
-        assert len(re.findall(r"frames\[\d+\] = ", page)) == 13
+        page, frames = (film / "movie.html").read_text(), read_run(film).summary["newton"] + 1
+        assert len(re.findall(r"frames\[\d+\] = ", page)) == frames
         assert "http" not in re.sub(r"base64,[^\"]*", "", page).replace("http-equiv", "")
-        assert (film / "movie.html").stat().st_size < 6e6
+        assert (film / "movie.html").stat().st_size < 6e6 / 13 * frames
         check_page(page)
         assert player.extract(page).count("<script") == 2
 
     def test_the_gif(self, film):
         from PIL import Image
 
+        frames = read_run(film).summary["newton"] + 1
         with Image.open(film / "movie.gif") as picture:
-            assert picture.n_frames >= 13 and picture.size == (860, 480)
-        assert (film / "movie.gif").stat().st_size < 3e6
+            assert picture.n_frames >= frames and picture.size == (860, 480)
+        assert (film / "movie.gif").stat().st_size < 3e6 / 13 * frames
 
-    def test_the_same_bytes_again_and_whole_or_not_at_all(self, block, tmp_path, monkeypatch, capsys):
+    def test_the_same_bytes_again_and_whole_or_not_at_all(self, film, tmp_path, monkeypatch, capsys):
         """The same run shall give the same files; an interruption none, and none of what was there is lost."""
-        words = ["movie", "--out", str(tmp_path), str(block)]
-        assert main(words) == 0
+        assert main(["movie", "--out", str(tmp_path), str(film)]) == 0
         assert capsys.readouterr().out.split() == [str(tmp_path / name) for name in ("movie.html", "movie.gif")]
-        first = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-        assert main(words) == 0
+        first = {name: (film / name).read_bytes() for name in ("movie.html", "movie.gif")}
         assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == first
         monkeypatch.setattr(output.os, "replace", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
@@ -279,17 +276,15 @@ class TestMovie:
         assert not list(tmp_path.iterdir())
 
     def test_make_movie(self, tmp_path):
-        """`make movie` shall make the run and its movie, and say why there is none."""
+        """`make movie` shall make the run and its movie."""
         package = tree(tmp_path / "package")
         for name in ("postprocess", ".venv"):
             (package / name).symlink_to(ROOT / name)
         made = ["make", "-o", ".venv/run.stamp", "-o", "system", "movie", "SCENE=confined-block"]
-        code, stdout = execute([*made, "ARGS=-method newton -h 5 -tol 0.5"], cwd=package)
+        code, stdout = execute([*made, "ARGS=-method newton -h 5 -tol 0.5 -estimate 0"], cwd=package)
         assert code == 0, stdout
         folder = package / "results/movies/confined-block"
         assert (folder / "movie.html").exists() and (folder / "movie.gif").exists()
-        code, stdout = execute([*made, "ARGS=-kappa 0"], cwd=package)
-        assert code != 0 and "no movie" in stdout
 
     def test_a_run_in_space(self, tmp_path, capsys):
         """States in space are for ParaView: the movie is refused in one line that says so."""
@@ -321,7 +316,7 @@ def test_hostile_files(broken, brief, tmp_path, capsys, name, spoilt):
     readers = {
         "steps.csv": [movie],
         "states.csv": [movie],
-        "history.csv": [movie, report, compare],
+        "history.csv": [report, compare] + [movie] * (spoilt == "nan"),  # a movie reads it last, its axes drawn
         "contact.csv": [compare],
         "summary.json": [movie, compare, ("show", folder), report, ("figures", folder.parent, "--out", out)],
     }[name]
@@ -356,8 +351,9 @@ def test_hostile_files_of_a_tree(tmp_path, capsys, name, content, words):
     assert not (tmp_path / "out").exists()
 
 
-def test_senseless_parameters(block, capsys, tmp_path):
+def test_senseless_parameters(block, capsys, tmp_path, monkeypatch):
     """Numbers that no run would write shall be refused or drawn, never end in a traceback."""
+    monkeypatch.setattr(doctor, "versions", dict)
     several = {"d0": 1e308}, {"R": -1, "d0": "x"}, {"law": "barrier", "d0": 0}, {"kappa": 1e300, "m": 1e300, "nu": 0.5}
     for changes in several:
         folder = tmp_path / str(len(list(tmp_path.iterdir())))
@@ -431,13 +427,13 @@ class TestReport:
         assert len(seen["img"]) == 2 and len(seen["details"]) == 6  # a scene, two runs, each twice; the failed runs
         assert len(seen["script"]) == 2  # matplotlib's player and nothing else
         assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
-        for words in ("150.02947", "22.559747", "4.927623", "make results/figures/figure1.pdf", "make bench"):
+        for words in ("150.02947", "22.559747", "4.927623", "make results/figures/convergence.pdf", "make bench"):
             assert words in page
         made = re.search(r"FreeFem\+\+ -nw -v 0 edp/main.edp (.*-method paper.*) -out", page)[1].split()
         flags = {"-method": "paper", "-order": "1", "-h": "0.5", "-estimate": "0", "-states": "1", "-vtu": "0"}
         assert dict(zip(made[::2], made[1::2], strict=True)) == flags
-        caption = captions()["figure1"]
-        assert seen["img"][0]["alt"] == caption and f"<strong>figure1</strong>: {html.escape(caption)}" in page
+        caption = captions()["convergence"]
+        assert seen["img"][0]["alt"] == caption and f"<strong>convergence</strong>: {html.escape(caption)}" in page
         names = [name for name in re.findall(r'<th scope="col"[^>]*>([^<]*)</th>', page) if name in ("force", "dofs")]
         assert names[:2] == ["force", "dofs"]
         assert "T⁰ = d0" in page and "-T0 &lt;d0&gt;" in page  # the campaign's failed run, escaped
@@ -473,8 +469,8 @@ class TestReport:
             assert checks(loaded(brief, **changes)) == []
 
     @pytest.mark.parametrize("flags", [["-h", 5], ["-h", 5, "-method", "signorini"], ["-h", 5, "-kappa", 1e9, "-m", 2]])
-    def test_the_confined_block_is_compared_with_its_exact_state(self, flags, tmp_path):
-        found = checks(read_run(run_in(ROOT, script("confined-block"), *flags, out=tmp_path / "run").folder))
+    def test_the_confined_block_is_compared_with_its_exact_state(self, flags):
+        found = checks(read_run(run("confined-block", *flags).folder))
         assert [each.name for each in found] == ["force", "greatest pressure"]
         assert all(each.passed for each in found)
 
@@ -506,7 +502,7 @@ class TestReport:
 
 @pytest.mark.skipif(browser.CHROMIUM is None, reason="no chromium, chromium-browser or google-chrome on the PATH")
 class TestInABrowser:
-    def test_the_report_on_a_screen_on_a_phone_and_on_paper(self, results, tmp_path):
+    def test_the_report_on_a_screen_on_a_phone_and_on_paper(self, results, film, tmp_path):
         """No error, no request, every picture loaded, nothing wider than the screen; the player plays."""
         with browser.Browser(tmp_path) as chromium:
             page = chromium.open(results / "report" / "index.html")
@@ -516,7 +512,7 @@ class TestInABrowser:
             page.evaluate("document.querySelector('[aria-label=\"Increase speed\"]').click()")
             before = page.evaluate("document.querySelector('.animation img').src.length")
             page.evaluate("document.querySelector('[aria-label=Play]').click()")
-            page.wait("document.querySelector('.anim-slider').value == '12'")
+            page.wait(f"document.querySelector('.anim-slider').value == '{read_run(film).summary['newton']}'")
             assert page.evaluate("document.querySelector('.animation img').src.length") != before
             page.evaluate("document.querySelector('[aria-label=\"First frame\"]').click()")
             assert page.evaluate("document.querySelector('.anim-slider').value") == "0"
@@ -533,7 +529,7 @@ class TestInABrowser:
         with browser.Browser(tmp_path) as chromium:
             page = chromium.open(film / "movie.html", 390, 844)
             page.wait("document.images[0].naturalWidth > 0")
-            assert page.evaluate("document.querySelector('.anim-slider').max") == "12"
+            assert page.evaluate("document.querySelector('.anim-slider').max") == str(read_run(film).summary["newton"])
             assert page.evaluate("document.documentElement.scrollWidth") <= 390
             assert page.messages == [] and len(page.requests) == 1
 
@@ -544,10 +540,8 @@ class TestInABrowser:
 @pytest.mark.parametrize(
     "scene, flags",
     [
-        ("disc-on-block", ["-h", 1, "-method", "paper", "-T0", "d0", "-kappa", 1e6, "-nu", 0.25]),
-        ("disc-on-block", ["-h", 1, "-inner", "newton", "-start", "none", "-tol", 1e-8]),
-        ("confined-block", ["-h", 5, "-method", "incremental", "-steps", 3]),
-        ("rough", ["-h", 0.5, "-modes", 20, "-u0", 2.5, "-law", "exponential"]),
+        ("disc-on-block", ["-h", 2, "-inner", "newton", "-T0", "d0", "-kappa", 1e6, "-nu", 0.25, "-tol", 1e-8]),
+        ("confined-block", ["-h", 5, "-width", 10, "-law", "exponential", "-method", "incremental", "-steps", 3]),
     ],
 )
 def test_the_command_makes_the_run_again(tmp_path, scene, flags):
@@ -588,15 +582,15 @@ def test_compare_a_run_with_itself(brief):
     assert not any(line.startswith("-") for line in table(found, found))
 
 
-def test_every_figure_at_once(results, paper, tmp_path, capsys):
+def test_every_figure_at_once(tmp_path, capsys):
     """`figures` shall draw what can be drawn, and list what is missing with what it needs."""
     out = tmp_path / "figures"
     root = tmp_path / "tree"
-    shutil.copytree(paper, root / "paper")
+    shutil.copytree(run("disc-on-block", "-method", "paper", "-order", 1, "-h", 0.5).folder, root / "paper")
     assert main(["figures", str(root), "--out", str(out)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert sorted(path.name for path in out.iterdir()) == [
-        f"{name}.{kind}" for name in ("convergence", "figure1", "thresholds") for kind in ("pdf", "png")
+        f"{name}.{kind}" for name in ("convergence", "thresholds") for kind in ("pdf", "png")
     ]
     missing = [line for line in lines if line.startswith("not made: ")]
     assert any("figure2: needs a run of the method incremental" in line for line in missing)

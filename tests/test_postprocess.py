@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from text_boxes import faults
 
 from postprocess import figures, output, results, style
@@ -451,12 +452,7 @@ class TestRefusals:
             read_run(runs["rigid"]).parameter("Eratio")
 
 
-FIGURES = {
-    "figure1": [["meshed"], ["rigid"]],
-    "figure2": [["rigid", "incremental"]],
-    "convergence": [["rigid", "d0", "newton", "incremental"]],
-    "thresholds": [["rigid", "d0", "newton"]],
-}
+FIGURES = {"figure1", "figure2", "convergence", "thresholds"}
 
 
 def entries(legend):
@@ -475,18 +471,17 @@ class TestFigures:
         drawn_from_real_runs |= {"sphere", "patch", "punch", "waves", "rigid", "hertz_error"}  # test_scene_figures.py
         drawn_from_real_runs |= {"equilibrium", "overshoot", "cost"}  # test_labs.py
         drawn_from_real_runs |= {"attraction", "attraction_profiles"}  # test_adhesion.py
-        assert of_runs - drawn_from_real_runs == set(FIGURES)  # those of campaigns: test_campaign.py
+        assert of_runs - drawn_from_real_runs == FIGURES  # those of campaigns: test_campaign.py
 
-    @pytest.mark.parametrize(("name", "names"), [(name, names) for name in FIGURES for names in FIGURES[name]])
-    def test_written_as_pdf_and_png(self, runs, tmp_path, capsys, name, names):
-        out = tmp_path / "new" / "folder" / f"{name}.pdf"
-        assert main(["figure", name, "--out", str(out), *(str(runs[run]) for run in names)]) == 0
+    def test_written_as_pdf_and_png(self, runs, tmp_path, capsys):
+        out = tmp_path / "new" / "folder" / "convergence.pdf"
+        names = ("rigid", "d0", "newton", "incremental")
+        assert main(["figure", "convergence", "--out", str(out), *(str(runs[run]) for run in names)]) == 0
         assert capsys.readouterr().out.split() == [str(out), str(out.with_suffix(".png"))]
-        assert sorted(path.name for path in out.parent.iterdir()) == [f"{name}.pdf", f"{name}.png"]
+        assert sorted(path.name for path in out.parent.iterdir()) == ["convergence.pdf", "convergence.png"]
         assert out.read_bytes().startswith(b"%PDF-") and out.stat().st_size > 5000
         width, height = struct.unpack(">II", out.with_suffix(".png").read_bytes()[16:24])
-        expected = style.PAGE if name == "figure1" else style.COLUMN
-        assert width == pytest.approx(expected * style.DPI, abs=1) and 0.4 < height / width < 1.5
+        assert width == pytest.approx(style.COLUMN * style.DPI, abs=1) and 0.4 < height / width < 1.5
 
     @pytest.mark.long
     @pytest.mark.parametrize("name", ["figure1", "thresholds"])
@@ -508,7 +503,9 @@ class TestFigures:
         assert dict(mpl.rcParams) == before
 
     def test_figure1_names_the_states_of_the_scheme(self, runs):
-        axes = draw("figure1", runs["meshed"]).axes
+        figure = draw("figure1", runs["meshed"])
+        assert faults(figure) == [] and figure.get_figwidth() == style.PAGE
+        axes = figure.axes
         first, second = read_run(runs["meshed"]).summary["newtonPerAdaptation"]
         assert [each.get_title(loc="left") for each in axes[:4]] == [
             "(a) initial state\nundeformed",
@@ -569,7 +566,9 @@ class TestFigures:
         assert [text.get_text() for text in figure.axes[1].texts] == ["no difference"]
 
     def test_figure2_names_the_counts(self, runs):
-        (legend,) = draw("figure2", runs["rigid"], runs["incremental"]).legends
+        figure = draw("figure2", runs["rigid"], runs["incremental"])
+        assert faults(figure) == [] and figure.get_figwidth() == style.COLUMN
+        (legend,) = figure.legends
         texts = [text.get_text() for text in legend.get_texts()]
         few, many = (read_run(runs[name]).summary["newton"] for name in ("rigid", "incremental"))
         assert texts == [
@@ -613,6 +612,7 @@ class TestFigures:
 
     def test_thresholds_of_two_runs_side_by_side(self, runs):
         figure = draw("thresholds", runs["rigid"], runs["d0"])
+        assert faults(figure) == [] and figure.get_figwidth() == style.COLUMN
         models = [read_run(runs[name]).adaptations for name in ("rigid", "d0")]
         panels = np.array(figure.axes).reshape(-1, 2).T
         for column, tables in zip(panels, models, strict=True):
@@ -670,8 +670,8 @@ class TestFigures:
 
 
 class TestWriting:
-    def test_nothing_is_left_when_drawing_to_a_file_fails(self, runs, tmp_path, monkeypatch):
-        figure = draw("thresholds", runs["rigid"])
+    def test_nothing_is_left_when_drawing_to_a_file_fails(self, tmp_path, monkeypatch):
+        figure = Figure()
         out = tmp_path / "f.pdf"
         out.write_bytes(b"old")
         save = figure.savefig
@@ -686,11 +686,10 @@ class TestWriting:
             output.write_figure(figure, out)
         assert [path.name for path in tmp_path.iterdir()] == ["f.pdf"] and out.read_bytes() == b"old"
 
-    def test_nothing_is_left_by_an_interrupt(self, runs, tmp_path, monkeypatch):
-        figure = draw("thresholds", runs["rigid"])
+    def test_nothing_is_left_by_an_interrupt(self, tmp_path, monkeypatch):
         monkeypatch.setattr(output.os, "replace", lambda *paths: (_ for _ in ()).throw(KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
-            output.write_figure(figure, tmp_path / "f.pdf")
+            output.write_figure(Figure(), tmp_path / "f.pdf")
         assert not list(tmp_path.iterdir())
 
     def test_a_refused_run_creates_no_folder(self, runs, tmp_path, capsys):
@@ -719,7 +718,7 @@ class TestCommandLine:
     def test_help_lists_every_figure(self, capsys):
         with pytest.raises(SystemExit):
             main(["figure", "--help"])
-        assert set(FIGURES) <= set(capsys.readouterr().out.split())
+        assert set(capsys.readouterr().out.split()) >= FIGURES
 
     @pytest.mark.parametrize(
         ("name", "folders", "words"),
@@ -745,10 +744,8 @@ class TestCommandLine:
         assert rows["converged"] == "yes" and rows["halfWidth"] == "-" and rows["force"] == "0"
         assert set(read_run(runs["apart"]).summary["parameters"]) <= set(rows)
 
-    def test_as_a_process(self, runs, tmp_path):
+    def test_as_a_process(self, tmp_path):
         command = [sys.executable, "-m", "postprocess", "show"]
-        good = subprocess.run([*command, runs["rigid"]], cwd=ROOT, capture_output=True, text=True)
-        assert good.returncode == 0 and "disc-on-block" in good.stdout and good.stderr == ""
         bad = subprocess.run([*command, tmp_path], cwd=ROOT, capture_output=True, text=True)
         assert bad.returncode == 2 and bad.stdout == ""
         assert bad.stderr == f"postprocess: {tmp_path}/summary.json: no such file\n"
