@@ -224,49 +224,86 @@ def hertz(_root: Path) -> list[campaign.Case]:
 LARGE = {1: (0.3, 0.21, 0.15, 0.088, 0.058), 2: (0.5, 0.3, 0.2)}  # h, by degree: to 3e6 and 1e6 degrees of freedom
 LARGE_ONE = {1: 0.21, 2: 0.45}  # about 1e5, over stiffness and exponent
 LARGE_LAWS = [(1, 3), (1e4, 3), (1e8, 3), (1e12, 3), (1e3, 1.05), (1e3, 20)]
+MILLION = {1: 0.088}
+MILLION_LAWS = [(1, 3), (1e12, 3), (1e3, 1.05)]
 MPIRUN = ("ff-mpirun", "-np")
+ONE_SOLVE = "edp/scenes/one-solve.edp"  # the scene, and after it one solve under the same forces
 
 
 def large(_root: Path) -> list[campaign.Case]:
-    """Sizes on one process; laws at one of them; the one of 250 000 on two, against one: on two idle cores."""
+    """Sizes on one process; laws at some of them; the one of 250 000 on two, against one: on two idle cores."""
     found = []
 
     def add(name, law, h, order, ranks=1):
         flags = {"kappa": law[0], "m": law[1], "h": h, "order": order, "tol": 1e-8, "estimate": 0}
         item = case(name, SPHERE, 3600, 1, 0.35 / h**2.5 * order**3 / ranks, solver="multigrid", **flags)
+        if name == "law":
+            item = dataclasses.replace(item, script=ONE_SOLVE)
         if ranks > 1:
             item = dataclasses.replace(item, flags=(*item.flags, "-v", "0"), program=(*MPIRUN, str(ranks)))
         found.append(item)
 
-    for order, sizes in LARGE.items():
-        for h in sizes:
-            add("size", (1e9, 3), h, order)
+    add("two", (1e9, 3), 0.147, 1, 2)
+    add("one", (1e9, 3), 0.147, 1, 1)
     for order, h in LARGE_ONE.items():
         for law in LARGE_LAWS:
             add("law", law, h, order)
-    add("two", (1e9, 3), 0.147, 1, 2)
-    add("one", (1e9, 3), 0.147, 1, 1)
+    for order, sizes in LARGE.items():
+        for h in sizes:
+            add("size", (1e9, 3), h, order)
+    for order, h in MILLION.items():
+        for law in MILLION_LAWS:
+            add("law", law, h, order)
     return found
 
 
-def solves(*_) -> campaign.Measure:
-    """How many iterations all solves took, and on how many processes."""
+def large_files(root: Path) -> dict[str, str]:
+    text = (root / campaign.script_of(SPHERE, None)).read_text()
+    after = """{
+    int before = iterations;
+    real[int] nodal(ndof);
+    contactLoad(q, nodal);
+    multigridTo(nodal, 0.1 * tol, false);
+    ofstream one(outFolder + "/one-solve");
+    one << iterations - before;
+}
+"""
+    return {ONE_SOLVE: text + after}
 
-    def measure(_item: campaign.Case, summary: dict, _folder: Path) -> dict:
-        return {"iterations": summary["iterations"], "ranks": summary["ranks"]}
+
+def solves(*_) -> campaign.Measure:
+    """How many iterations all solves took, and one to a tenth of the tolerance, and on how many processes."""
+
+    def measure(_item: campaign.Case, summary: dict, folder: Path) -> dict:
+        one = folder / "one-solve"
+        alone = int(one.read_text()) if one.exists() else None
+        return {"iterations": summary["iterations"], "oneSolve": alone, "ranks": summary["ranks"]}
 
     return measure
 
 
 def large_table(rows: list[dict]) -> str:
-    header = "element, h|κ, m|processes|dofs|linearisations|solves / iterations|cost ratio|wall, s|MB"
+    """The sizes, and the one that ran on one process and on two."""
+    header = "element, h|processes|dofs|in contact|linearisations|solves / iterations|cost ratio|CPU s|wall s|MB"
     lines = []
-    for row in rows:
+    for row in (row for row in rows if row["name"] != "law"):
         good = row["status"] == "converged"
         counts = [row["newton"], f"{row['backsolves']} / {row['iterations']}"] if good else [row["status"], "-"]
-        cost = [f"{value(row, 'costRatio'):.2f}", f"{value(row, 'wall'):.0f}", f"{value(row, 'memory'):.0f}"]
-        law = f"{row['kappa']}, {row['m']}"
-        lines.append([f"P{row['order']}, {row['h']}", law, row["ranks"], row["ndof"], *counts, *cost])
+        seconds = [f"{value(row, name):.0f}" for name in ("cpu", "wall", "memory")]
+        size = [row["ranks"], row["ndof"], row["contactPoints"]]
+        lines.append([f"P{row['order']}, {row['h']}", *size, *counts, f"{value(row, 'costRatio'):.2f}", *seconds])
+    return markdown(header.split("|"), lines)
+
+
+def large_laws_table(rows: list[dict]) -> str:
+    """Over the law: the iterations of all solves beside those of one to a tenth of the tolerance."""
+    header = "element, h|dofs|κ, m|linearisations|solves / iterations|of one solve|quotient"
+    lines = []
+    for row in (row for row in rows if row["name"] == "law" and row["status"] == "converged"):
+        quotient = value(row, "iterations") / value(row, "oneSolve")
+        law = f"{decade(value(row, 'kappa'))}, {row['m']}"
+        counts = [row["newton"], f"{row['backsolves']} / {row['iterations']}", row["oneSolve"], f"{quotient:.1f}"]
+        lines.append([f"P{row['order']}, {row['h']}", row["ndof"], law, *counts])
     return markdown(header.split("|"), lines)
 
 
@@ -659,7 +696,7 @@ PARTS = {
     "growth": (growth, (), None, report_growth),
     "ingredients": (ingredients, (), None, report_ingredients),
     "hertz": (hertz, ("radius", "pressure"), hertz_differences, hertz_table),
-    "large": (large, ("iterations", "ranks"), solves, large_table),
+    "large": (large, ("iterations", "oneSolve", "ranks"), solves, large_table),
     "accuracy": (
         accuracy_cases,
         ("forceError", "said", "asked", "meshes", "seconds"),
@@ -668,7 +705,7 @@ PARTS = {
     ),
 }
 OPT_IN = ("large",)
-FILES = {"accuracy": accuracy_files}  # what a part adds to the sources: name to text
+FILES = {"accuracy": accuracy_files, "large": large_files}  # what a part adds to the sources: name to text
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -41,6 +41,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "ingredients": ("bench/ingredients", bench.report_ingredients),
     "hertz": ("bench/hertz", bench.hertz_table),
     "large": ("bench/large", bench.large_table),
+    "large-laws": ("bench/large", bench.large_laws_table),
     "asked": ("bench/accuracy", bench.accuracy_runs),
     "peers": ("bench/peers", peers.table),
     "counts": ("stability/stability", stability.parts_table),
