@@ -410,7 +410,7 @@ def test_only_what_is_between_markers_is_written():
 
 @pytest.mark.filterwarnings("ignore:divide by zero")  # made-up results
 def test_tables_are_written(campaigns, tmp_path, capsys):
-    """From whole tables of results all shall be written, twice the same; from a part of one only when that is asked."""
+    """From whole tables of results all shall be written, alike whatever the order of rows; from a part only when asked."""
     document, results = tmp_path / "RESULTS.md", tmp_path / "results"
     kept = tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text())
     document.write_text(kept)
@@ -422,8 +422,11 @@ def test_tables_are_written(campaigns, tmp_path, capsys):
     for found in tables.MARKED.finditer(text):
         heads = [line.count("|") for line in found.group(3).splitlines() if line.startswith("|")]
         assert len(heads) > 2 and len(set(heads)) == 1 and " runs, " in found.group(3), found.group(2)
-    assert tables.main([*options, str(campaigns)]) == 0 and document.read_text() == text
     shutil.copytree(campaigns, results)
+    for path in results.glob("*/*.csv"):
+        head, *lines = path.read_text().splitlines(keepends=True)
+        path.write_text("".join([head, *reversed(lines)]))
+    assert tables.main([*options, str(results)]) == 0 and document.read_text() == text
     lines = (results / "bench" / "growth.csv").read_text().splitlines(keepends=True)
     (results / "bench" / "growth.csv").write_text("".join(lines[:-1]))
     document.write_text(kept)
@@ -431,22 +434,6 @@ def test_tables_are_written(campaigns, tmp_path, capsys):
     assert "growth.csv" in capsys.readouterr().err and "<!-- table: growth -->\n<!-- end -->" in document.read_text()
     assert tables.main([*options, str(results), "--partial"]) == 0
     assert f" of {len(lines) - 1} runs" in document.read_text()
-
-
-@pytest.mark.filterwarnings("ignore:divide by zero")  # made-up results
-def test_tables_do_not_depend_on_the_order_of_the_rows(campaigns, tmp_path):
-    """A campaign that was gone on with in another order shall give the same tables."""
-    texts = []
-    for name, step in (("as they are", 1), ("reversed", -1)):
-        document, results = tmp_path / f"{name}.md", tmp_path / name
-        shutil.copytree(campaigns, results)
-        for path in results.glob("*/*.csv"):
-            head, *lines = path.read_text().splitlines(keepends=True)
-            path.write_text("".join([head, *lines[::step]]))
-        document.write_text(tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text()))
-        assert tables.main(["--document", str(document), "--results", str(results)]) == 0
-        texts.append(document.read_text())
-    assert texts[0] == texts[1]
 
 
 # ---------------------------------------------------------------- figures
@@ -496,7 +483,7 @@ def campaigns(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.long] if place % 2 else []) for place, name in enumerate(FIGURES)]
+    "name", [pytest.param(name, marks=[pytest.mark.long] if place % 4 else []) for place, name in enumerate(FIGURES)]
 )
 def test_figures(campaigns, tmp_path, name):
     """Each figure of a campaign shall be written as PDF and PNG, failed runs included."""

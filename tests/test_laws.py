@@ -1,5 +1,6 @@
 """laws/: the contact law, its inverse and potential, and the law wrapped in its wall, against values of our own."""
 
+import functools
 from decimal import Decimal, getcontext
 from itertools import product
 
@@ -117,6 +118,7 @@ def test_law_derivatives(tmp_path, kappa, m):
 # ---------------------------------------------------------------- the law with its wall
 
 
+@functools.cache
 def resolvent(shat, phat, k, tau, kappa, m):
     """(state, s, p, slope) of the graph's point with p + k s = phat + k shat, by bisection in 40 digits."""
     c = Decimal(phat + k * shat)
@@ -131,7 +133,7 @@ def resolvent(shat, phat, k, tau, kappa, m):
     low = high / 3
     while kappa * low**m + k * low > c:
         low /= 3
-    for _ in range(70):
+    for _ in range(48):
         middle = (low + high) / 2
         if kappa * middle**m + k * middle > c:
             high = middle

@@ -431,18 +431,12 @@ for (int k = 1; k <= 5; k++)
 """
 
 
-@pytest.mark.parametrize(
-    "scene, order",
-    [
-        ("disc-on-block", 4),
-        ("meshed-disc", 2),
-        ("confined-block", 1),
-        *(
-            pytest.param(*case, marks=pytest.mark.long)
-            for case in product(("disc-on-block", "meshed-disc", "confined-block"), (1, 2, 4))
-        ),
-    ],
-)
+TANGENTS = [("disc-on-block", 4), ("meshed-disc", 2), ("confined-block", 1)]
+OTHERS = sorted({*product(("disc-on-block", "meshed-disc", "confined-block"), (1, 2, 4))} - {*TANGENTS})
+TANGENTS += [pytest.param(*case, marks=pytest.mark.long) for case in OTHERS]
+
+
+@pytest.mark.parametrize("scene, order", TANGENTS)
 def test_tangent(tmp_path, scene, order):
     """The linearised system shall be the derivative of the equilibrium residual, by central differences."""
     solver = (ROOT / "edp/solve/solve.idp").read_text()
