@@ -410,7 +410,7 @@ def test_only_what_is_between_markers_is_written():
 
 @pytest.mark.filterwarnings("ignore:divide by zero")  # made-up results
 def test_tables_are_written(campaigns, tmp_path, capsys):
-    """From whole tables of results all shall be written, alike whatever the order of rows; from a part only when asked."""
+    """From whole tables all shall be written, alike whatever the order of rows; from a part only when that is asked."""
     document, results = tmp_path / "RESULTS.md", tmp_path / "results"
     kept = tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text())
     document.write_text(kept)

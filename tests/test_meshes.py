@@ -125,7 +125,7 @@ CORNERS = {
 
 @pytest.mark.parametrize("name", CORNERS)
 def test_elements_shrink_towards_singular_places(folder, name):
-    """There edges shall be as small as they are by default, and grow with the distance; with 0 the mesh has none of it."""
+    """There edges shall be as small as by default, and grow with the distance; with 0 the mesh has none of it."""
     size = 1e-4
     for corner, least, most in ((size, 0.5 * size, 3 * size), (0, 20 * size, 1)):
         _, nodes, elements = made(folder, name, 2, *(() if corner else ("corners", 0)))
