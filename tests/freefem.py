@@ -18,6 +18,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
@@ -109,6 +110,11 @@ def flag_text(value):
 def named(value):
     """A parametrised test's name: its flags as they are typed."""
     return " ".join(map(flag_text, value)) if isinstance(value, list) else None
+
+
+def short_of(short, every):
+    """A parametrised test's cases: these short ones, and the others of `every` in make test-all only."""
+    return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in every if case not in short)]
 
 
 def interruptible():

@@ -1,41 +1,43 @@
 """Work is force: the reported energy's derivative in the prescribed displacement is the reported force."""
 
 import pytest
-from freefem import run
+from freefem import run, short_of
 
 STEP = 5e-4  # of the approach: the difference's own error is of its square, its rounding far below
 HARD = ["-law", "signorini"]
 LAWS = {
-    "power": [],
-    "stiff": ["-kappa", 1e9],
     "exponential": ["-law", "exponential"],
     "barrier": ["-law", "barrier"],
     "table": ["-law", "table"],
     "signorini": HARD,
 }
 # small meshes; smooth laws: hard contact's energy has kinks in its second derivative where a point comes into contact
-PLANE = [
+SCENES = [
+    ("disc-on-block", 2.5, ["-h", 1, "-order", 2, "-method", "newton"]),
+    ("disc-on-block", 2.5, ["-h", 1, "-bodyForce", 0.5, "-traction", 1]),
+    ("disc-on-block-ipopt", 2.5, ["-h", 1, "-method", "newton"]),
+    ("confined-block", 2.5, ["-h", 4]),
+    ("wavy", 2.5, ["-h", 0.5, "-geometry", "stress"]),
+    ("flat-punch", 2.5, ["-h", 1, "-geometry", "axisymmetric"]),
+    ("patch-test", 2.5, []),
+    ("hertz-line", 0.3, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.4]),
+    ("two-cylinders", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.4]),
+    ("two-bodies", 0.5, ["-law", "power", "-d0", -0.25]),
+    ("sphere-on-plane", 0.1, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.6, "-layers", 2]),
+    ("two-spheres", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.6, "-layers", 2]),
+]
+# what other elements find as well (test_elements.py), and the same formulas once more
+MORE = [
     ("disc-on-block", 2.5, ["-h", 0.5]),
     ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "stress"]),
     ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "axisymmetric", "-width", 20]),
-    ("disc-on-block", 2.5, ["-h", 0.5, "-order", 2, "-method", "newton"]),
-    ("disc-on-block", 2.5, ["-h", 0.5, "-bodyForce", 0.5, "-traction", 1]),
-    ("disc-on-block-ipopt", 2.5, ["-h", 1, "-method", "newton"]),
-    ("confined-block", 2.5, ["-h", 4]),
     ("wavy", 2.5, ["-h", 0.5]),
-    ("wavy", 2.5, ["-h", 0.5, "-geometry", "stress"]),
     ("flat-punch", 2.5, ["-h", 0.5]),
-    ("flat-punch", 2.5, ["-h", 0.5, "-geometry", "axisymmetric"]),
+    ("flat-punch", 2.5, ["-h", 1, "-kappa", 1e9]),
     ("rough", 1.0, ["-h", 0.5, "-modes", 20]),
     ("meshed-disc", 2.5, ["-h", 0.5, "-Eratio", 10]),
-    ("patch-test", 2.5, []),
     ("patch-test-3d", 2.5, ["-lower", 2, "-upper", 3]),
-    ("hertz-line", 0.3, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.2]),
-    ("two-cylinders", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.2]),
-    ("two-bodies", 0.5, ["-law", "power", "-d0", -0.25]),
     ("sphere-on-block", 1.0, ["-h", 1, "-patch", 3, "-layers", 2]),
-    ("sphere-on-plane", 0.1, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.3, "-layers", 2]),
-    ("two-spheres", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.3, "-layers", 2]),
 ]
 
 
@@ -45,7 +47,9 @@ def derivative(scene, u0, flags):
     return (after.energy - before.energy) / (2 * STEP), (before.force + after.force) / 2
 
 
-@pytest.mark.parametrize("scene, u0, flags", PLANE, ids=lambda value: str(value) if isinstance(value, str) else None)
+@pytest.mark.parametrize(
+    "scene, u0, flags", short_of(SCENES, MORE), ids=lambda value: str(value) if isinstance(value, str) else None
+)
 def test_work_is_force_in_every_scene(scene, u0, flags):
     """dE/du0 shall be the force to 1e-5."""
     slope, force = derivative(scene, u0, flags)
