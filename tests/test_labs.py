@@ -1,12 +1,14 @@
 """edp/labs/: every command of every lab runs, the answers' numbers hold, the scripts refuse as scenes do."""
 
 import csv
+import functools
 import glob
 import re
 import shlex
+import shutil
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, listing, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, Run, environment, execute, listing, run, run_in, script, tree
 from test_readme import fences, is_rule, quoted, section
 
 from postprocess import words
@@ -18,7 +20,7 @@ LABS = [folder.name for folder in FOLDERS]
 INDEX = (ROOT / "edp/labs/README.md").read_text()
 OWN_LAW, PAGE, OWN_PART = "4-own-law", "0-algorithm", "9-own-part"
 SCENES = [lab for lab in LABS if lab not in (PAGE, OWN_PART)]  # that are another scene with other defaults
-BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment
+BARE = {"PATH": "/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1"}  # nothing else in the environment
 
 
 def readme(lab):
@@ -109,11 +111,16 @@ def commands(lab):
     return found
 
 
+def long_but(short, names):
+    """The names as parameters, all but the short ones marked as long."""
+    return [pytest.param(name, marks=[] if name in short else [pytest.mark.long]) for name in names]
+
+
 DRAW = ".venv/bin/python -m postprocess "
-SLOW = ("5-cost", "6-sphere", "7-gecko", "8-error", "9-own-part")  # their instructors' numbers are tested always
 
 
-@pytest.mark.parametrize("lab", [pytest.param(lab, marks=[pytest.mark.long] if lab in SLOW else []) for lab in LABS])
+# of the other labs the answers' first numbers are tested always
+@pytest.mark.parametrize("lab", long_but([PAGE], LABS))
 def test_commands(lab, tmp_path, monkeypatch):
     """Every command of a lab shall run as it is written, in this order, and leave what it names."""
     package = package_in(tmp_path)
@@ -179,14 +186,20 @@ def agrees(cell, value):
 
 
 def instructor_rows():
-    """A parameter a row of the answers' tables; two of three are long."""
+    """A parameter a row of the answers' tables; all but the first of each are long."""
     for lab in [*SCENES, OWN_PART]:
         for head, rows in tables(answers(lab)):
             assert head[0].startswith("flags")
             for place, (flags, *cells) in enumerate(rows):
                 name = f"{lab} {quoted(flags)[0]}"
-                marks = [pytest.mark.long] if place % 3 else []
+                marks = [pytest.mark.long] if place else []
                 yield pytest.param(lab, head, quoted(flags)[0], cells, id=name, marks=marks)
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    """A copy of the package, a blank in its path."""
+    return tree(tmp_path_factory.mktemp("labs") / "a package")
 
 
 @pytest.fixture(scope="module")
@@ -199,12 +212,17 @@ def coating(tmp_path_factory):
 
 
 @pytest.mark.parametrize("lab, head, flags, cells", list(instructor_rows()))
-def test_instructor(lab, head, flags, cells, coating, tmp_path):
-    """The numbers of the answers' tables shall be those of the runs, at the digits written."""
-    folder = coating if "coating" in head[0] else ROOT
+def test_instructor(lab, head, flags, cells, plain, coating):
+    """The answers' numbers shall be those of runs in the lab's folder, no environment set; results lie at the root."""
+    package = coating if "coating" in head[0] else plain
+    shutil.rmtree(package / "results", ignore_errors=True)
+    folder, name = lab_script(lab).rsplit("/", 1)
     expected = int(cells[head.index("exit code") - 1]) if "exit code" in head else 0
     quick = ["-vtu", 0, *([] if "said" in head else ["-estimate", 0])]
-    result = run_in(folder, lab_script(lab), *shlex.split(flags), *quick, out=tmp_path / "out", expect=expected)
+    stdout = run_in(package / folder, name, *shlex.split(flags), *quick, expect=expected, env=BARE).stdout
+    (summary,) = (package / "results").rglob("summary.json")
+    assert summary.parent.parent == package / "results/labs" / lab
+    result = Run(expected, stdout, summary.parent)
     assert len(cells) == len(head) - 1
     for label, cell in zip(head[1:], cells, strict=True):
         if cell == "–" or label == "exit code":
@@ -228,24 +246,32 @@ def changed_page(words):
     return text
 
 
-@pytest.mark.parametrize("row", next(tables(answers(PAGE)))[1], ids=lambda row: row[0])
-def test_the_page(row, tmp_path_factory):
-    """Lab 0's page, as it is and changed, shall give the counts and the force of the answers."""
-    package = tree(tmp_path_factory.mktemp("page") / "a package")
-    (package / lab_script(PAGE)).write_text(changed_page(row[0]))
+@functools.cache
+def said_by_page(words, package):
+    (package / lab_script(PAGE)).write_text(changed_page(words))
     code, stdout = execute([*FREEFEM, lab_script(PAGE)], package, BARE)
     assert code == 0, stdout
-    for label, cell in zip(("adaptations", "Newton steps", "force"), row[1:], strict=True):
+    return stdout
+
+
+CHANGES = {row[0]: row[1:] for row in next(tables(answers(PAGE)))[1]}
+KINDS = ["none", "`T0 = d0`", "`kappa = 1e9`", "`m = 10`", "the uniform update"]  # of changes
+
+
+@pytest.mark.parametrize("change", long_but(KINDS, CHANGES))
+def test_the_page(change, plain):
+    """Lab 0's page, as it is and changed, shall give the counts and the force of the answers."""
+    stdout = said_by_page(change, plain)
+    for label, cell in zip(("adaptations", "Newton steps", "force"), CHANGES[change], strict=True):
         assert agrees(cell, number_printed(stdout, label)), label
 
 
-def test_the_page_against_the_package(tmp_path):
+def test_the_page_against_the_package(plain):
     """Lab 0's page is plain, a hundred lines at most, and has the package's walls at every step, and its force."""
     text = (ROOT / lab_script(PAGE)).read_text()
     assert len(text.splitlines()) <= 100 and "include" not in text
     assert re.findall(r"// line (\d+)", text) == [str(k) for k in range(1, 11)]
-    code, stdout = execute([*FREEFEM, lab_script(PAGE)], ROOT)
-    assert code == 0, stdout
+    stdout = said_by_page("none", plain)
     same = run("disc-on-block", "-method", "paper", "-order", 1, "-h", 0.5)
     assert [int(n) for n in re.findall(r"at the wall (\d+)", stdout)] == same.history["wallPoints"].astype(int).tolist()
     assert number_printed(stdout, "adaptations") == same.adaptations
@@ -293,7 +319,7 @@ def test_no_contact(tmp_path):
             "slope, against differences of the pressure",
             (41, 6, 33),
         ),
-        ("inverse", ("/ stiff;", "/ stiff / 3;"), "inverse of pressure, against s", None),
+        ("inverse", ("/ stiff;", "/ stiff / 3;"), "inverse of pressure, against s", (None,)),
         ("potential", ("W[i] = 0.5", "W[i] = 3 * 0.5"), "pressure, against differences of the potential", (1, 1, 4)),
     ],
     ids=["slope", "inverse", "potential"],
@@ -305,7 +331,7 @@ def test_a_law_is_checked(function, change, check, steps, coating, tmp_path):
     assert change[0] in law
     (package / "edp/labs" / OWN_LAW / "mylaw.idp").write_text(law.replace(*change))
     methods = (["newton"], ["xnewton"], ["paper", "-T0", "d0"])
-    for method, expected in zip(methods, steps or [None] * 3, strict=True):
+    for method, expected in zip(methods[: len(steps)], steps, strict=True):
         command = [*FREEFEM, lab_script(OWN_LAW), "-vtu", "0", "-out", tmp_path / method[0], "-method", *method]
         code, stdout = execute(command, package)
         assert code in (0, 20)
@@ -325,7 +351,7 @@ def test_own_law_stays_in_its_lab():
 # ---------------------------------------------------------------- scripts
 
 
-@pytest.mark.parametrize("lab", SCENES)
+@pytest.mark.parametrize("lab", long_but(["1-law", OWN_LAW, "7-gecko"], SCENES))
 def test_help_and_refusals(lab, tmp_path):
     """-help shall print the flags; a bad flag or value shall end with code 10; nothing shall be written."""
     package = tree(tmp_path / "package")
@@ -338,19 +364,7 @@ def test_help_and_refusals(lab, tmp_path):
     assert listing(package) == before
 
 
-@pytest.mark.parametrize("lab", [*SCENES, OWN_PART])
-def test_started_from_its_folder(lab, tmp_path):
-    """A lab shall start without any environment, from its own folder; results go to the root's."""
-    package = tree(tmp_path / "a package")
-    size = {"3-threshold": 2, "5-cost": 2, "7-gecko": 0.03, "8-error": 2}.get(lab, 1.6)
-    flags = ["-h", size, *{"6-sphere": ["-layers", 1], "7-gecko": ["-path", "none"]}.get(lab, [])]
-    folder, name = lab_script(lab).rsplit("/", 1)
-    run_in(package / folder, name, "-vtu", 0, *(flags if lab in SCENES else []), env=BARE)
-    (summary,) = (package / "results").rglob("summary.json")
-    assert summary.parent.parent == package / "results/labs" / lab
-
-
-@pytest.mark.parametrize("lab, flags", [("1-law", ["-h", 5]), ("6-sphere", ["-h", 1.6, "-layers", 1])])
+@pytest.mark.parametrize("lab, flags", [("1-law", ["-h", 5]), ("6-sphere", ["-h", 1.6, "-layers", 1, "-estimate", 0])])
 def test_the_command_of_a_run(lab, flags, tmp_path):
     """The command that a page of runs gives for a lab's run shall make that run again."""
     result = run_in(ROOT, lab_script(lab), *flags, out=tmp_path / "a")
@@ -372,8 +386,7 @@ def test_the_command_of_a_run(lab, flags, tmp_path):
 )
 def test_figures_refuse(figure, words, tmp_path, capsys):
     """A run that does not hold what a figure shows shall be refused in one line."""
-    run_in(ROOT, script("disc-on-block"), "-h", 2, "-vtu", 0, out=tmp_path / "run")
-    folders = [str(tmp_path / "run")] * (2 if figure == "cost" else 1)
+    folders = [str(run("disc-on-block", "-h", 2).folder)] * (2 if figure == "cost" else 1)
     assert main(["figure", figure, "--out", str(tmp_path / "x.pdf"), *folders]) == 2
     assert words in capsys.readouterr().err
     assert not (tmp_path / "x.pdf").exists()
