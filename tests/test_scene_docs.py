@@ -5,9 +5,9 @@ import shlex
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, script, table
+from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, run_in, script, table
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
-from test_readme import README, fences, quoted, rows, section
+from test_readme import MANUAL, README, fences, quoted, rows, section
 
 TEXT = (ROOT / "edp/scenes/README.md").read_text()
 SCENES = sorted(["disc-on-block", *(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))])
@@ -164,10 +164,47 @@ ENDS = {  # of the contact: the greatest |x| of a point
 ATTRACTING = [scene for scene in SCENES if scene.startswith("adhesive-")]
 
 
+def apart(scene):
+    """A short run of the scene that shows its gap: short of contact, or of a stiff block."""
+    if scene in ATTRACTING:
+        h = ["-h", 0.08] if scene == "adhesive-sphere-3d" else []
+        return run(scene, "-u0", -0.01, "-E", 1e6, *h)
+    if scene == "two-bodies":
+        return run(scene, "-points", "nodal")
+    return run(scene, "-gap", 0.7, "-u0", 0.1, "-h", 1, *APART.get(scene, []))
+
+
+def loaded(done):
+    return {*done.modules, *done.plugins}
+
+
+@pytest.fixture(scope="module")
+def full(tmp_path_factory):
+    """Runs with files, estimate and the scene's elements, in the plane and in space."""
+    folder = tmp_path_factory.mktemp("loads")
+    return {
+        scene: run_in(ROOT, script(scene), "-h", 2, out=folder / scene)
+        for scene in ("disc-on-block", "sphere-on-block")
+    }
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_what_a_scene_loads(scene, full):
+    """A scene shall load the modules and plugins that the manual lists; what only full runs load is seen in two."""
+    text = section(MANUAL, "What a scene loads")
+    (row,) = [row for row in rows(text) if quoted(row[0]) == [scene]]
+    listed = {name for name in quoted(text.split("\n|")[0]) if "/" in name} | {"shell", *quoted(row[1] + row[2])}
+    if scene in full:
+        assert loaded(full[scene]) == listed
+    beyond = set().union(*(loaded(full[name]) - loaded(apart(name)) for name in full))
+    assert len(beyond) < 8
+    assert loaded(apart(scene)) - beyond == listed - beyond
+
+
 @pytest.mark.parametrize("scene", ATTRACTING)
 def test_gap_of_what_attracts(scene):
     """A thousand times as stiff a block shall show the section's gap as it is, up to the section's ends."""
-    done = run(scene, "-u0", -0.01, "-E", 1e6)
+    done = apart(scene)
     gap = done.parameters["gap"] + GAPS[scene](done.contact, done.parameters)
     np.testing.assert_allclose(done.contact["overlap"], -0.01 - gap, rtol=0, atol=1e-8)
     assert done.contact["x"].max() == pytest.approx(done.parameters.get("reach", 2.5), rel=1e-9)
@@ -177,7 +214,7 @@ def test_gap_of_what_attracts(scene):
 @pytest.mark.parametrize("scene", [scene for scene in SCENES if scene != "two-bodies" and scene not in ATTRACTING])
 def test_gap(scene):
     """Short of contact the overlap shall be the section's formula with u = 0, at points up to the section's ends."""
-    done = run(scene, "-gap", 0.7, "-u0", 0.1, "-h", 1, *APART.get(scene, []))
+    done = apart(scene)
     assert done.force == 0
     gap = 0.7 + GAPS[scene](done.contact, done.parameters)
     np.testing.assert_allclose(done.contact["overlap"], 0.1 - gap, rtol=0, atol=1e-12)
@@ -188,7 +225,7 @@ def test_gap(scene):
 
 def test_square_of_the_sphere():
     """Without -patch the sphere's square shall have the size that the section gives."""
-    done = run("sphere-on-block", "-h", 0.6)
+    done = run("sphere-on-block", "-h", 2, "-estimate", 1)
     depth = 2.5 - 0.5 + 0.25
     assert done.contact["x"].max() == pytest.approx(1.1 * np.sqrt(depth * (20 - depth)), rel=1e-9)
 
@@ -388,7 +425,7 @@ def result(command, out):
     (flags,) = [word for word in words if word.startswith("ARGS=")]
     scene = next((word.removeprefix("SCENE=") for word in words if word.startswith("SCENE=")), "disc-on-block")
     given = shlex.split(flags.removeprefix("ARGS="))
-    code, stdout = execute([*FREEFEM, script(scene), *given, "-estimate", "0", "-out", out])
+    code, stdout = execute([*FREEFEM, script(scene), *given, "-estimate", "0", "-vtu", "0", "-out", out])
     assert code == 0, stdout[-2000:]
     done = Run(code, stdout, out)
     assert done.scene == ("disc-on-block" if scene == "disc-on-block-ipopt" else scene)
@@ -414,11 +451,16 @@ def value(done, quantity):
 
 
 SLOW = ("adhesive-sphere", "adhesive-sphere-3d", "adhesive-cylinder", "two-spheres", "sphere-on-plane", "flat-punch")
+SLOW_TOO = ("-force 31.4159265", "-E1 1e9", "-modes 16")  # their scenes' other commands are short
+
+
+def is_long(scene, command):
+    return scene in SLOW or any(words in command for words in SLOW_TOO)
 
 
 @pytest.mark.parametrize(
     "scene, command, expected",
-    [pytest.param(*each, id=each[1], marks=[pytest.mark.long] if each[0] in SLOW else []) for each in EXPERIMENTS],
+    [pytest.param(*each, id=each[1], marks=[pytest.mark.long] if is_long(*each[:2]) else []) for each in EXPERIMENTS],
 )
 def test_numbers(scene, command, expected, tmp_path):
     """The command shall give the table's numbers, and its references be those computed here from the flags alone."""
