@@ -14,12 +14,12 @@ DISPLACEMENT, PRESSURE, STRESS = "displacement[length]", "contactPressure[pressu
 CORNERS = {3: 2, 5: 3, 10: 4}  # of VTK's lines, triangles and tetrahedra
 RUNS = {
     "plane": ("disc-on-block", "-method", "paper", "-h", 2, "-order", 1),
-    "P2": ("disc-on-block", "-h", 2, "-order", 2),
+    "P2": ("disc-on-block", "-h", 2, "-order", 2, "-estimate", 0),
     "P4": ("disc-on-block", "-h", 2, "-order", 4),
-    "axis": ("disc-on-block", "-geometry", "axisymmetric", "-h", 1, "-order", 2),
-    "bodies": ("meshed-disc", "-method", "newton", "-h", 2, "-order", 1),
-    "space": ("sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-symmetry", "whole"),
-    "space P2": ("sphere-on-block", "-h", 2, "-layers", 1, "-order", 2, "-symmetry", "whole"),
+    "axis": ("disc-on-block", "-geometry", "axisymmetric", "-h", 1, "-order", 2, "-estimate", 0),
+    "bodies": ("meshed-disc", "-method", "newton", "-h", 2, "-order", 1, "-estimate", 0),
+    "space": ("sphere-on-block", "-h", 2, "-layers", 2, "-order", 1, "-symmetry", "whole", "-estimate", 0),
+    "space P2": ("sphere-on-block", "-h", 3, "-layers", 1, "-order", 2, "-symmetry", "whole"),
 }
 
 
@@ -204,7 +204,7 @@ def test_states_tables(made):
 def test_nothing_of_an_earlier_run(tmp_path):
     """A run with fewer states, or without any, shall leave no state of the run before."""
     out = tmp_path / "out"
-    flags = ["-method", "newton", "-h", 5]
+    flags = ["-method", "newton", "-h", 5, "-estimate", 0]
     steps = run_in(ROOT, script("confined-block"), *flags, "-states", 1, out=out).newton
     short = run_in(ROOT, script("confined-block"), *flags, "-states", 1, "-maxNewton", 1, out=out, expect=20)
     assert short.newton == 1 < steps
@@ -231,5 +231,5 @@ def test_killed_while_writing(tmp_path):
         process.send_signal(signal.SIGKILL)
         process.wait()
     assert being_written(out) and not files(out)
-    run_in(ROOT, script("confined-block"), "-method", "newton", "-h", 5, out=out)
+    run_in(ROOT, script("confined-block"), "-method", "newton", "-h", 5, "-estimate", 0, out=out)
     assert not being_written(out) and not list(out.glob("state*"))
