@@ -32,8 +32,18 @@ def true_errors(run, kappa, m):
     return {name: abs(run.summary[name] - known[name]) for name in ("force", "pressureMax", "halfWidth")}
 
 
-@pytest.mark.parametrize("order, h", [(1, 0.25), (2, 0.5), (4, 1), (4, 0.5)])
-@pytest.mark.parametrize("law", [(1e3, 3), (1e9, 3), (1e3, 10), HARD])
+LAWS = (1e3, 3), (1e9, 3), (1e3, 10), HARD
+SHORT = {(2, law) for law in LAWS} | {(1, LAWS[0]), (1, HARD), (4, LAWS[1]), (4, LAWS[2])}
+
+
+@pytest.mark.parametrize(
+    "law, order, h",
+    [
+        pytest.param(law, order, h, marks=[] if (order, law) in SHORT and h >= 0.25 * order else [pytest.mark.long])
+        for law in LAWS
+        for order, h in ((1, 0.25), (2, 0.5), (4, 1), (4, 0.5))
+    ],
+)
 def test_estimates_hold(solved, order, h, law):
     """The error that is said shall be at least the true one, and not too much more."""
     flags = ["-law", "signorini"] if law == HARD else ["-kappa", law[0], "-m", law[1]]
@@ -46,7 +56,7 @@ def test_estimates_hold(solved, order, h, law):
     assert sum(run.estimates["parts"].values()) == pytest.approx(run.estimates["force"]["error"])
 
 
-@pytest.mark.parametrize("order, h", [(1, 1), (2, 2), (2, 1.4)])
+@pytest.mark.parametrize("order, h", [(1, 1), (2, 2), pytest.param(2, 1.4, marks=pytest.mark.long)])
 def test_in_space(solved, order, h):
     """In space too: the sphere on the block."""
     run = solved("sphere-on-block", "-order", order, "-h", h)
@@ -66,26 +76,20 @@ def test_between_two_bodies_in_space(solved):
     assert run.estimates["parts"]["line"] < 0.03 * run.force
 
 
-def test_printed(solved):
-    """The run shall print its numbers with their errors."""
-    run = solved("disc-on-block", "-h", 1)
-    assert "±" in run.stdout and "greatest pressure" in run.stdout.split("within")[1]
-
-
-@pytest.mark.parametrize("tol", [1e-2, 1e-3])
-def test_algebra(solved, tol):
+def test_algebra(solved):
     """What the algebra leaves shall be predicted within a fifth."""
-    exact = solved("disc-on-block", "-h", 1, "-tol", 1e-12)
-    loose = solved("disc-on-block", "-h", 1, "-tol", tol, "-start", "none", "-forcing", 0.9, "-kappa", 1e3)
-    assert 1e-9 < loose.residual < 1e-2
-    assert loose.estimates["parts"]["algebra"] == pytest.approx(abs(loose.force - exact.force), rel=0.2)
+    exact = solved("disc-on-block", "-h", 1, "-tol", 1e-12, "-estimate", 0)
+    for tol in (1e-2, 1e-3):
+        loose = solved("disc-on-block", "-h", 1, "-tol", tol, "-start", "none", "-forcing", 0.9, "-kappa", 1e3)
+        assert 1e-9 < loose.residual < 1e-2
+        assert loose.estimates["parts"]["algebra"] == pytest.approx(abs(loose.force - exact.force), rel=0.2), tol
 
 
 def test_model(solved):
     """What the threshold leaves shall be told apart and be of the right size."""
     flags = "-method", "paper", "-order", 1, "-T0", "d0", "-kappa", 1e9, "-h", 0.5
     rough = solved("disc-on-block", *flags, "-eps", 0.2)
-    exact = solved("disc-on-block", *flags, "-eps", 1e-10)
+    exact = solved("disc-on-block", *flags, "-eps", 1e-10, "-estimate", 0)
     true = abs(rough.force - exact.force)
     assert rough.wallPoints > 0 and true > 0
     assert rough.estimates["parts"]["model"] == pytest.approx(true, rel=0.5)
@@ -94,7 +98,7 @@ def test_model(solved):
 def test_prescribed_force(solved):
     """Under a prescribed force the approach has the error, the force none."""
     coarse = solved("disc-on-block", "-force", 150, "-h", 1)
-    fine = solved("disc-on-block", "-force", 150, "-order", 4, "-h", 0.25)
+    fine = solved("disc-on-block", "-force", 150, "-order", 4, "-h", 0.5, "-estimate", 0)
     assert coarse.estimates["force"]["error"] == 0
     assert (
         abs(coarse.approach - fine.approach)
@@ -104,8 +108,9 @@ def test_prescribed_force(solved):
 
 
 def test_counts_are_apart(solved):
-    """The estimates shall change no count of the run, and cost no more back-substitutions than a few."""
-    told, silent = (solved("disc-on-block", "-estimate", wanted) for wanted in (1, 0))
+    """The estimates shall be printed, change no count of the run, and cost no more back-substitutions than a few."""
+    told, silent = (solved("disc-on-block", "-h", 1, "-estimate", wanted) for wanted in (1, 0))
+    assert "±" in told.stdout and "greatest pressure" in told.stdout.split("within")[1]
     for name in ("backsolves", "factorisations", "newton", "kernelNewton", "force"):
         assert told.summary[name] == silent.summary[name]
     assert 1 <= told.estimates["backsolves"] <= 8
@@ -128,8 +133,10 @@ def test_too_coarse(solved):
 
 @pytest.mark.parametrize("kappa", [1e3, 1e9])
 def test_accuracy(solved, kappa):
-    """-accuracy shall be kept by the true error, with few unknowns and few meshes."""
+    """-accuracy shall be kept by the true error, with few unknowns and few meshes, the same every time."""
     run = solved("disc-on-block", "-kappa", kappa, "-accuracy", 1e-5)
+    again = solved("disc-on-block", "-kappa", kappa, "-accuracy", 1e-5) if kappa > 1e3 else run
+    assert run.force == again.force and run.ndof == again.ndof
     known = reference.values()["disc-on-block", kappa, 3]["force"]
     assert abs(run.force / known - 1) <= run.accuracy["reached"] <= 1e-5
     assert run.accuracy["met"] and run.accuracy["meshes"] <= 4
@@ -141,12 +148,6 @@ def test_accuracy_of_the_pressure(solved):
     run = solved("disc-on-block", "-accuracy", 1e-3, "-goal", "pressure")
     assert reference.profile_error(1e3, 3, {name: run.contact[name] for name in run.contact.dtype.names}) <= 1e-3
     assert run.ndof <= 10000
-
-
-def test_accuracy_is_deterministic(solved):
-    """Two runs shall give the same numbers."""
-    first, second = (solved("disc-on-block", "-accuracy", 1e-4, "-kappa", 1e6) for _ in range(2))
-    assert first.force == second.force and first.ndof == second.ndof
 
 
 COARSE_SPHERE = ("sphere-on-block", "-h", 3, "-layers", 2)
@@ -208,7 +209,7 @@ def test_accuracy_needs_a_geometry(tmp_path):
 
 def test_accuracy_on_curves(solved):
     """New meshes of two cylinders shall stay on the circles."""
-    run = solved("two-cylinders", "-accuracy", 1e-4)
+    run = solved("two-cylinders", "-h", 1, "-accuracy", 1e-3)
     assert run.accuracy["met"] and run.accuracy["meshes"] > 1
     vertices = run.contact[::4]
     assert np.ptp(vertices["y"] - np.sqrt(100 - vertices["x"] ** 2)) < 1e-9
@@ -274,7 +275,7 @@ def test_accuracy_of_own_parts(tmp_path):
 
 def test_several_contacts(tmp_path):
     """The roller's two contacts shall be known alike, and the way of what pushes it."""
-    told = example("roller", tmp_path, size=0.12).summary["estimates"]
+    told = example("roller", tmp_path, size=0.2).summary["estimates"]
     above, below = told["contacts"]
     a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(*[forms.plane_modulus(210e3, 0.3)] * 2))
     for contact in (above, below):
