@@ -39,7 +39,7 @@ def curves(axes):
 @pytest.fixture(scope="module")
 def balls(tmp_path_factory):
     """A run of two-spheres with its file for ParaView."""
-    return run_in(ROOT, script("two-spheres"), *SMALL, out=tmp_path_factory.mktemp("balls") / "run")
+    return run_in(ROOT, script("two-spheres"), *SMALL, "-estimate", 0, out=tmp_path_factory.mktemp("balls") / "run")
 
 
 # ---------------------------------------------------------------- in space
@@ -100,12 +100,12 @@ def test_stress_below_the_contact(balls):
     "scene, flags",
     [
         ("sphere-on-plane", ["-h", 0.3, "-layers", 2]),
-        ("sphere-on-block", ["-law", "signorini", "-h", 0.6, "-layers", 1]),
+        ("sphere-on-block", ["-law", "signorini", "-h", 1.2, "-layers", 1]),
     ],
 )
 def test_sphere(tmp_path, scene, flags):
     """The figure of a contact in space shall have its section, and the obstacle where it is rigid."""
-    done = run_in(ROOT, script(scene), *flags, "-d0", 0, out=tmp_path / "run")
+    done = run_in(ROOT, script(scene), *flags, "-d0", 0, "-estimate", 0, out=tmp_path / "run")
     figure = draw("sphere", done)
     section = figure.axes[3]
     assert section.get_title() == f"section $y = 0$, displacements at true scale; P{done.order}, $h = {done.h}$"
@@ -121,7 +121,7 @@ def test_sphere_mirrored(balls):
     """The map of a quarter or half shall show the whole circle; a run without files for ParaView has no section."""
     left = draw("sphere", balls).axes[0]
     assert left.get_xlim()[0] < -1.4 and left.get_ylim()[0] < -1.4
-    half = run("sphere-on-block", "-law", "signorini", "-h", 0.6, "-layers", 1, "-symmetry", "half")
+    half = run("sphere-on-block", "-law", "signorini", "-h", 1.2, "-layers", 1, "-symmetry", "half")
     left = draw("sphere", half).axes[0]
     for low, high in (left.get_xlim(), left.get_ylim()):
         assert low == pytest.approx(-high)
@@ -159,7 +159,7 @@ def test_spoilt_grids(balls, tmp_path, capsys, spoil, words):
 
 def test_a_plane_grid_is_refused(balls, tmp_path, capsys):
     """So shall the file of a plane run."""
-    plane = run_in(ROOT, script("disc-on-block"), "-h", 2, out=tmp_path / "plane")
+    plane = run_in(ROOT, script("disc-on-block"), "-h", 2, "-estimate", 0, out=tmp_path / "plane")
     shutil.copytree(balls.folder, tmp_path / "run")
     shutil.copy(plane.folder / "solution.vtu", tmp_path / "run")
     assert main(["figure", "sphere", "--out", str(tmp_path / "f.pdf"), str(tmp_path / "run")]) == 2
@@ -213,11 +213,11 @@ def test_waves():
 
 def test_rigid():
     """The differences from the rigid disc shall fall with the ratio of the moduli, slope -1 to 0.01."""
-    discs = [run("meshed-disc", *DISC, "-Eratio", ratio) for ratio in (1, 1e2, 1e4, 1e6)]
+    discs = [run("meshed-disc", *DISC, "-Eratio", ratio) for ratio in (1e2, 1e4, 1e6)]
     right = draw("rigid", run("disc-on-block", *DISC), *discs[::-1]).axes[1]
     assert list(curves(right)) == ["pressure, slope $-1.00$", "force, slope $-1.00$"]
     for ratio, difference in curves(right).values():
-        slope = np.polyfit(np.log(ratio[1:]), np.log(difference[1:]), 1)[0]
+        slope = np.polyfit(np.log(ratio), np.log(difference), 1)[0]
         assert slope == pytest.approx(-1, abs=0.01)
         assert difference[-1] < 1e-6
 
@@ -321,6 +321,6 @@ def test_points_in_a_row_are_refused(tmp_path, capsys):
 
 def test_other_points_are_refused(tmp_path, capsys):
     """A meshed disc on another mesh than the rigid one's shall be refused."""
-    runs = [run("disc-on-block", *DISC), *(run("meshed-disc", "-h", h, "-tol", 1e-11) for h in (0.5, 1))]
+    runs = [run("disc-on-block", *DISC), *(run("meshed-disc", "-h", h, "-tol", 1e-11) for h in (0.5, 2))]
     assert main(["figure", "rigid", "--out", str(tmp_path / "f.pdf"), *(str(each.folder) for each in runs)]) == 2
     assert "has other points than" in capsys.readouterr().err
