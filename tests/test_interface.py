@@ -34,7 +34,6 @@ def package(tmp_path_factory):
         (".", "edp/main.edp", DISC),
         ("edp", "main.edp", DISC),
         (".", "edp/scenes/meshed-disc.edp", TWO_BODIES),
-        ("edp", "scenes/confined-block.edp", BLOCK),
         ("edp/scenes", "confined-block.edp", BLOCK),
     ],
 )
@@ -77,18 +76,17 @@ def test_commands_are_posix():
         assert not re.search(r"sed -i|readlink -f|grep -P|mktemp --|stat -c|date \+%N", text), path
 
 
-@pytest.mark.parametrize("name", ["freefem++.pref", "edp/freefem++.pref", "edp/scenes/freefem++.pref"])
-def test_other_plugin_folders(tmp_path, name):
+def test_other_plugin_folders(tmp_path):
     """Folders in freefem++.pref that do not exist shall do no harm where FreeFEM has the right ones from elsewhere."""
     package = tree(tmp_path / "package")
-    text = (package / name).read_text()
-    own = "".join(f"{line}\n" for line in text.splitlines() if re.match(r'\w+ \+= "/', line))
-    for pref in package.rglob("freefem++.pref"):
-        pref.write_text(re.sub(r'\+= "/', '+= "/not/here/', pref.read_text()))
-    (tmp_path / ".freefem++.pref").write_text(own)
-    where = (package / name).parent
-    env = {**BARE, "HOME": str(tmp_path)}
-    run_in(where, package / script(BLOCK), "-h", 5, "-vtu", 0, "-estimate", 0, out=tmp_path / "out", env=env)
+    texts = {path: path.read_text() for path in package.rglob("freefem++.pref")}
+    for path, text in texts.items():
+        path.write_text(re.sub(r'\+= "/', '+= "/not/here/', text))
+    for folder in (package, package / "edp", package / "edp" / "scenes"):
+        own = re.findall(r'^\w+ \+= "/.*\n', texts[folder / "freefem++.pref"], re.MULTILINE)
+        (tmp_path / ".freefem++.pref").write_text("".join(own))
+        env = {**BARE, "HOME": str(tmp_path)}
+        run_in(folder, package / script(BLOCK), "-h", 5, *COARSE[2:], "-vtu", 0, out=tmp_path / "out", env=env)
 
 
 # ---------------------------------------------------------------- progress
@@ -166,9 +164,10 @@ def test_from_any_folder(name, package, tmp_path):
         assert (tmp_path / "here" / "summary.json").exists()
         for folder in (".venv", "postprocess"):
             (package / folder).symlink_to(ROOT / folder)
-        command = stdout.splitlines()[-1].removeprefix("  picture: ").removesuffix(" (or stress)")
-        code, stdout = execute(["sh", "-c", command], tmp_path)
-        assert code == 0 and (tmp_path / "here" / "state.pdf").exists(), stdout
+        command, _, drawn = stdout.splitlines()[-1].removeprefix("  picture: ").partition(" state ")
+        assert drawn == "here/ (or stress)"
+        code, stdout = execute(["sh", "-c", f"{command} state --help"], tmp_path)
+        assert code == 0 and stdout.startswith("usage: python -m postprocess state"), stdout
     code, stdout = execute([*program, "nowhere.edp"], tmp_path, BARE)
     assert code == 10 and stdout.startswith("nowhere.edp: no such script")
 
