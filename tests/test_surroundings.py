@@ -445,7 +445,7 @@ def interrupted_series(*words, cwd=ROOT, rows=4):
 @pytest.mark.parametrize("method", ["xnewton", "paper"])
 def test_series_counts_go_on(tmp_path, method):
     """An interrupted series shall end with the forces and counts of one that was not."""
-    flags = ["-method", method, "-h", 1, "-order", 1, "-history", 1, "-steps", 20, "-vtu", 0, "-estimate", 0]
+    flags = ["-method", method, "-h", 1, "-order", 1, "-history", 1, "-steps", 12, "-vtu", 0, "-estimate", 0]
     whole = run_in(ROOT, DISC, *flags, out=tmp_path / "whole")
     out = tmp_path / "halved"
     interrupted_series(DISC, *flags, "-out", out)
@@ -479,7 +479,7 @@ def test_series_of_another_problem(mesh, tmp_path, script):
         given, finer, coarser = (mesh(size).read_text() for size in (0.6, 0.5, 0.8))
         flags = ["-mesh", file]
         changes = {"finer mesh": (file, finer), "coarser mesh": (file, coarser)}
-    flags += ["-history", 1, "-steps", 20, "-vtu", 0, "-estimate", 0]
+    flags += ["-history", 1, "-steps", 12, "-vtu", 0, "-estimate", 0]
     file.write_text(given)
     interrupted_series(script, *flags, "-out", out, cwd=package, rows=3)
     for what, (path, text) in changes.items():
@@ -488,7 +488,7 @@ def test_series_of_another_problem(mesh, tmp_path, script):
         path.write_text(text)
         again = run_in(package, script, *flags, *(["-E", 101] if what == "flag" else []), out=tmp_path / what)
         assert "begun anew" in again.stdout and "goes on" not in again.stdout, what
-        np.testing.assert_array_equal(np.unique(again.history["step"]), range(1, 21), err_msg=what)
+        np.testing.assert_array_equal(np.unique(again.history["step"]), range(1, 13), err_msg=what)
         assert again.newton == len(again.history), what
 
 
