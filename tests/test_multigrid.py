@@ -48,7 +48,7 @@ def process_of_rank(rank, word):
 
 CASES = [
     ["sphere-on-block", "-h", 1.2, "-layers", 2],
-    ["sphere-on-block", "-h", 2, "-layers", 2, "-order", 2, "-kappa", 1e9, "-estimate", 1],
+    ["sphere-on-block", "-h", 2, "-layers", 1, "-order", 2, "-kappa", 1e9, "-estimate", 1],
     ["sphere-on-block", "-h", 1.2, "-layers", 2, "-symmetry", "half", "-bodyForce", 0.1, "-traction", -1],
     ["sphere-on-block", "-h", 1.2, "-layers", 2, "-distance", "exact"],
     ["two-spheres", "-h", 0.5, "-layers", 2, "-estimate", 1, "-force", 0],
