@@ -6,7 +6,6 @@ from freefem import ROOT, run, snippet, told
 from test_parts import Mesh, block, solve, turn
 
 MIRROR = np.diag([-1.0, 1, 1])
-SHORT = ["-estimate", 0]
 
 
 def ring(mesh, inner, outer, edges, layers, name, groups, phase=0.0, at=0.0):
@@ -265,7 +264,7 @@ def test_patch(tmp_path, order, matrix):
     """A uniform pressure shall go through two different meshes in any direction, to 1e-10."""
     mesh = block(Mesh(), (4, 2), (7, 4), prefix="low-", name="low")
     block(mesh, (4, 2), (11, 5), (0, 2.125), prefix="up-", name="up")
-    done = solve(tmp_path, mirrored(mesh, matrix), PATCH, "-order", order, "-tol", 1e-12, *SHORT)
+    done = solve(tmp_path, mirrored(mesh, matrix), PATCH, "-order", order, "-tol", 1e-12)
     np.testing.assert_allclose(done.contact["pressure"], 5, rtol=1e-10)
 
 
@@ -298,7 +297,7 @@ def test_turned(tmp_path, load, flags):
     for matrix in (np.eye(3), MIRROR @ turn(2.5)):
         push = matrix @ ([1.0, -20.0, 0] if load == "weight inner" else [0.005, -0.1, 0])
         case = PIN + f"{load} {float(push[0])!r} {float(push[1])!r}\n"
-        done = solve(tmp_path, mirrored(rings(40), matrix), case, "-tol", 1e-11, *flags, *SHORT)
+        done = solve(tmp_path, mirrored(rings(40), matrix), case, "-tol", 1e-11, *flags)
         x, y = matrix[:2, :2].T @ [done.contact["x"], done.contact["y"]]
         order = np.argsort((np.arctan2(y, x) + 1e-6) % (2 * np.pi))
         found.append(done.contact["pressure"][order])
