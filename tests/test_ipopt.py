@@ -15,15 +15,23 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("h", [0.5, 0.25])
-@pytest.mark.parametrize("law", ["base", "stiff"])
+@pytest.mark.parametrize(
+    "law, h, order",
+    [
+        ("base", 0.5, 1),
+        ("stiff", 0.5, 2),
+        ("stiff", 0.25, 1),
+        pytest.param("base", 0.25, 2, marks=pytest.mark.long),
+        pytest.param("stiff", 0.25, 2, marks=pytest.mark.long),
+    ],
+)
 def test_same_answer_as_newton(law, h, order):
     """IPOPT's minimum of the energy shall carry the force that Newton's method finds, to 1e-6, at no more energy."""
     flags = [*LAWS[law], "-h", h, "-order", order]
     newton = run(DISC, "-method", "newton", "-tol", 1e-10, *flags)
     ipopt = run(WITH_IPOPT, *flags)
     assert ipopt.method == "ipopt"
+    assert ipopt.newton <= 20
     assert ipopt.force == pytest.approx(newton.force, rel=1e-6)
     assert ipopt.energy == pytest.approx(newton.energy, rel=1e-9)
     assert (ipopt.contact["status"] == newton.contact["status"]).all()
@@ -31,7 +39,7 @@ def test_same_answer_as_newton(law, h, order):
     assert difference <= 1e-6 * newton.pressureMax
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", ["stiffer", "m=20", "exponential", "barrier"])
 def test_same_answer_on_every_law(law):
     """Laws that overflow or end at a finite overlap shall not stop IPOPT, nor need more than 20 iterations."""
     extended = run(DISC, *LAWS[law], "-h", 0.5, "-tol", 1e-10)
@@ -40,10 +48,10 @@ def test_same_answer_on_every_law(law):
     assert ipopt.newton <= 20
 
 
-@pytest.mark.parametrize("order", [1, 2, 4])
-def test_hard_contact_by_bounds(order):
+@pytest.mark.parametrize("order, h", [(1, 0.5), (4, 2), pytest.param(2, 0.5, marks=pytest.mark.long)])
+def test_hard_contact_by_bounds(order, h):
     """With -law signorini IPOPT shall find hard contact: a wall at d0, pressure nowhere else."""
-    flags = ["-h", 0.5, "-order", order]
+    flags = ["-h", h, "-order", order]
     hard = run(DISC, "-method", "signorini", *flags)
     ipopt = run(WITH_IPOPT, "-law", "signorini", *flags)
     contact = ipopt.contact
@@ -65,24 +73,24 @@ def test_counts():
     assert "solve/methods/ipopt" in result.modules
 
 
-@pytest.mark.parametrize("flags", [[], ["-law", "signorini"]])
-@pytest.mark.parametrize("u0", [0.2, 0.25, -1])
+@pytest.mark.parametrize("flags, u0", [([], 0.25), ([], -1), (["-law", "signorini"], 0.2)])
 def test_no_contact(flags, u0):
     """Short of first touch the result shall be zero force, converged, nothing open."""
     result = run(WITH_IPOPT, *flags, "-u0", u0, "-h", 1)
     assert result.force == result.contactPoints == result.energy == 0
 
 
-@pytest.mark.parametrize("length, pressure", [(1e3, 1e-6), (1 / 7e7, 3e11)])
-@pytest.mark.parametrize("law", ["power", "signorini", "barrier"])
+@pytest.mark.parametrize(
+    "law, length, pressure", [([], 1e3, 1e-6), (["-law", "signorini"], 1 / 7e7, 3e11), (LAWS["barrier"], 1e3, 1e-6)]
+)
 def test_invariance(law, length, pressure):
     """A change of units shall scale the force, and change no iteration (but for rounding near the barrier)."""
     lengths = {"width": 40.0, "depth": 20.0, "R": 10.0, "gap": 0.5, "u0": 2.5, "d0": -0.25, "h": 0.5}
     flags = {name: value * length for name, value in lengths.items()}
     flags.update(E=100 * pressure, kappa=1e3 * pressure / length**3, p0=0.02 * pressure)
-    first = run(WITH_IPOPT, "-law", law, "-h", 0.5)
-    other = run(WITH_IPOPT, "-law", law, *(word for name, value in flags.items() for word in ("-" + name, value)))
-    assert abs(other.newton - first.newton) <= (5 if law == "barrier" else 0)
+    first = run(WITH_IPOPT, *law, "-h", 0.5)
+    other = run(WITH_IPOPT, *law, *(word for name, value in flags.items() for word in ("-" + name, value)))
+    assert abs(other.newton - first.newton) <= (5 if law == LAWS["barrier"] else 0)
     assert other.force == pytest.approx(first.force * pressure * length, rel=1e-8)
 
 
@@ -95,7 +103,7 @@ def test_not_converged(flags):
     assert len(result.history) == result.newton == 2
 
 
-@pytest.mark.parametrize("script", ["edp/main.edp", "edp/scenes/meshed-disc.edp", "edp/scenes/confined-block.edp"])
+@pytest.mark.parametrize("script", ["edp/main.edp", "edp/scenes/meshed-disc.edp"])
 def test_refused_without_the_plugin(tmp_path, script):
     """Where the plugin is not loaded, -method ipopt shall be refused, and the script that has it be named."""
     out = tmp_path / "out"
