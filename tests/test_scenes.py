@@ -238,7 +238,9 @@ EXTREMES = [
 ]
 
 
-USUAL = [["-nu", 0.499], ["-nu", 0], ["-E", 1e9], ["-gap", 3, "-u0", 5]]  # milder than others
+# milder than others, or in other tests too
+USUAL = [["-nu", 0.499], ["-nu", 0], ["-E", 1e-6], ["-E", 1e9], ["-gap", 3, "-u0", 5], ["-R", 60]]
+USUAL += [["-m", 30], ["-kappa", 1e15]]
 BOTH = [["-gap", -1, "-u0", 0], ["-kappa", 1e15]]  # of two bodies too
 
 
