@@ -11,21 +11,22 @@ FORCE, PRESSURE, HALF_WIDTH = 150.0294748, 22.559747, 4.927623  # of the paper's
 SPHERE = 1567.7  # +- 0.3: the force of sphere-on-block's default load, from another code
 
 
-@pytest.mark.parametrize("scene, order", [("patch-test", 4), ("patch-test-3d", 1), ("patch-test-3d", 2)])
-def test_patch(scene, order):
-    """Between meshes that do not match the pressure shall be uniform to 1e-10, and exact."""
-    done = run(scene, "-order", order, "-tol", 1e-12)
+@pytest.mark.parametrize(
+    "scene, flags",
+    [
+        ("patch-test", ["-order", 4]),
+        ("patch-test-3d", ["-order", 1, "-lower", 2, "-upper", 5]),
+        ("patch-test-3d", ["-order", 2, "-lower", 2, "-upper", 3]),
+        pytest.param("patch-test-3d", ["-order", 2], marks=pytest.mark.long),
+    ],
+)
+def test_patch(scene, flags):
+    """Between meshes that do not match the pressure shall be uniform to 1e-10, and exact, the weights the areas."""
+    done = run(scene, *flags, "-tol", 1e-12)
     exact = confined(1e3, 3, -0.25, 2, (20, 10), (100 * 0.7 / (1.3 * 0.4),) * 2)
     np.testing.assert_allclose(done.contact["pressure"], exact, rtol=1e-10)
-
-
-@pytest.mark.parametrize("order, upper", [(1, 5), (2, 3)])
-def test_patch_in_space_covers_a_part(order, upper):
-    """Other meshes: the weights shall be the areas, none negative."""
-    done = run("patch-test-3d", "-order", order, "-lower", 2, "-upper", upper, "-tol", 1e-12)
     assert done.contact["weight"].min() > 0
-    assert done.contact["weight"].sum() == pytest.approx(400, rel=1e-12)
-    assert np.ptp(done.contact["pressure"]) < 1e-10 * done.pressureMax
+    assert done.contact["weight"].sum() == pytest.approx(20 if scene == "patch-test" else 400, rel=1e-12)
 
 
 def test_one_order_is_left_out():
