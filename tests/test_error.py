@@ -257,7 +257,7 @@ def parts_of(case):
 
 def test_own_parts(tmp_path):
     """A floating pin: its force is told by the balance; pressure, length, the way of its load are known by an error."""
-    case = example("pin-in-hole", tmp_path, size=1.5)
+    case = example("pin-in-hole", tmp_path, "", "-estimate", 1, size=1.5)
     contact, way = parts_of(case)
     assert contact["force"]["error"] <= 1e-8 and way["error"] <= 0.01 * way["value"]
     assert "weight core has gone" in case.stdout and "±" in case.stdout
@@ -265,7 +265,8 @@ def test_own_parts(tmp_path):
 
 def test_accuracy_of_own_parts(tmp_path):
     """New meshes of a user's parts shall keep their curves, and their errors what was asked for."""
-    case = example("pin-in-hole", tmp_path, "", "-order", 2, "-accuracy", 2e-2, "-goal", "pressure", size=2)
+    asked = "-estimate", 1, "-accuracy", 2e-2, "-goal", "pressure"
+    case = example("pin-in-hole", tmp_path, "", "-order", 2, *asked, size=2)
     accuracy = case.summary["accuracy"]
     assert accuracy["met"] and accuracy["meshes"] > 1
     parts_of(case)
@@ -275,7 +276,7 @@ def test_accuracy_of_own_parts(tmp_path):
 
 def test_several_contacts(tmp_path):
     """The roller's two contacts shall be known alike, and the way of what pushes it."""
-    told = example("roller", tmp_path, size=0.2).summary["estimates"]
+    told = example("roller", tmp_path, "", "-estimate", 1, size=0.2).summary["estimates"]
     above, below = told["contacts"]
     a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(*[forms.plane_modulus(210e3, 0.3)] * 2))
     for contact in (above, below):
