@@ -545,7 +545,7 @@ def test_turned_contact(tmp_path):
 
     found = []
     for matrix in (UNTURNED, TURNED):
-        run = solve(tmp_path, stack(matrix), case(matrix))
+        run = solve(tmp_path, stack(matrix), case(matrix), "-order", 1)
         found.append((run.newton, run.backsolves, run.contact))
     (*counts, one), (*others, other) = found
     assert others == counts
@@ -577,9 +577,9 @@ def test_held_point(tmp_path, flags):
 def test_held_on_both_sides(tmp_path):
     """A slave's clamped corner below a master's that is moved into it: no solution; a gap there is no matter."""
     case = STACK + 'clamp left\nclamp bottom\nmove "upper left" 0 {}\npressure "upper top" 1\n'
-    said = solve(tmp_path, two_blocks_of(3, 9), case.format(-0.01), expect=10).stdout
+    said = solve(tmp_path, two_blocks_of(3, 9), case.format(-0.01), "-order", 1, expect=10).stdout
     assert "contact top upper bottom: the point at (0, 1): it is held" in said
-    run = solve(tmp_path, two_blocks_of(3, 9), case.format(0.01))
+    run = solve(tmp_path, two_blocks_of(3, 9), case.format(0.01), "-order", 1)
     assert run.force > 1 and "left out" not in run.stdout
 
 
@@ -599,7 +599,7 @@ def two_blocks_of(width, cells):
 )
 def test_nothing_presses(tmp_path, case, gap, flags):
     """Bodies that do not press on each other: no force, and a word, however far they are moved."""
-    run = solve(tmp_path, two_blocks_of(3, 9), f"{STACK}clamp bottom\n{case}\n", *flags)
+    run = solve(tmp_path, two_blocks_of(3, 9), f"{STACK}clamp bottom\n{case}\n", "-order", 1, *flags)
     assert run.force == 0 and f"nothing presses on anything: the least gap left is {gap}" in run.stdout
     assert run.summary["outOfBalance"] < 1e-6
 
