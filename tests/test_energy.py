@@ -1,7 +1,8 @@
 """Work is force: the reported energy's derivative in the prescribed displacement is the reported force."""
 
+import numpy as np
 import pytest
-from freefem import run, short_of
+from freefem import run, short_of, table
 
 STEP = 5e-4  # of the approach: the difference's own error is of its square, its rounding far below
 HARD = ["-law", "signorini"]
@@ -59,12 +60,16 @@ def test_work_is_force_in_every_scene(scene, u0, flags):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_work_is_force_for_every_law(tmp_path_factory, law):
-    """The same with the other laws, in the plane; a table of the power law's own pairs."""
+    """The same along a path with the other laws, in the plane; a table of the power law's own pairs."""
     flags = list(LAWS[law])
     if law == "table":
         pairs = tmp_path_factory.getbasetemp() / "pairs.csv"
         pairs.write_text("".join(f"{s / 20},{1e3 * (s / 20) ** 3!r}\n" for s in range(11)))
         flags += ["-table", pairs]
-    slope, force = derivative("flat-punch", 2.5, ["-h", 1, *flags])
-    assert force > 0
-    assert slope == pytest.approx(force, rel=1e-5)
+    ends = f"{2.5 - STEP!r} {2.5 + STEP!r}"
+    done = run("flat-punch", "-h", 1, *flags, "-tol", 1e-12, "-path", ends, "-steps", 1)
+    states = table(done.folder / "path.csv")
+    assert states["force"].min() > 0
+    assert np.diff(states["energy"]) / np.diff(states["approach"]) == pytest.approx(states["force"].mean(), rel=1e-5)
+    assert (states["stability"] == 1).all() and "stiffness" not in states.dtype.names
+    assert states["contactPoints"][-1] == done.contactPoints
