@@ -276,19 +276,22 @@ def write(name: str, folder: Path) -> tuple[Path, Path]:
     return geo, file
 
 
-def mesh(name: str, folder: Path) -> tuple[Path, Path]:
-    """The shape's mesh by gmsh, turned, and its case file."""
-    geo, case = write(name, folder)
-    path = geo.with_suffix(".msh")
-    dimension = "-3" if SHAPES[name].space else "-2"
+def gmsh(geo: Path, path: Path, dimension: str, matrix: np.ndarray) -> None:
+    """A geometry's mesh by gmsh, turned."""
     subprocess.run(["gmsh", dimension, "-v", "1", "-format", "msh22", geo, "-o", path], check=True, timeout=120)
     lines = path.read_text().splitlines()
     first = lines.index("$Nodes") + 2
     for k in range(first, first + int(lines[first - 1])):
         number, *place = lines[k].split()
-        turned = turning(name, SHAPES[name].space) @ np.array(place, float)
-        lines[k] = " ".join([number, *(f"{value:.16g}" for value in turned)])
+        lines[k] = " ".join([number, *(f"{value:.16g}" for value in matrix @ np.array(place, float))])
     path.write_text("\n".join(lines) + "\n")
+
+
+def mesh(name: str, folder: Path) -> tuple[Path, Path]:
+    """The shape's mesh by gmsh, turned, and its case file."""
+    geo, case = write(name, folder)
+    path, space = geo.with_suffix(".msh"), SHAPES[name].space
+    gmsh(geo, path, "-3" if space else "-2", turning(name, space))
     return path, case
 
 
