@@ -9,7 +9,7 @@ import pytest
 import reference
 import shapes
 from freefem import ROOT, run, run_in
-from test_adhesion import GAP, SPHERE, flags
+from test_adhesion import GAP, MODULUS, SPHERE, R, flags
 from test_examples import FOLDER, STEEL, example
 from test_examples import solve as solve_parts
 from test_parts import solve, turn, turn_in_space, vector
@@ -254,3 +254,14 @@ def test_random_loads():
     newton, solves = (np.array([row[name] for row in found]) for name in ("newton", "backsolves"))
     (told,) = re.findall(r"in (\S+) linearisations.*?, (\d+) at most, (\S+) back-sub.*?, (\d+) at most", TEXT, re.S)
     same([newton.mean(), newton.max(), solves.sum() / newton.sum(), (solves / newton).max()], told)
+
+
+def test_pull_off_in_the_plane():
+    """The cylinder's command shall come to its end, and its least force to JKR's."""
+    (line,) = re.findall(r"`(adhesive-cylinder .*?)`", TEXT)
+    (bound,) = re.findall(r"JKR.* to (\S+ %)", TEXT)
+    scene, *given = shlex.split(line)
+    done = run(scene, *given)
+    exact = -0.75 * (4 * np.pi * MODULUS * done.parameters["w"] ** 2 * R) ** (1 / 3)
+    assert len(done.jumps) == 1
+    within([abs(done.pullOff / exact - 1)], [bound])
