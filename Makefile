@@ -106,15 +106,16 @@ petsc: | system
 	command -v g++ >/dev/null || missing="$$missing g++"; \
 	$(INSTALL_MISSING)
 
-# ff-c++ writes beside its source. The .idp comes last: what it names is there.
+# ff-c++ writes beside its source; what is built is put in place when it is whole, the .idp that names it last.
 build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
-	@mkdir -p build && cp $< build && cd build && \
+	@mkdir -p build/new && cp $< build/new && cd build/new && \
 	ff-c++ -mpi -I$(PETSC)/include $$(mpicxx --showme:compile) -L$(PETSC)/lib -Wl,-rpath,$(PETSC)/lib \
 	  $$(if ls $(PETSC)/lib/libpetsc_real.* >/dev/null 2>&1; then echo -lpetsc_real; else echo -lpetsc; fi) \
-	  $$(mpicxx --showme:link) multigrid.cpp >multigrid.log 2>&1 && test -e multigrid.so || { \
-	  grep -m 3 'error:' multigrid.log || tail -n 5 multigrid.log; echo "the plugin could not be built with the PETSc in $(PETSC): build/multigrid.log"; exit 1; \
+	  $$(mpicxx --showme:link) multigrid.cpp >../multigrid.log 2>&1 && mv multigrid.so .. || { \
+	  cd .. && grep -m 3 'error:' multigrid.log || tail -n 5 multigrid.log; \
+	  echo "the plugin could not be built with the PETSc in $(PETSC): build/multigrid.log"; exit 1; \
 	}
-	@rm -f build/multigrid.cpp build/multigrid.o
+	@rm -rf build/new
 	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
 	@echo 'built: -solver multigrid, in scenes in space'
 
