@@ -330,15 +330,6 @@ def test_path_goes_on(tmp_path):
 
 
 @pytest.mark.long
-def test_cylinder_against_jkr():
-    """In the plane the pull-off force shall be JKR's to 1 % at Tabor's number 4."""
-    work = 4**1.5 * MODULUS * GAP**1.5 / np.sqrt(R)
-    given = ["-w", work, "-h", 0.0025, "-fine", 0.5, "-grading", 800, "-steps", 6, "-path", "0.002 -0.03"]
-    done = run("adhesive-cylinder", *given)
-    assert done.pullOff == pytest.approx(-0.75 * (4 * np.pi * MODULUS * work**2 * R) ** (1 / 3), rel=0.01)
-
-
-@pytest.mark.long
 def test_waves_snap_in_one_after_the_other():
     """The waves' contacts shall snap in at approaches of their own, and every jump dissipate."""
     done = run("adhesive-wavy", "-path", "-0.006 0 -0.008")

@@ -12,7 +12,7 @@ RUNS = (2, None)
 
 LINES = ("hertz-line", "two-cylinders")  # of the scenes, those whose contact is a line
 CIRCLES = ("disc-on-block", "sphere-on-block", "sphere-on-plane", "two-spheres")
-PLANE = (*LINES, "axisymmetric sphere")  # meshes of triangles, the others of tetrahedra
+PLANE = (*LINES, "axisymmetric")  # meshes of triangles, the others of tetrahedra
 FLOOR = 3e-5  # of the first two errors: less than what Hertz leaves out, as a/R and the size of the bodies
 WHAT = ("half-width or radius", "greatest pressure", "pressure, r.m.s.")
 
@@ -78,7 +78,7 @@ def scene(run: Run) -> str:
     if name == "disc-on-block":
         if run.summary["parameters"].get("geometry") != "axisymmetric":
             raise ResultsError(run.path / "summary.json", "is of a disc: use the scene hertz-line")
-        name = "axisymmetric sphere"
+        name = "axisymmetric"
     return name
 
 
