@@ -316,10 +316,10 @@ doctor: ## say what is installed, what is missing and how to get it
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory build/multigrid-plugin.idp
-	@$(PYTHON) -m pytest -q -n 2 --dist worksteal $(PYTEST_ARGS) $(TESTS)
+	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
 test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
-	@$(PYTHON) -m pytest -q -n 2 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
+	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
 lint: .venv/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests

@@ -142,7 +142,9 @@ def test_same_answer(scene, h, order):
         assert near(other.energy, newton.energy, 1e-10)
 
 
-@pytest.mark.parametrize("kappa, m", [pytest.param(1e6, 3, marks=pytest.mark.long), (1e3, 10), (1e9, 2)])
+@pytest.mark.parametrize(
+    "kappa, m", [pytest.param(1e6, 3, marks=pytest.mark.long), pytest.param(1e3, 10, marks=pytest.mark.long), (1e9, 2)]
+)
 def test_same_answer_of_stiff_laws(kappa, m):
     """Both first thresholds of the paper's scheme shall lead to Newton's answer for stiffer laws too."""
     flags = ["-h", 0.5, "-kappa", kappa, "-m", m, *EXACT_STOP]

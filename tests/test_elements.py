@@ -95,7 +95,10 @@ def test_work_is_force(scene, u0, flags):
 
 @pytest.mark.parametrize(
     "scene, flags",
-    [("disc-on-block", ["-h", 2, "-order", 4]), ("sphere-on-block", ["-h", 2, "-patch", 4, "-layers", 1, "-order", 2])],
+    [
+        ("disc-on-block", ["-h", 2, "-order", 4]),
+        pytest.param("sphere-on-block", ["-h", 2, "-patch", 4, "-layers", 1, "-order", 2], marks=pytest.mark.long),
+    ],
 )
 def test_methods_agree(scene, flags):
     """The paper's scheme and Newton's method shall find xnewton's solution."""

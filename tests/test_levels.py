@@ -123,7 +123,11 @@ def test_start(side, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "scene, flags", [("rough", ["-order", 1, "-h", 0.2]), ("sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9])]
+    "scene, flags",
+    [
+        ("rough", ["-order", 1, "-h", 0.2]),
+        pytest.param("sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9], marks=pytest.mark.long),
+    ],
 )
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""

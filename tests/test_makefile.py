@@ -99,6 +99,7 @@ def interrupted(package, folder, how, *words):
     assert code != 0
 
 
+@pytest.mark.long
 def test_interrupted_figure(package):
     """A run of `make figures` that is ended before its end shall be no target, and be made again."""
     folder = package / "results" / "figures" / "signorini-start"

@@ -58,7 +58,7 @@ CASES = [
     ["patch-test-3d"],
     ["patch-test-3d", "-order", 2, "-lower", 3, "-upper", 4],
 ]
-QUICK = {(0, 1), (1, 2), (2, 2), (3, 2), (4, 2), (7, 3), (9, 2)}
+QUICK = {(0, 1), (1, 2), (2, 2), (3, 2), (4, 2), (7, 1), (8, 3), (9, 2)}
 RUNS = [
     pytest.param(CASES[k], ranks, marks=[] if (k, ranks) in QUICK else [pytest.mark.long])
     for k in range(len(CASES))
@@ -112,7 +112,9 @@ REFUSED = [
     (1, "sphere-on-block", ["-solver", "multigrid", "-order", 4], "-order"),
     (2, "disc-on-block", ["-order", 4], "scenes in space"),
     (2, "sphere-on-block", [], "-solver direct runs on one process"),
-    (2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa"),
+    pytest.param(
+        2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa", marks=pytest.mark.long
+    ),
 ]
 
 

@@ -78,7 +78,10 @@ def plane(group, point, normal, move=None):
     return text + (f" move {vector(move)}\n" if move is not None else "\n")
 
 
-@pytest.mark.parametrize("order, distance", [(1, "linear"), pytest.param(2, "exact", marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "order, distance",
+    [pytest.param(1, "linear", marks=pytest.mark.long), pytest.param(2, "exact", marks=pytest.mark.long)],
+)
 def test_turned_ball(tmp_path, order, distance):
     """A ball that only three pairs of planes hold, turned: the same counts, but for one product, results to 1e-9."""
 
@@ -229,7 +232,7 @@ EXACT = ["-distance", "exact", "-h", 0.5, "-layers", 1]
 LAYER = ["-law", "power", "-kappa", 100, "-m", 2, "-d0", -0.05, "-tol", 1e-11]
 
 
-@pytest.mark.parametrize("order, points", [(1, "nodal"), (2, "segment")])
+@pytest.mark.parametrize("order, points", [(1, "nodal"), pytest.param(2, "segment", marks=pytest.mark.long)])
 def test_distance_has_an_energy(order, points):
     """With the true distance the force shall be the derivative of the energy: Simpson's rule to 1e-9."""
     flags = [*EXACT, *LAYER, "-order", order, "-points", points, "-force", 0]

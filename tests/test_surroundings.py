@@ -442,7 +442,7 @@ def interrupted_series(*words, cwd=ROOT, rows=4):
     time.sleep(0.3)  # a table that was just being moved into place still is
 
 
-@pytest.mark.parametrize("method", ["xnewton", "paper"])
+@pytest.mark.parametrize("method", ["xnewton", pytest.param("paper", marks=pytest.mark.long)])
 def test_series_counts_go_on(tmp_path, method):
     """An interrupted series shall end with the forces and counts of one that was not."""
     flags = ["-method", method, "-h", 1, "-order", 1, "-history", 1, "-steps", 12, "-vtu", 0, "-estimate", 0]
@@ -461,7 +461,7 @@ def test_series_counts_go_on(tmp_path, method):
     assert whole.newton > resumed.newton == len(resumed.history)
 
 
-@pytest.mark.parametrize("script", [DISC, BODIES])
+@pytest.mark.parametrize("script", [DISC, pytest.param(BODIES, marks=pytest.mark.long)])
 def test_series_of_another_problem(mesh, tmp_path, script):
     """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
     package = tree(tmp_path / "package")
