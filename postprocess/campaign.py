@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.results import ResultsError, check_file
@@ -116,6 +117,15 @@ def elastic_seconds(row: Row) -> float:
 def contact_seconds(row: Row) -> float:
     """From assembly to the displacement, without meshing and output."""
     return elastic_seconds(row) + number(row, "seconds_contact")
+
+
+def name_meshes(figure: Figure, rows: list[Row]) -> None:
+    """Below the figure, at its right, the elements of these rows, and from which size to which."""
+    orders = sorted({int(number(row, "order")) for row in rows})
+    sizes = sorted({number(row, "h") for row in rows})
+    span = f"$h = {sizes[0]:g}$" + (f" to ${sizes[-1]:g}$" if len(sizes) > 1 else "")
+    text = ", ".join([*(f"P{order}" for order in orders), span])
+    figure.supxlabel(text, x=0.995, ha="right", fontsize=8, color=style.GREY)
 
 
 def draw_failures(axes, x: np.ndarray, color: str) -> None:

@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Row, contact_seconds, good, number, read_campaign, select
+from postprocess.campaign import Campaign, Row, contact_seconds, good, name_meshes, number, read_campaign, select
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
@@ -25,7 +25,7 @@ PROBLEMS = {
     "sphere": {"scene": "sphere-on-block"},
     "crossed cylinders": {"scene": "parts-3d"},
 }
-COLUMNS = "name status scene kappa m ndof forceError said asked seconds"
+COLUMNS = "name status scene order h kappa m ndof forceError said asked seconds"
 PEERS = "script flags status scene kappa m forceError seconds_assembly seconds_factorisation seconds_contact"
 
 
@@ -57,6 +57,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for axes in grid[:, 0]:
         axes.set_ylabel("relative error", fontsize=8, labelpad=1)
     draw_legend(grid[2, 1], bool(peers))
+    name_meshes(figure, rows)
     return figure
 
 

@@ -11,6 +11,7 @@ from postprocess.campaign import (
     draw_failures,
     elastic_seconds,
     good,
+    name_meshes,
     number,
     numbers,
     read_campaign,
@@ -24,7 +25,9 @@ READ = read_campaign
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """Contact run and linear elastic solve, with fitted exponents; memory; the ratio of the two. Plane and space."""
-    columns = "name scene status kappa m ndof memory costRatio seconds_assembly seconds_factorisation seconds_contact"
+    columns = (
+        "name scene status order h kappa m ndof memory costRatio seconds_assembly seconds_factorisation seconds_contact"
+    )
     rows = select(runs[0].rows("growth", columns), name="growth")
     if not any(map(good, rows)):
         raise ResultsError(runs[0].path / "growth.csv", "no run of it converged")
@@ -60,6 +63,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     ratio.axhline(1.25, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
     ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if good(row)], "costRatio"))))
     figure.legend(loc="outside upper center", ncols=3)
+    name_meshes(figure, rows)
     return figure
 
 

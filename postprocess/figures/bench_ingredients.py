@@ -6,7 +6,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.campaign import LAWS, Campaign, good, heat_map, law, number, read_campaign
+from postprocess.campaign import LAWS, Campaign, good, heat_map, law, name_meshes, number, read_campaign
 
 RUNS = (1, 1)
 READ = read_campaign
@@ -23,7 +23,7 @@ MEASURES = {"newton": "linearisations", "backsolves": "back-substitutions"}
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """A row per exchange of ingredients, a column per scene and law; hatched where the run failed."""
-    rows = runs[0].rows("ingredients", "flags scene status law kappa m p0 beta newton backsolves")
+    rows = runs[0].rows("ingredients", "flags scene status order h law kappa m p0 beta newton backsolves")
     variants = list(dict.fromkeys(map(variant, rows)))
     columns = list(dict.fromkeys((row["scene"], words(row)) for row in rows))
     figure = Figure(figsize=(style.PAGE, 0.92 * style.PAGE), layout="constrained")
@@ -49,6 +49,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         above = panels[0].get_xaxis_transform()
         panels[0].text(np.mean(places), 1.03, scene, transform=above, ha="center", fontsize=7.5)
     panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=16)
+    name_meshes(figure, rows)
     return figure
 
 

@@ -13,6 +13,7 @@ from postprocess.campaign import (
     good,
     look,
     method,
+    name_meshes,
     number,
     numbers,
     read_campaign,
@@ -75,6 +76,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         if any(method(row) == name for row in rows):
             grid[0, 0].plot([], [], **rival_look(name), label=NAMES[name])
     figure.legend(loc="outside upper center", ncols=5)
+    name_meshes(figure, rows)
     return figure
 
 

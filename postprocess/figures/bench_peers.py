@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Row, contact_seconds, good, number, read_campaign
+from postprocess.campaign import Campaign, Row, contact_seconds, good, name_meshes, number, read_campaign
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
@@ -14,7 +14,7 @@ READ = read_campaign
 CODES = ("this package", "NGSolve")
 COLORS = (style.BLUE, style.VERMILION)
 COLUMNS = (
-    "script flags status scene kappa m order forceError secondsBefore "
+    "script flags status scene kappa m order h forceError secondsBefore "
     "seconds_assembly seconds_factorisation seconds_contact"
 )
 
@@ -47,6 +47,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         grid[0, 0].plot([], [], color=color, label=name)
     grid[0, 0].plot([], [], linestyle="", marker="$4$", color=style.GREY, label="degree")
     figure.legend(loc="outside upper center", ncols=3)
+    name_meshes(figure, rows)
     return figure
 
 

@@ -13,6 +13,7 @@ from postprocess.campaign import (
     good,
     look,
     method,
+    name_meshes,
     number,
     numbers,
     read_campaign,
@@ -24,7 +25,7 @@ READ = read_campaign
 
 FLOOR = 1e-13  # below, an error is the reference's own
 MEASURES = {"seconds": "CPU seconds", "factorisations": "factorisations", "backsolves": "back-substitutions"}
-COLUMNS = "status method T0 kappa m tol pressureError seconds_assembly seconds_factorisation seconds_contact"
+COLUMNS = "status order h method T0 kappa m tol pressureError seconds_assembly seconds_factorisation seconds_contact"
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
@@ -49,6 +50,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         grid[0, 0].plot([], [], **look(name), label=NAMES[name])
     grid[0, 0].plot([], [], "x", color=style.GREY, label="failed")
     figure.legend(loc="outside upper center", ncols=4)
+    name_meshes(figure, rows)
     return figure
 
 

@@ -16,6 +16,7 @@ from postprocess.campaign import (
     heat_map,
     law,
     method,
+    name_meshes,
     number,
     read_campaign,
     select,
@@ -34,7 +35,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     rows = [*select(rows, name="grid"), *select(rows, name="rival")]
     present = [name for name in METHODS if any(method(row) == name for row in rows)]
     groups = {NAMES[name]: [row for row in rows if method(row) == name] for name in present}
-    return panels(groups, "newton", f"Newton steps, P{MESH['order']}, $h = {MESH['h']}$, residual $10^{{-8}}$")
+    return panels(groups, "newton", "Newton steps to a residual of $10^{-8}$")
 
 
 def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float | None = None) -> Figure:
@@ -70,6 +71,7 @@ def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float 
         heat_map(below, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
         below.set_yticks([])
         below.set_xticks(range(len(others)), [LAWS[other] for other in others], fontsize=7)
+    name_meshes(figure, every)
     return figure
 
 
