@@ -120,12 +120,13 @@ def contact_seconds(row: Row) -> float:
 
 
 def name_meshes(figure: Figure, rows: list[Row]) -> None:
-    """Below the figure, at its right, the elements of these rows, and from which size to which."""
+    """Below the figure, at its right, the elements of these rows, and from which size to which, where they have one."""
     orders = sorted({int(number(row, "order")) for row in rows})
-    sizes = sorted({number(row, "h") for row in rows})
-    span = f"$h = {sizes[0]:g}$" + (f" to ${sizes[-1]:g}$" if len(sizes) > 1 else "")
-    text = ", ".join([*(f"P{order}" for order in orders), span])
-    figure.supxlabel(text, x=0.995, ha="right", fontsize=8, color=style.GREY)
+    sizes = sorted({number(row, "h") for row in rows if row["h"]})
+    texts = [f"P{order}" for order in orders]
+    if sizes:
+        texts.append(f"$h = {sizes[0]:g}$" + (f" to ${sizes[-1]:g}$" if len(sizes) > 1 else ""))
+    figure.supxlabel(", ".join(texts), x=0.995, ha="right", fontsize=8, color=style.GREY)
 
 
 def draw_failures(axes, x: np.ndarray, color: str) -> None:
