@@ -567,7 +567,7 @@ def tracked(folder):
 @pytest.mark.long
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
 def test_dockerfile(tmp_path):
-    """The Dockerfile's commands shall set the package up in a bare Debian, where `make run` solves the paper's test."""
+    """In a bare Debian the Dockerfile's commands shall set all up, and `make run` run, on two processes too."""
     lines = (ROOT / "Dockerfile").read_text().splitlines()
     words = {line.split()[0] for line in lines if not line.startswith("#")}
     assert lines[1] == "FROM debian:12" and words == {"FROM", "RUN", "COPY", "WORKDIR", "CMD"}
@@ -580,7 +580,7 @@ def test_dockerfile(tmp_path):
     try:
         bare = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
         folder = ""
-        for line in [*lines, "RUN make run"]:
+        for line in [*lines, "RUN make run", "RUN make run SCENE=sphere-on-block NP=2"]:
             word, _, rest = line.partition(" ")
             folder = rest if word == "WORKDIR" else folder
             if word == "COPY":
@@ -594,5 +594,6 @@ def test_dockerfile(tmp_path):
                 if certificates.exists():  # those of this machine's own network
                     shutil.copy("/etc/ssl/certs/ca-certificates.crt", certificates)
         assert (system / "contact/results/disc-on-block/xnewton/summary.json").exists()
+        assert json.loads((system / "contact/results/sphere-on-block/xnewton/summary.json").read_text())["ranks"] == 2
     finally:
         subprocess.run(["umount", system / "proc"], check=True)
