@@ -316,7 +316,11 @@ def check_thresholds(run):
 
 
 def check_last_model(run):
-    """The contact table is that of the last model that was solved."""
+    """The contact table is that of the last model that was solved; a path may end in a state that was found ahead."""
+    if "pullOff" in run.summary:
+        away = np.abs(run.models["s"] - run.contact["s"]).max(axis=1)
+        assert away.min() <= 1e-12 * np.abs(run.contact["s"]).max()
+        return
     for name in ("overlap", "pressure", "lambda", "threshold", "s", "tau"):
         assert (run.models[name][-1] == run.contact[name]).all(), name
 
