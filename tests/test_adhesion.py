@@ -186,7 +186,9 @@ def test_two_bodies():
 # ---------------------------------------------------------------- paths
 
 
-@pytest.mark.parametrize("mu", PULL_OFF)
+@pytest.mark.parametrize(
+    "mu", [0.05, pytest.param(0.3, marks=pytest.mark.long), pytest.param(1, marks=pytest.mark.long), 2]
+)
 def test_pull_off(mu):
     """The least force on the whole path shall be that of the half-space to 0.5 %, with five increments each way."""
     done, _, unit = follow(mu)

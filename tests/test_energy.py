@@ -20,8 +20,6 @@ SCENES = [
     ("confined-block", 2.5, ["-h", 4]),
     ("wavy", 2.5, ["-h", 0.5, "-geometry", "stress"]),
     ("flat-punch", 2.5, ["-h", 1, "-geometry", "axisymmetric"]),
-    ("patch-test", 2.5, []),
-    ("hertz-line", 0.3, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.4]),
     ("two-cylinders", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.4]),
     ("two-bodies", 0.5, ["-law", "power", "-d0", -0.25]),
     ("sphere-on-plane", 0.1, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.6, "-layers", 2]),
@@ -29,6 +27,8 @@ SCENES = [
 ]
 # what other elements find as well (test_elements.py), and the same formulas once more
 MORE = [
+    ("patch-test", 2.5, []),
+    ("hertz-line", 0.3, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.4]),
     ("disc-on-block", 2.5, ["-h", 0.5]),
     ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "stress"]),
     ("disc-on-block", 2.5, ["-h", 0.5, "-geometry", "axisymmetric", "-width", 20]),

@@ -147,6 +147,7 @@ def test_crossed_cylinders(tmp_path):
     balanced(case)
 
 
+@pytest.mark.long
 def test_ball_on_bracket(tmp_path):
     """A ball that only contact holds shall press like Hertz's; what no gap feels is said."""
     case = example("ball-on-bracket", tmp_path, size=0.45, round=3, finer=0.9, coarse=10)

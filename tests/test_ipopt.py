@@ -18,7 +18,7 @@ LAWS = {
 @pytest.mark.parametrize(
     "law, h, order",
     [
-        ("base", 0.5, 1),
+        pytest.param("base", 0.5, 1, marks=pytest.mark.long),
         ("stiff", 0.5, 2),
         ("stiff", 0.25, 1),
         pytest.param("base", 0.25, 2, marks=pytest.mark.long),
@@ -39,7 +39,9 @@ def test_same_answer_as_newton(law, h, order):
     assert difference <= 1e-6 * newton.pressureMax
 
 
-@pytest.mark.parametrize("law", ["stiffer", "m=20", "exponential", "barrier"])
+@pytest.mark.parametrize(
+    "law", [*(pytest.param(law, marks=pytest.mark.long) for law in ("stiffer", "exponential")), "m=20", "barrier"]
+)
 def test_same_answer_on_every_law(law):
     """Laws that overflow or end at a finite overlap shall not stop IPOPT, nor need more than 20 iterations."""
     extended = run(DISC, *LAWS[law], "-h", 0.5, "-tol", 1e-10)

@@ -37,10 +37,10 @@ setUpKernel();
     "scene, flags",
     [
         ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
-        ("rough", ["-order", 2, "-h", 0.2, "-modes", 32]),
+        pytest.param("rough", ["-order", 2, "-h", 0.2, "-modes", 32], marks=pytest.mark.long),
         ("disc-on-block", ["-order", 4, "-h", 0.2]),
         ("sphere-on-block", ["-order", 1, "-h", 0.5]),
-        ("sphere-on-block", ["-order", 2, "-h", 0.8]),
+        pytest.param("sphere-on-block", ["-order", 2, "-h", 0.8], marks=pytest.mark.long),
         ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
     ],
 )
@@ -112,7 +112,7 @@ tell("force", forces.sum);
 """
 
 
-@pytest.mark.parametrize("side", [45, pytest.param(224, marks=pytest.mark.long)])
+@pytest.mark.parametrize("side", [pytest.param(45, marks=pytest.mark.long), pytest.param(224, marks=pytest.mark.long)])
 def test_start(side, tmp_path):
     """The start of a stiff law on a half-space without body: found on some points, solved on all; Hertz's force."""
     scene = scene_text("sphere-on-block").split("flagsDone(")[0]

@@ -478,7 +478,7 @@ class TestReport:
         "scene, flags, source, names",
         [
             ("hertz-line", [], "Hertz", ["half-width", "greatest pressure"]),
-            ("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"]),
+            pytest.param("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"], marks=pytest.mark.long),
             ("flat-punch", PUNCH, "flat punch", ["pressure in the middle"]),
             ("wavy", [*WAVY, "-force", 31.41592654], "Westergaard", ["greatest pressure"]),
         ],

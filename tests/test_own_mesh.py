@@ -138,7 +138,15 @@ def opened(*flags):
     return done
 
 
-@pytest.mark.parametrize("method", ["xnewton", "paper", "newton", "incremental"])
+@pytest.mark.parametrize(
+    "method",
+    [
+        "xnewton",
+        "paper",
+        pytest.param("newton", marks=pytest.mark.long),
+        pytest.param("incremental", marks=pytest.mark.long),
+    ],
+)
 def test_points_without_a_master_under_a_force(method):
     """The same for a force whose approach is unknown: that of the prescribed approach comes back."""
     pushed = opened("-u0", 1e6)
@@ -195,7 +203,7 @@ def test_contact_cut_off(mesh, tmp_path, curve, keep, points):
         ("two-cylinders", ["-reach", 0.5], True),
         ("confined-block", ["-law", "exponential"], False),
         ("rough", ["-force", 200, "-h", 0.2, "-modes", 20], False),
-        ("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False),
+        pytest.param("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False, marks=pytest.mark.long),
         ("sphere-on-plane", ["-patch", 0.8, "-h", 0.2], True),
     ],
 )

@@ -67,7 +67,16 @@ class Grid:
         return away.argmin(axis=1)
 
 
-@pytest.fixture(scope="module", params=RUNS)
+@pytest.fixture(
+    scope="module",
+    params=[
+        "P4",
+        "axis",
+        "bodies",
+        "space P2",
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("plane", "space")),
+    ],
+)
 def made(request, tmp_path_factory):
     """A run with its states: (name, run)."""
     scene, *flags = RUNS[request.param]

@@ -22,7 +22,14 @@ RUNS = {
 VIEW = bodies.sight(-125, 22)
 
 
-@pytest.fixture(scope="module", params=RUNS)
+@pytest.fixture(
+    scope="module",
+    params=[
+        "plane",
+        "space",
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("axis", "two bodies", "several contacts")),
+    ],
+)
 def made(request, tmp_path_factory):
     """A run of a scene, with its files for ParaView."""
     scene, *flags = RUNS[request.param]

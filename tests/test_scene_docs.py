@@ -451,7 +451,13 @@ def value(done, quantity):
 
 
 SLOW = ("adhesive-sphere", "adhesive-sphere-3d", "adhesive-cylinder", "two-spheres", "sphere-on-plane", "flat-punch")
-SLOW_TOO = ("-force 31.4159265", "-E1 1e9", "-modes 16")  # their scenes' other commands are short
+SLOW_TOO = (
+    "-force 31.4159265",
+    "-E1 1e9",
+    "-modes 16",
+    "meshed-disc",
+    "hertz-line",
+)  # their scenes' other commands are short
 
 
 def is_long(scene, command):

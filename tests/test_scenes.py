@@ -26,7 +26,9 @@ def exact_state(kappa, m):
     return s, CONFINED * (U0 - GAP - D0 - s) / HEIGHT
 
 
-@pytest.mark.parametrize("method", ["paper", "paper from d0", "newton", "incremental"])
+@pytest.mark.parametrize(
+    "method", ["paper", "paper from d0", pytest.param("newton", marks=pytest.mark.long), "incremental"]
+)
 @pytest.mark.parametrize(
     "order, kappa, m",
     [
@@ -240,7 +242,7 @@ EXTREMES = [
 
 # milder than others, or in other tests too
 USUAL = [["-nu", 0.499], ["-nu", 0], ["-E", 1e-6], ["-E", 1e9], ["-gap", 3, "-u0", 5], ["-R", 60]]
-USUAL += [["-m", 30], ["-kappa", 1e15]]
+USUAL += [["-m", 30], ["-kappa", 1e15], ["-kappa", 1e-3], ["-d0", -2], ["-depth", 2]]
 BOTH = [["-gap", -1, "-u0", 0], ["-kappa", 1e15]]  # of two bodies too
 MESHED = [flags for flags in EXTREMES if flags != ["-R", 0.6]]  # smaller than an element
 

@@ -286,7 +286,7 @@ clamp rim
     "load, flags",
     [
         pytest.param("weight inner", [], marks=pytest.mark.long),
-        ("weight inner", ["-points", "nodal"]),
+        pytest.param("weight inner", ["-points", "nodal"], marks=pytest.mark.long),
         ("move hole", ["-distance", "exact"]),
     ],
     ids=["linear", "nodal", "exact"],
@@ -309,7 +309,7 @@ def test_turned(tmp_path, load, flags):
     np.testing.assert_allclose(energies, energies[0], rtol=1e-9)
 
 
-@pytest.mark.parametrize("order, h, points", [pytest.param(1, 1, "nodal", marks=pytest.mark.long), (2, 0.5, "segment")])
+@pytest.mark.parametrize("order, h, points", [(1, 1, "nodal"), pytest.param(2, 0.5, "segment", marks=pytest.mark.long)])
 def test_true_distance_has_an_energy(order, h, points):
     """With the true distance the energy's derivative in the approach shall be the force, to 1e-6 (here 1e-8)."""
 

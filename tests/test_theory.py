@@ -344,8 +344,8 @@ def test_remainder_is_smooth(problem):
 @pytest.mark.parametrize(
     "scene, flags, low, high",
     [
-        (DISC, ("-h", 0.5), 0.75, 1.25),
-        (DISC, ("-h", 0.25), 0.75, 1.25),
+        pytest.param(DISC, ("-h", 0.5), 0.75, 1.25, marks=pytest.mark.long),
+        pytest.param(DISC, ("-h", 0.25), 0.75, 1.25, marks=pytest.mark.long),
         (DISC, ("-h", 0.1), 0.75, 1.25),
         pytest.param(DISC, ("-h", 0.25, "-order", 2), 0.75, 1.25, marks=pytest.mark.long),
         (DISC, ("-h", 0.5, "-order", 4), 0.75, 1.25),

@@ -66,7 +66,14 @@ def test_cold_start(law):
 
 
 @pytest.mark.parametrize(
-    "flags", [[], ["-kappa", 1e6, "-m", 10], ["-law", "exponential"], ["-law", "barrier", "-T0", -0.01]], ids=str
+    "flags",
+    [
+        [],
+        ["-kappa", 1e6, "-m", 10],
+        pytest.param(["-law", "exponential"], marks=pytest.mark.long),
+        ["-law", "barrier", "-T0", -0.01],
+    ],
+    ids=str,
 )
 def test_same_as_paper(flags):
     """The paper's scheme, run to its exact stop, shall give the same force, pressures and energy."""
@@ -134,10 +141,10 @@ def test_steel_bearing_in_si_units():
         pytest.param(["-E", 1e-6], marks=pytest.mark.long),
         pytest.param(["-E", 1e12], marks=pytest.mark.long),
         ["-d0", -1e-12],
-        ["-d0", -5],
+        pytest.param(["-d0", -5], marks=pytest.mark.long),
         ["-aspect", 100],
         ["-offset", 15],
-        ["-u0", 7.5],
+        pytest.param(["-u0", 7.5], marks=pytest.mark.long),
         ["-u0", 0.25 + 1e-12],
     ],
     ids=str,
@@ -150,7 +157,7 @@ def test_extremes(flags):
     assert ours.force == pytest.approx(newton.force, rel=1e-6)
 
 
-@pytest.mark.parametrize("method", ["xnewton", "paper", "newton", "signorini"])
+@pytest.mark.parametrize("method", ["xnewton", "paper", pytest.param("newton", marks=pytest.mark.long), "signorini"])
 def test_prescribed_force(method):
     """The contact force shall be the applied one, and its approach, when prescribed, shall give this force."""
     flags = ["-method", method, "-tol", 1e-10, "-h", 0.5] + (["-eps", 1e-10] if method == "paper" else [])
