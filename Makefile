@@ -123,9 +123,10 @@ build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 
 # NP=2: on two processes, under Open MPI, which wants to be told that it may run as root.
 AS_ROOT := OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-RUN = $(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS)
+RUN_ONE  = $(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS)
+RUN_MANY = $(AS_ROOT) ff-mpirun -np $(NP) $(SCRIPT) -solver multigrid $(ARGS) -v 0
 run: .venv/run.stamp | system $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"] [NP=processes, in space]
-	@$(if $(NP),$(AS_ROOT) ff-mpirun -np $(NP) $(SCRIPT) -solver multigrid $(ARGS) -v 0,$(RUN)); code=$$?; \
+	@$(if $(NP),$(RUN_MANY),$(RUN_ONE)); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
 
@@ -255,8 +256,8 @@ bench: .venv/run.stamp | system ## error against run time, cost growth, ingredie
 	@$(PYTHON) tests/campaigns/bench.py
 	@$(DRAW_CAMPAIGN)
 
-# Large bodies: up to a million unknowns in space, 4 GB.
-bench-large: .venv/run.stamp | system mpi ## sizes in space up to a million unknowns with -solver multigrid, laws, two processes, into results/bench/
+# Large bodies: up to three million unknowns in space, 8 GB, an hour.
+bench-large: .venv/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, two processes, into results/bench/
 	@$(AS_ROOT) $(PYTHON) tests/campaigns/bench.py large
 
 # NGSolve is wanted by this target alone.

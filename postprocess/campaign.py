@@ -126,7 +126,7 @@ def name_meshes(figure: Figure, rows: list[Row]) -> None:
     texts = [f"P{order}" for order in orders]
     if sizes:
         texts.append(f"$h = {sizes[0]:g}$" + (f" to ${sizes[-1]:g}$" if len(sizes) > 1 else ""))
-    figure.supxlabel(", ".join(texts), x=0.995, ha="right", fontsize=8, color=style.GREY)
+    style.put_below(figure, ", ".join(texts))
 
 
 def draw_failures(axes, x: np.ndarray, color: str) -> None:

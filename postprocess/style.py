@@ -196,7 +196,12 @@ def elements(runs: list[Run]) -> str:
 
 def name_elements(figure: Figure, runs: list[Run]) -> None:
     """Below the figure, at its right, element and size of the meshes."""
-    figure.supxlabel(elements(runs), x=0.995, ha="right", fontsize=8, color=GREY)
+    put_below(figure, elements(runs))
+
+
+def put_below(figure: Figure, text: str) -> None:
+    """A text below the figure, at its right."""
+    figure.supxlabel(text, x=0.995, ha="right", fontsize=8, color=GREY)
 
 
 def named(amount: int) -> set[int]:

@@ -113,8 +113,11 @@ def named(value):
 
 
 def short_of(short, every):
-    """A parametrised test's cases: these short ones, and the others of `every` in make test-all only."""
-    return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in every if case not in short)]
+    """A parametrised test's cases: these short ones, and the others of `every` in make test-all only.
+
+    A case of several parameters is a tuple."""
+    others = [case if isinstance(case, tuple) else (case,) for case in every if case not in short]
+    return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in others)]
 
 
 def interruptible():

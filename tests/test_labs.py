@@ -8,7 +8,7 @@ import shlex
 import shutil
 
 import pytest
-from freefem import FREEFEM, ROOT, Run, environment, execute, listing, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, Run, environment, execute, listing, run, run_in, script, short_of, tree
 from test_readme import fences, is_rule, quoted, section
 
 from postprocess import words
@@ -111,16 +111,11 @@ def commands(lab):
     return found
 
 
-def long_but(short, names):
-    """The names as parameters, all but the short ones marked as long."""
-    return [pytest.param(name, marks=[] if name in short else [pytest.mark.long]) for name in names]
-
-
 DRAW = ".venv/bin/python -m postprocess "
 
 
 # of the other labs the answers' first numbers are tested always
-@pytest.mark.parametrize("lab", long_but([PAGE], LABS))
+@pytest.mark.parametrize("lab", short_of([PAGE], LABS))
 def test_commands(lab, tmp_path, monkeypatch):
     """Every command of a lab shall run as it is written, in this order, and leave what it names."""
     package = package_in(tmp_path)
@@ -261,7 +256,7 @@ CHANGES = {row[0]: row[1:] for row in next(tables(answers(PAGE)))[1]}
 KINDS = ["none", "`T0 = d0`", "`kappa = 1e9`", "`m = 10`", "the uniform update"]  # of changes
 
 
-@pytest.mark.parametrize("change", long_but(KINDS, CHANGES))
+@pytest.mark.parametrize("change", short_of(KINDS, CHANGES))
 def test_the_page(change, plain):
     """Lab 0's page, as it is and changed, shall give the counts and the force of the answers."""
     stdout = said_by_page(change, plain)
@@ -356,7 +351,7 @@ def test_own_law_stays_in_its_lab():
 # ---------------------------------------------------------------- scripts
 
 
-@pytest.mark.parametrize("lab", long_but(["1-law", OWN_LAW, "7-gecko"], SCENES))
+@pytest.mark.parametrize("lab", short_of(["1-law", OWN_LAW, "7-gecko"], SCENES))
 def test_help_and_refusals(lab, tmp_path):
     """-help shall print the flags; a bad flag or value shall end with code 10; nothing shall be written."""
     package = tree(tmp_path / "package")

@@ -516,17 +516,8 @@ def test_series_that_is_complete(tmp_path):
 )
 def test_series_of_the_exact_distance(tmp_path, scene):
     """A load series with the true distance shall end where one step does, its steps in the table."""
-    flags = [
-        "-distance",
-        "exact",
-        "-order",
-        1,
-        "-estimate",
-        0,
-        "-vtu",
-        0,
-        *([] if scene == "two-bodies" else ["-h", 2]),
-    ]
+    flags = ["-distance", "exact", "-order", 1, "-estimate", 0, "-vtu", 0]
+    flags += [] if scene == "two-bodies" else ["-h", 2]
     flags += ["-force", 0] if scene in ("hertz-line", "two-cylinders") else []
     series = run_in(ROOT, scene_script(scene), *flags, "-history", 1, "-steps", 4, out=tmp_path / "series")
     alone = run_in(ROOT, scene_script(scene), *flags, out=tmp_path / "alone")

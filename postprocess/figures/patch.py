@@ -44,7 +44,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.9)
     for index, axes in enumerate(maps, start=bool(plane)):
         axes.set_title(f"{style.panel(index)} space", loc="left")
-    figure.supxlabel(meshes(runs), x=0.995, ha="right", fontsize=8, color=style.GREY)
+    style.put_below(figure, meshes(runs))
     return figure
 
 
