@@ -121,10 +121,11 @@ build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 
 # ---------------------------------------------------------------- runs
 
-# NP=2: on two processes, under Open MPI, which wants to be told that it may run as root.
-AS_ROOT := OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+# NP=2: on two processes. Open MPI, in versions 4 and 5, wants to be told that it may run as root and with more processes than cores.
+MPI := OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+  OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
 RUN_ONE  = $(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS)
-RUN_MANY = $(AS_ROOT) ff-mpirun -np $(NP) $(SCRIPT) -solver multigrid $(ARGS) -v 0
+RUN_MANY = $(MPI) mpiexec -n $(NP) $(subst FreeFem++,FreeFem++-mpi,$(FREEFEM)) $(SCRIPT) -solver multigrid $(ARGS)
 run: .venv/run.stamp | system $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"] [NP=processes, in space]
 	@$(if $(NP),$(RUN_MANY),$(RUN_ONE)); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; *) why='failed';; esac; \
@@ -258,7 +259,7 @@ bench: .venv/run.stamp | system ## error against run time, cost growth, ingredie
 
 # Large bodies: up to three million unknowns in space, 8 GB, an hour.
 bench-large: .venv/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, two processes, into results/bench/
-	@$(AS_ROOT) $(PYTHON) tests/campaigns/bench.py large
+	@$(MPI) $(PYTHON) tests/campaigns/bench.py large
 
 # NGSolve is wanted by this target alone.
 .venv-peers/run.stamp: requirements-peers.txt | system

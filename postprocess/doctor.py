@@ -284,7 +284,7 @@ def find_multigrid() -> list:
     launcher, compiler = shutil.which("mpiexec"), shutil.which("mpicxx")
     there = " and ".join(path for path in (launcher, compiler) if path)
     findings = [Finding("MPI", bool(launcher and compiler), there or "not on the PATH", False, hint("mpi"))]
-    for name in ("FreeFem++-mpi", "ff-mpirun", "ff-c++"):
+    for name in ("FreeFem++-mpi", "ff-c++"):
         path = shutil.which(name)
         findings.append(Finding(f"  {name}", bool(path), path or "not on the PATH", False, hint("FreeFem++")))
     own = os.environ.get("PETSC_DIR")

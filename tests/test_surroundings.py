@@ -395,6 +395,20 @@ def test_odd_folder(tmp_path, name):
     assert json.loads((out / "summary.json").read_text())["parameters"]["out"] == str(out)
 
 
+@pytest.mark.parametrize("name", ["-1.geo", "-2 $(touch F);touch F.msh"])
+def test_odd_mesh(mesh, package, tmp_path, name):
+    """A mesh file's name shall be read by no program as a flag or a command, gmsh's own format included."""
+    for wanted in ("edp", "meshes", "freefem++.pref"):
+        (tmp_path / wanted).symlink_to(package / wanted)
+    if name.endswith(".geo"):
+        shutil.copy(mesh(1).parent / "bodies.geo", tmp_path / name)
+    else:
+        assert execute(["gmsh", "-2", "-v", 0, mesh(1), "-save", "-o", tmp_path / "new.msh"])[0] == 0
+        (tmp_path / "new.msh").rename(tmp_path / name)
+    assert run_in(tmp_path, BODIES, "-mesh", name, "-order", 1, *TINY[2:], out=tmp_path / "out").converged
+    assert not (tmp_path / "F").exists()
+
+
 @pytest.mark.parametrize("name, told", [("a\nb", "a\\nb"), ("a\tb", "a\\tb"), ("a\x1bb", "a")])
 def test_control_characters(package, name, told):
     """A control character in the folder's name shall be refused in one line."""

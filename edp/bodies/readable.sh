@@ -8,6 +8,7 @@
 . "${0%/*}/../case/process.sh"
 run=$1
 file=$2
+case $file in -*) file=./$file ;; esac
 folder=$3
 case_=$4
 space=$5
