@@ -28,7 +28,7 @@ import numpy as np
 import reference
 from campaign import case, decade, markdown, select, signed, value
 
-FOLDER = campaign.ROOT / "results" / "bench"
+FOLDER = campaign.RESULTS_FOLDER / "bench"
 REPEATS = 3
 
 CASES = [(1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3)]  # kappa, m: the paper's, an extreme one, two stiff ones
