@@ -18,15 +18,14 @@ CACHE   := $(abspath $(shell sh edp/case/cache.sh 0 .))
 VENV    := $(if $(CACHE),$(CACHE)/venv,.venv)
 BUILD   := $(if $(CACHE),$(CACHE)/build,build)
 PYTHON  := $(VENV)/bin/python
-FREEFEM := FreeFem++ -nw -v 0
+# A plugin in the cache is named by a .freefem++.pref there: of FreeFEM's lists only those of HOME's come before this folder's.
+FREEFEM := $(if $(CACHE),env HOME=$(BUILD) )FreeFem++ -nw -v 0
 ifneq ($(RESULTS),results)
 export CONTACT_RESULTS := $(RESULTS)
 endif
 ifneq ($(CACHE),)
 export CONTACT_CACHE := $(CACHE)
 export CONTACT_POSTPROCESS := $(PYTHON) -m postprocess
-export FF_LOADPATH := $(BUILD)$(FF_LOADPATH:%=;%)
-export FF_INCLUDEPATH := $(BUILD)$(FF_INCLUDEPATH:%=;%)
 endif
 
 SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
@@ -144,6 +143,8 @@ $(BUILD)/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 	}
 	@rm -rf $(BUILD)/new
 	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
+	@test -z "$(CACHE)" || { cat ~/.freefem++.pref 2>/dev/null; \
+	  printf '%s += "$(BUILD)"\n' loadpath includepath; } >$(BUILD)/.freefem++.pref
 	@echo 'built: -solver multigrid, in scenes in space'
 
 # ---------------------------------------------------------------- runs

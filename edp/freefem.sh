@@ -36,17 +36,18 @@ test "$script" != none || {
     exit 10
 }
 shift
-case $edp$cache in *\;*)
-    echo "$edp${cache:+, $cache}: FreeFEM's lists of folders have ; between them; allowed: paths without ;"
+case $edp in *\;*)
+    echo "$edp: FreeFEM's lists of folders have ; between them; allowed: a path without ;"
     exit 10 ;;
 esac
 FF_INCLUDEPATH="$root/build;$edp/operator/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
-export FF_INCLUDEPATH="${cache:+$cache/build;}$FF_INCLUDEPATH"
+export FF_INCLUDEPATH
 test ! -d /usr/lib/freefem++ || FF_LOADPATH="/usr/lib/freefem++${FF_LOADPATH:+;$FF_LOADPATH}"
-export FF_LOADPATH="${cache:+$cache/build;}$root/build${FF_LOADPATH:+;$FF_LOADPATH}"
+export FF_LOADPATH="$root/build${FF_LOADPATH:+;$FF_LOADPATH}"
 test -w "$root" && test ! -e "$root/.installed" || export CONTACT_RESULTS="${CONTACT_RESULTS:-results}"
 starter="sh $(quoted "$edp/freefem.sh")"
 test -z "$CONTACT_STARTER" || starter=$(quoted "$CONTACT_STARTER")
 test -e "$root/.venv/bin/python" || export CONTACT_POSTPROCESS="${CONTACT_POSTPROCESS:-$starter postprocess}"
+test ! -e "$cache/build/.freefem++.pref" || export HOME="$cache/build"      # names the plugin there: see the Makefile
 case " $* " in *' -plot 1 '*) window=;; *) window=-nw;; esac
 exec FreeFem++ $window -v 0 "$script" "$@"

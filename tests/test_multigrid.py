@@ -5,6 +5,7 @@ Skipped where `make mpi` has not built the plugin; the refusals that need none a
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -142,6 +143,20 @@ def test_words_reach_several_processes_as_they_are(tmp_path):
     code, output = on_ranks(2, script("sphere-on-block"), *flags, "-out", "a b;touch F $(touch F)", cwd=package)
     assert code == 0, output
     assert (package / "a b;touch F $(touch F)" / "summary.json").exists() and not list(package.glob("F*"))
+
+
+@built
+def test_plugin_in_a_cache(tmp_path):
+    """The starter shall find the plugin in the cache, a folder with a freefem++.pref or not."""
+    package = tree(tmp_path / "package")
+    shutil.copytree(ROOT / "build", tmp_path / "cache" / "build")
+    lines = [f'{kind} += "{tmp_path}/cache/build"\n' for kind in ("loadpath", "includepath")]
+    (tmp_path / "cache" / "build" / ".freefem++.pref").write_text("".join(lines))
+    words = ["sphere-on-block", "-solver", "multigrid", "-h", 2, "-order", 1, "-vtu", 0, "-estimate", 0]
+    code, output = execute(
+        ["sh", "edp/freefem.sh", *words], package, environment(CONTACT_CACHE=str(tmp_path / "cache"))
+    )
+    assert code == 0, output
 
 
 @built

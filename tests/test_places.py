@@ -154,6 +154,27 @@ def test_installed(tmp_path, drawn):
     assert listing(prefix) == ["bin", "share"]
 
 
+FIGURES = [
+    f"tests/test_{name}.py" for name in ("postprocess", "pictures", "scene_figures", "hertz_figures", "movie_report")
+]
+
+
+@pytest.mark.long
+@pytest.mark.skipif(sys.version_info >= (3, 12), reason="numpy 1.24 is for Python up to 3.11")
+def test_oldest_numpy_and_matplotlib(tmp_path):
+    """Every figure shall be drawn by the oldest versions within the bounds, Debian 12's."""
+    assert execute([sys.executable, "-m", "venv", tmp_path])[0] == 0
+    python = tmp_path / "bin" / "python"
+    wanted = ["numpy==1.24.*", "matplotlib==3.6.*", "pytest>=8,<10", "pytest-xdist>=3.6,<4"]
+    code, said = execute([python, "-m", "pip", "install", "-q", *wanted], env={**BARE, "PIP_FIND_LINKS": ""})
+    if code:
+        pytest.skip(f"no package index: {said[-200:]}")
+    for tests in FIGURES:
+        words = [python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "ignore", "-n", 2, tests]
+        code, said = execute(words, env=BARE)
+        assert code == 0, said[-3000:]
+
+
 @pytest.mark.parametrize("version, code", [("1.24.2", 0), ("1.23.5", 1), ("2.4.0", 0), ("3.0.0", 1), (None, 1)])
 def test_python_of_the_system(tmp_path, version, code):
     """A Python's own packages shall be taken where their versions are within the bounds."""
