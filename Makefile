@@ -230,14 +230,19 @@ results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addpr
 # The pictures of the pages. Those of the campaigns need make bench-peers and make stability, the labs' make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
 pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the pages anew
-	$(SMALL) results/figures/figure1.png --out postprocess/readme-figure.png
+	$(SMALL) results/figures/figure1.png --width 600 --out postprocess/readme-figure.png
 	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
-	$(SMALL) results/movies/disc-on-block/movie.gif --width 600 --colours 16 --out postprocess/readme-movie.gif
+	$(SMALL) results/movies/disc-on-block/movie.gif --width 540 --out postprocess/readme-movie.gif
+	for page in edp/examples/*/README.md; do \
+	  picture=$$(sed -n 's/^!\[.*](\(.*\.png\))/\1/p' $$page); \
+	  sed -n '/^```sh/,/^```/{/^[^`]/p;}' $$page | while read -r command; do sh -c "$$command" </dev/null || exit 1; done && \
+	  $(SMALL) results/parts*/$$(basename $$(dirname $$page))/$$picture --width 560 --out $$(dirname $$page)/$$picture || exit 1; \
+	done
 	$(SMALL) results/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
 	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
-	  $(SMALL) $$(find results/labs/$$(basename $$lab) -name $$name) --width 700 --colours 32 --out $$lab/figure.png || exit 1; \
+	  $(SMALL) $$(find results/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in s*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
 	done
 	$(PYTHON) -m postprocess cut results/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
 
