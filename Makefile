@@ -242,7 +242,7 @@ pictures: results/figures/figure1.png results/figures/sphere/summary.json | .ven
 	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
-	  $(SMALL) $$(find results/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in s*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
+	  $(SMALL) $$(find results/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
 	done
 	$(PYTHON) -m postprocess cut results/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
 
@@ -324,7 +324,7 @@ test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.p
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory build/multigrid-plugin.idp
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
-test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
+test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, `make bench` and `make stability` begun
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
 lint: .venv/dev.stamp ## check the style of the Python and FreeFEM sources
