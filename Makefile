@@ -24,7 +24,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -65,11 +65,11 @@ test -n "$$missing" || exit 0; \
 	  echo "Please install:$$missing (Debian's names; there is no apt-get here, or no right to use it)"; exit 1; \
 	fi; \
 	echo "Installing:$$missing"; \
-	for try in 1 2; do \
+	for pause in 0 5 30; do \
+	  sleep $$pause; \
 	  $$sudo apt-get -q update </dev/null; \
 	  $$sudo env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends \
 	    -o DPkg::Lock::Timeout=300 install $$missing </dev/null && exit 0; \
-	  sleep 5; \
 	done; \
 	echo "apt-get could not install:$$missing"; exit 1
 endef
@@ -323,6 +323,13 @@ doctor: ## say what is installed, what is missing and how to get it
 test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory build/multigrid-plugin.idp
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
+
+# What tests need beside the package: each is skipped where its tool is not there.
+tools: mpi .venv-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, Chromium, a locale's sources
+	@missing=; \
+	command -v chromium chromium-browser google-chrome >/dev/null || missing=' chromium'; \
+	test -e /usr/share/i18n/locales/de_DE || missing="$$missing locales"; \
+	$(INSTALL_MISSING)
 
 test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, `make bench` and `make stability` begun
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
