@@ -1,6 +1,7 @@
 """make a picture small for a page: fewer pixels, all colours
 
-PICTURE is a PNG or a GIF; a GIF stays a movie, of the 256 colours that it can have. FILE is written whole or not at all.
+PICTURE is a PNG or a GIF; a GIF stays a movie, of the 256 colours that it can have. FILE is written whole or not at
+all.
 """
 
 import argparse
