@@ -74,7 +74,7 @@ def included(name, space=None):
 
 def boundaries(scene):
     """The names of a scene's boundary: groups of its .geo one dimension below the body's, or labels of its script."""
-    text = included(script(scene).removeprefix("edp/"))
+    text = included(script(scene.removesuffix("-ipopt")).removeprefix("edp/"))
     geos = re.findall(r'gmshMesh\("([\w-]+)"', text)
     if not geos:
         mesh = text.partition("runStart = clock();")[2]
