@@ -24,7 +24,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -36,7 +36,7 @@ paper-run: | system
 	@$(FREEFEM) edp/main.edp -method paper -order 1 -h 0.5
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 	@echo 'Scenes: $(SCENES)'
 
 # ---------------------------------------------------------------- set-up
@@ -321,6 +321,10 @@ test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.p
 
 test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
+
+# As root, with debootstrap. CONTACT_SYSTEMS=folder keeps the trees; SYSTEMS="trixie noble" chooses.
+test-systems: .venv/run.stamp | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README's commands, make test, the same numbers
+	@PYTEST_ARGS='$(PYTEST_ARGS)' TESTS='$(TESTS)' $(PYTHON) tests/systems.py $(SYSTEMS)
 
 lint: .venv/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests

@@ -197,12 +197,15 @@ def find_freefem() -> list:
         for name, use in plugins.items():
             code, _ = snippet(f'load "{name}"\n')
             words = use if code == 0 else f"cannot be loaded ({use})"
-            findings.append(Finding(f"  plugin {name}", code == 0, words, needed, plugin_hint()))
+            findings.append(Finding(f"  plugin {name}", code == 0, words, needed, plugin_hint(name)))
     return [*findings, *plugin_path(all(finding.there for finding in findings if finding.needed))]
 
 
-def plugin_hint() -> str:
+def plugin_hint(name: str = "") -> str:
     """How to get a plugin: from Debian's package where FreeFEM is Debian's, otherwise by naming its folder."""
+    packaged = Path("/usr/lib/freefem++")  # what the package libfreefem++ puts there
+    if name and (packaged / "gmsh.so").exists() and not (packaged / f"{name}.so").exists():
+        return "the package libfreefem++ of this system is without it; where it is missing, what needs it says so"
     if shutil.which("apt-get") and os.path.realpath(shutil.which("FreeFem++") or "/usr/bin/").startswith("/usr/bin/"):
         return "apt-get install libfreefem++; run FreeFem++ in the repository's root, where freefem++.pref is"
     return 'add the plugins\' folder to ~/.freefem++.pref: loadpath += "/path/to/lib/ff++/.../lib"'
