@@ -111,6 +111,8 @@ def comma(tmp_path_factory):
         pytest.skip("localedef is not there")
     folder = tmp_path_factory.mktemp("locales")
     code, stdout = execute(["localedef", "-i", "de_DE", "-f", "UTF-8", folder / "de_DE.UTF-8"])
+    if "charmap" in stdout:
+        pytest.skip("localedef has no character maps")
     assert (folder / "de_DE.UTF-8" / "LC_NUMERIC").exists(), (code, stdout)
     kept = {name: value for name, value in environment().items() if not name.startswith("LC_")}
     env = {**kept, "LANG": "de_DE.UTF-8", "LOCPATH": str(folder)}
