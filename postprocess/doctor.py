@@ -27,6 +27,7 @@ PLUGINS = {
     "Element_P4": "P4",
     "Element_P3dc": "P4",
 }
+PACKAGED = Path("/usr/lib/freefem++")  # where the package libfreefem++ puts them
 FURTHER_PLUGINS = {"msh3": "meshes in space", "ff-Ipopt": "the scene disc-on-block-ipopt"}
 MODULES = ("numpy", "matplotlib")
 DEVELOPERS = ("pytest", "pytest-xdist", "ruff")
@@ -203,9 +204,8 @@ def find_freefem() -> list:
 
 def plugin_hint(name: str = "") -> str:
     """How to get a plugin: from Debian's package where FreeFEM is Debian's, otherwise by naming its folder."""
-    packaged = Path("/usr/lib/freefem++")  # what the package libfreefem++ puts there
-    if name and (packaged / "gmsh.so").exists() and not (packaged / f"{name}.so").exists():
-        return "the package libfreefem++ of this system is without it; where it is missing, what needs it says so"
+    if name and (PACKAGED / "gmsh.so").exists() and not (PACKAGED / f"{name}.so").exists():
+        return "this system's package libfreefem++ is without it: what needs it says so"
     if shutil.which("apt-get") and os.path.realpath(shutil.which("FreeFem++") or "/usr/bin/").startswith("/usr/bin/"):
         return "apt-get install libfreefem++; run FreeFem++ in the repository's root, where freefem++.pref is"
     return 'add the plugins\' folder to ~/.freefem++.pref: loadpath += "/path/to/lib/ff++/.../lib"'
