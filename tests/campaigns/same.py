@@ -184,6 +184,8 @@ def differences(mine: Path, other: Path) -> Iterator[str]:
         scale = force * width if name in MOMENTS else max(abs(a), abs(b), force if re.search(r"[fF]orce|reaction", key) else 0.0)
         if name == "overlapMax":  # of places that are far larger
             scale = max(scale, abs(before["approach"]))
+        if ".motion[" in key or name == "outOfBalance":
+            scale = max([scale, *(abs(v) for k, v in tables[0].items() if ".motion[" in k)])
         estimated = key.startswith(".estimates.") and not key.endswith(".value")
         within = ESTIMATED if estimated else TOLERANCE
         if (isinstance(a, int) and isinstance(b, int)) or not math.isclose(a, b, rel_tol=0, abs_tol=within * scale):
