@@ -25,6 +25,7 @@ from campaign import FREEFEM, ROOT, script_of, sources_digest
 
 TOLERANCE = 1e-9
 LEFT_OUT = {"seconds", "modules", "plugins", "costRatio", "out", "version", "freefem", "gmsh", "date", "given"}
+LEFT_OUT |= {"path", "branch", "control", "w", "eps0"}  # flags of an option: scenes that do not read it have none
 BELOW_TOL = {"residual", "algebra", "modelError"}
 MOMENTS = {"contactMoment", "reactionMoment"}
 JOBS = 2
@@ -34,7 +35,7 @@ PLANE += ["two-bodies", "patch-test", "rough"]
 SPACE = ["sphere-on-block", "sphere-on-plane", "two-spheres", "patch-test-3d"]
 ADHESIVE = ["adhesive-sphere", "adhesive-cylinder", "adhesive-wavy", "adhesive-sphere-3d"]
 METHODS = ["paper", "newton", "linesearch", "incremental", "signorini"]
-LAWS = ["exponential", "barrier", "signorini", "lennard-jones"]
+LAWS = ["exponential", "barrier", "signorini"]
 INGREDIENTS = ["-T0 d0", "-T0 0", "-threshold pointwise -T0 d0", "-inner newton", "-start none", "-preconditioner none"]
 INGREDIENTS += ["-preconditioner diagonal", "-forcing 1e-6 -tol 1e-10", "-kappa 1e12 -m 1.05", "-kappa 0.01 -m 20"]
 INGREDIENTS += ["-law power -kappa 1e9 -T0 d0", "-maxNewton 1", "-history 1 -steps 4", "-axis 1", "-states 1"]
@@ -44,8 +45,10 @@ OFTEN += ["-accuracy 1e-4 -order 4 -h 1", "-accuracy 1e-3 -law signorini", "-dis
 OFTEN += ["-force 80 -accuracy 1e-3", "-distance exact -accuracy 1e-2", "-geometry axisymmetric -accuracy 1e-2 -u0 1"]
 EXAMPLES = {"pin-in-hole": "parts", "press-fit": "parts", "roller": "parts", "crossed-cylinders": "parts-3d"}
 EXAMPLES["ball-on-bracket"] = "parts-3d"
+STUCK = ["-u0 -0.0005", "-u0 0.0005 -order 2", "-h 0.08", "-h 0.08 -force-coarse 1", "-geometry stress", "-geometry axisymmetric"]
+STUCK += ["-method paper", "-method linesearch", "-method newton", "-start none", "-eps0 0.002 -gap 0.002", "-force 1", "-vtu 0 -axis 1"]
 STICKY = "-w 0.003108162 -h 0.02 -fine 0.38 -grading 283"
-REFUSED = ["-h 0", "-order 3", "-method no", "-T0 -5", "-out /proc/x", "-path 1 -branch stable", "-kappa abc", "-law table"]
+REFUSED = ["-h 0", "-order 3", "-method no", "-T0 -5", "-out /proc/x", "-kappa abc", "-law table"]
 REFUSED += ["-nosuch 1", "-law barrier -method newton", "-force 5 -method paper", "-accuracy 0.01 -method paper"]
 
 
@@ -90,11 +93,13 @@ def runs() -> Iterator[tuple[str, str, str]]:
     for scene in SPACE[1:3]:
         yield one(scene, f"{coarse[scene]} -order 1 -distance exact")
     for scene in ADHESIVE[:2]:
-        for flags in ["", "-order 1", "-kappa 100 -law power"]:
+        for flags in ["", "-order 1", "-kappa 100 -law power", *STUCK]:
             yield one(scene, flags)
     yield one("adhesive-sphere", f'{STICKY} -path "-0.002 0.001 -0.002" -steps 4')
     yield one("adhesive-sphere", f'{STICKY} -path "-0.002 0.001" -steps 4 -branch unstable')
-    yield one("adhesive-wavy")
+    yield one("adhesive-sphere", '-control force -path "0.02 -0.03" -steps 2')
+    for flags in ["", "-path 1", "-u0 -0.005 -law table", "-history 1 -steps 2"]:
+        yield one("adhesive-wavy", flags)
     yield one("adhesive-sphere-3d")
     yield one("disc-on-block-ipopt", "-method ipopt -order 1", "edp/scenes/disc-on-block-ipopt.edp")
     for example, scene in EXAMPLES.items():
