@@ -1,10 +1,10 @@
 """Whether two versions of the package give the same results: `python tests/campaigns/same.py OTHER [WORDS]`.
 
 OTHER is a folder with another version, a worktree of the commit before say. Every run of RUNS whose name has one of the
-words is made with both; its exit code, what a refusal says, summary.json and contact.csv are compared. Counts, words and
-statuses must be equal; numbers may differ by TOLERANCE of their scale: of forces the largest force, of moments force
-times the model's width, of points' values the column's largest; residuals and algebraic errors must be below -tol. Left
-out: seconds, modules, folders, dates. Runs of OTHER are kept in its results/same/ and made anew when its sources change.
+words is made with both; its exit code, what a refusal says, summary.json and contact.csv are compared. Counts, words
+and statuses must be equal; numbers may differ by TOLERANCE of their scale: of forces the largest force, of moments
+force times the model's width, of points' values the column's largest; residuals must be below -tol. Left
+out: seconds, modules, folders, dates. Runs of OTHER are kept in its results/same/, made anew when its sources change.
 Exit code 1: a difference, printed a line each.
 """
 
@@ -40,13 +40,35 @@ INGREDIENTS = ["-T0 d0", "-T0 0", "-threshold pointwise -T0 d0", "-inner newton"
 INGREDIENTS += ["-preconditioner diagonal", "-forcing 1e-6 -tol 1e-10", "-kappa 1e12 -m 1.05", "-kappa 0.01 -m 20"]
 INGREDIENTS += ["-law power -kappa 1e9 -T0 d0", "-maxNewton 1", "-history 1 -steps 4", "-axis 1", "-states 1"]
 OFTEN = ["-geometry stress", "-geometry axisymmetric", "-force 80", "-distance exact", "-corners 0", "-ends 5 -h 1"]
-OFTEN += ["-bodyForce 0.1 -traction 0.2", "-aspect 2", "-offset 3", "-u0 0.1", "-accuracy 1e-3", "-accuracy 1e-3 -goal pressure"]
+OFTEN += [
+    "-bodyForce 0.1 -traction 0.2",
+    "-aspect 2",
+    "-offset 3",
+    "-u0 0.1",
+    "-accuracy 1e-3",
+    "-accuracy 1e-3 -goal pressure",
+]
 OFTEN += ["-accuracy 1e-4 -order 4 -h 1", "-accuracy 1e-3 -law signorini", "-distance exact -history 1 -steps 3"]
 OFTEN += ["-force 80 -accuracy 1e-3", "-distance exact -accuracy 1e-2", "-geometry axisymmetric -accuracy 1e-2 -u0 1"]
 EXAMPLES = {"pin-in-hole": "parts", "press-fit": "parts", "roller": "parts", "crossed-cylinders": "parts-3d"}
 EXAMPLES["ball-on-bracket"] = "parts-3d"
-STUCK = ["-u0 -0.0005", "-u0 0.0005 -order 2", "-h 0.08", "-h 0.08 -force-coarse 1", "-geometry stress", "-geometry axisymmetric"]
-STUCK += ["-method paper", "-method linesearch", "-method newton", "-start none", "-eps0 0.002 -gap 0.002", "-force 1", "-vtu 0 -axis 1"]
+STUCK = [
+    "-u0 -0.0005",
+    "-u0 0.0005 -order 2",
+    "-h 0.08",
+    "-h 0.08 -force-coarse 1",
+    "-geometry stress",
+    "-geometry axisymmetric",
+]
+STUCK += [
+    "-method paper",
+    "-method linesearch",
+    "-method newton",
+    "-start none",
+    "-eps0 0.002 -gap 0.002",
+    "-force 1",
+    "-vtu 0 -axis 1",
+]
 STICKY = "-w 0.003108162 -h 0.02 -fine 0.38 -grading 283"
 REFUSED = ["-h 0", "-order 3", "-method no", "-T0 -5", "-out /proc/x", "-kappa abc", "-law table"]
 REFUSED += ["-nosuch 1", "-law barrier -method newton", "-force 5 -method paper", "-accuracy 0.01 -method paper"]
@@ -72,7 +94,9 @@ def runs() -> Iterator[tuple[str, str, str]]:
         yield one("disc-on-block", f"-method {method} -order {order} -kappa 1e6")
     for law, geometry in product(["power", *LAWS], ["stress", "axisymmetric"]):
         yield one("disc-on-block", f"-law {law} -geometry {geometry} -order 1")
-    for scene, flags in product(["two-cylinders", "meshed-disc", "two-bodies"], ["-distance exact", "-history 1 -steps 3"]):
+    for scene, flags in product(
+        ["two-cylinders", "meshed-disc", "two-bodies"], ["-distance exact", "-history 1 -steps 3"]
+    ):
         yield one(scene, flags)
         yield one(scene, f"{flags} -order 1")
     for scene, flags in product(["wavy", "flat-punch", "hertz-line", "two-cylinders", "rough"], INGREDIENTS[:6]):
@@ -105,13 +129,27 @@ def runs() -> Iterator[tuple[str, str, str]]:
     for example, scene in EXAMPLES.items():
         file = f"edp/examples/{example}/{example}"
         parts = f"-mesh {file}.geo -case {file}.case"
-        for flags in ["", "-order 1", "-distance exact", "-surface facets", "-history 1 -steps 2", "-estimate 0 -kappa 1e5"]:
+        for flags in [
+            "",
+            "-order 1",
+            "-distance exact",
+            "-surface facets",
+            "-history 1 -steps 2",
+            "-estimate 0 -kappa 1e5",
+        ]:
             yield example + " " + flags, f"edp/{scene}.edp", f"{parts} {flags}".strip()
         if scene == "parts":
             yield example + " P4", f"edp/{scene}.edp", f"{parts} -order 4"
             yield example + " 1e-2", f"edp/{scene}.edp", f"{parts} -accuracy 1e-2"
             yield example + " check", f"edp/{scene}.edp", f"{parts} -check 1"
-    for lab in ["1-law/law", "2-newton/newton", "3-threshold/threshold", "4-own-law/own-law", "5-cost/cost", "6-sphere/sphere"]:
+    for lab in [
+        "1-law/law",
+        "2-newton/newton",
+        "3-threshold/threshold",
+        "4-own-law/own-law",
+        "5-cost/cost",
+        "6-sphere/sphere",
+    ]:
         yield f"lab {lab}", f"edp/labs/{lab}.edp", ""
     yield "lab 8", "edp/labs/8-error/error.edp", ""
     yield "lab 9", "edp/labs/9-own-part/own-part.edp", ""
@@ -160,7 +198,8 @@ def differences(mine: Path, other: Path) -> Iterator[str]:
     """What differs between two runs, in words."""
     ends = [json.loads((folder / "end.json").read_text()) for folder in (other, mine)]
     if ends[0]["code"] != ends[1]["code"] or ends[0]["said"] != ends[1]["said"]:
-        yield f"ended with {ends[0]['code']} {ends[0]['said']}, now {ends[1]['code']} {ends[1]['said'] or ends[1]['last']}"
+        now = ends[1]["said"] or ends[1]["last"]
+        yield f"ended with {ends[0]['code']} {ends[0]['said']}, now {ends[1]['code']} {now}"
         return
     files = [folder / "summary.json" for folder in (other, mine)]
     if not files[0].exists():
@@ -181,10 +220,14 @@ def differences(mine: Path, other: Path) -> Iterator[str]:
             if key != ".message" or re.sub(r"[-\d.e+]+", "", str(a)) != re.sub(r"[-\d.e+]+", "", str(b)):
                 yield f"{key}: {a} -> {b}"
             continue
-        if name in BELOW_TOL or key.endswith(".algebra"):
-            if max(a, b) <= max(before["parameters"].get("tol", 1e-6), 1e-6 * force):
-                continue
-        scale = force * width if name in MOMENTS else max(abs(a), abs(b), force if re.search(r"[fF]orce|reaction", key) else 0.0)
+        small = name in BELOW_TOL or key.endswith(".algebra")
+        if small and max(a, b) <= max(before["parameters"].get("tol", 1e-6), 1e-6 * force):
+            continue
+        scale = (
+            force * width
+            if name in MOMENTS
+            else max(abs(a), abs(b), force if re.search(r"[fF]orce|reaction", key) else 0.0)
+        )
         if (isinstance(a, int) and isinstance(b, int)) or not math.isclose(a, b, rel_tol=0, abs_tol=TOLERANCE * scale):
             yield f"{key}: {a!r} -> {b!r} ({abs(a - b) / (abs(a) or 1):.1e})"
     yield from column_differences(mine / "contact.csv", other / "contact.csv")
@@ -212,7 +255,9 @@ def main(other: Path, words: list[str]) -> int:
         shutil.rmtree(stamp.parent, ignore_errors=True)
         stamp.parent.mkdir(parents=True)
         stamp.write_text(digest)
-    chosen = [run for run in dict((r[0], r) for r in runs()).values() if not words or any(word in run[0] for word in words)]
+    chosen = [
+        run for run in dict((r[0], r) for r in runs()).values() if not words or any(word in run[0] for word in words)
+    ]
     found = 0
 
     def both(run: tuple[str, str, str]) -> tuple[Path, Path]:
