@@ -7,6 +7,7 @@ type if that is said, or is written in camelCase; a function's arguments are non
 
 import re
 from functools import cache
+from pathlib import Path
 
 import pytest
 from freefem import ROOT
@@ -183,9 +184,12 @@ def provided(name):
 
 
 def part(name, title):
-    """The text of Needs or Gives in a module's head: the line and what is indented below it."""
+    """The text of Needs or Gives in a module's head: the line and what is indented below it.
+
+    A module of the same folder may be named without it."""
     found = re.search(rf"^// {title}: (.*\n(?://   .*\n)*)", source(name)[0], flags=re.M)
-    return " ".join(line.removeprefix("//").strip() for line in found.group(1).splitlines()) if found else ""
+    text = " ".join(line.removeprefix("//").strip() for line in found.group(1).splitlines()) if found else ""
+    return re.sub(r"(?<![\w/.-])([a-z][\w-]*\.idp)\b", rf"{Path(name).parent}/\1", text)
 
 
 def named(text):
