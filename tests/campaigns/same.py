@@ -238,6 +238,8 @@ def differences(mine: Path, other: Path) -> Iterator[str]:
             scale = max([scale, *(abs(v) for k, v in tables[0].items() if ".motion[" in k)])
         estimated = key.startswith(".estimates.") and not key.endswith(".value")
         within = ESTIMATED if estimated else TOLERANCE
+        if estimated:  # below the value's own tolerance they are rounding
+            scale = max(scale, TOLERANCE / ESTIMATED * max(1.0, force))
         if (isinstance(a, int) and isinstance(b, int)) or not math.isclose(a, b, rel_tol=0, abs_tol=within * scale):
             yield f"{key}: {a!r} -> {b!r} ({abs(a - b) / (abs(a) or 1):.1e})"
     yield from column_differences(mine / "contact.csv", other / "contact.csv")
