@@ -127,7 +127,7 @@ RUN_ONE  = $(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRI
 RUN_MANY = $(AS_ROOT) ff-mpirun -np $(NP) $(SCRIPT) -solver multigrid $(ARGS) -v 0
 run: .venv/run.stamp | system $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"] [NP=processes, in space]
 	@$(if $(NP),$(RUN_MANY),$(RUN_ONE)); code=$$?; \
-	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; *) why='failed';; esac; \
+	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; 30) why='out of memory or disk';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
 
 # ---------------------------------------------------------------- figures

@@ -9,10 +9,12 @@
 #include <petsc.h>
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <numeric>
+#include <unistd.h>
 #include <vector>
 
-#define CHECK(call) do { if (call) ExecError("PETSc: " #call); } while (0)
+#define CHECK(call) do { PetscErrorCode code = (call); if (code) failed(code, #call); } while (0)
 
 namespace
 {
@@ -35,6 +37,29 @@ std::vector<int> watched;                  // dofs by FreeFEM's number
 struct HeldEntry { int row, column; double value; };     // PETSc's numbers of dofs
 std::vector<HeldEntry> heldEntries;
 std::vector<PetscInt> heldRows;            // of this rank, from 0
+
+// ---------------------------------------------------------------- failures
+
+void noMemory()
+// As outOfMemory() of operator/memory.idp says it, on any rank: it ends the run.
+{
+    std::cout << "out of memory: multigrid: raise -h, or use a machine that has more" << std::endl;
+    int on = 0;
+    MPI_Initialized(&on);
+    int ranks = 1;
+    if (on) MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (ranks > 1) MPI_Abort(MPI_COMM_WORLD, 30);
+    _exit(30);
+}
+
+void failed(PetscErrorCode code, const char * call)
+{
+    if (code == PETSC_ERR_MEM) noMemory();
+    const char * why = nullptr;
+    PetscErrorMessage(code, &why, nullptr);
+    std::cout << "PETSc: " << (why ? why : "error") << std::endl;
+    ExecError(call);
+}
 
 // ---------------------------------------------------------------- ranks
 
@@ -88,6 +113,8 @@ void startPetsc()
     if (on) return;
     CHECK(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));
     CHECK(PetscInitializeNoArguments());
+    CHECK(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+    std::set_new_handler(noMemory);
 }
 
 // ---------------------------------------------------------------- the parts

@@ -1,0 +1,155 @@
+"""Little memory: an answer, or one line and a code; never a number beside it."""
+
+import functools
+import json
+import resource
+import subprocess
+import time
+
+import pytest
+from freefem import ROOT, environment, flag_text, script, snippet, told
+
+EXAMPLES = ROOT / "edp" / "examples"
+built = (ROOT / "build" / "multigrid-plugin.idp").exists()
+
+
+def within(megabytes, *command, threads=1, folder=None):
+    """(exit code, output, seconds) of a run in so much address space; None: in as much as there is."""
+
+    def limit():
+        if megabytes:
+            resource.setrlimit(resource.RLIMIT_AS, (megabytes * 1000**2,) * 2)
+
+    began = time.monotonic()
+    done = subprocess.run(
+        ["FreeFem++", "-nw", "-v", "0", *map(flag_text, command), "-vtu", "0", "-out", str(folder)],
+        cwd=ROOT,
+        env=environment(OPENBLAS_NUM_THREADS=str(threads)),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL,
+        preexec_fn=limit,
+        timeout=250,
+    )
+    return done.returncode, done.stdout.decode(errors="replace"), time.monotonic() - began
+
+
+def example(name):
+    return ["edp/parts-3d.edp", "-mesh", EXAMPLES / name / f"{name}.geo", "-case", EXAMPLES / name / f"{name}.case"]
+
+
+SPACE = [script("sphere-on-block"), "-order", 1, "-h", 0.4]
+CASES = {
+    "space": SPACE,
+    "space, finer": [script("sphere-on-block"), "-h", 0.6],
+    "space, full storage": [script("two-spheres"), "-method", "newton", "-h", 0.28],
+    "plane": [script("disc-on-block"), "-h", 0.03],
+    "plane, P4": [script("disc-on-block"), "-h", 0.08, "-order", 4],
+    "plane, default": [script("disc-on-block")],
+    "plane, full storage": [script("two-cylinders"), "-method", "newton", "-h", 0.05],
+    "bracket": example("ball-on-bracket"),
+    "cylinders": example("crossed-cylinders"),
+    "multigrid": [script("sphere-on-block"), "-order", 1, "-h", 0.25, "-solver", "multigrid"],
+}
+
+
+@functools.cache
+def unlimited(name, base):
+    folder = base / name.replace(" ", "")
+    code, output, seconds = within(None, *CASES[name], folder=folder)
+    assert code == 0, output[-2000:]
+    return json.loads((folder / "summary.json").read_text()), seconds
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", CASES)
+def test_answer_or_one_line(name, tmp_path_factory, capsys):
+    """300 MB to 3 GB, one thread of BLAS and two: the same answer in ten times the time at most, or a refusal or a
+    failure in one line, nothing written."""
+    if name == "multigrid" and not built:
+        pytest.skip("the plugin is not built: make mpi")
+    base = tmp_path_factory.mktemp("memory")
+    free, seconds = unlimited(name, base)
+    for threads in (1, 2):
+        row = []
+        for megabytes in (300, 400, 500, 700, 1000, 1500, 2000, 3000):
+            folder = base / f"{threads}-{megabytes}"
+            code, output, taken = within(megabytes, *CASES[name], threads=threads, folder=folder)
+            row.append(f"{megabytes}: {code}")
+            assert taken <= 10 * seconds, (row, output[-500:])
+            if code == 0:
+                answer = json.loads((folder / "summary.json").read_text())
+                assert answer["force"] == pytest.approx(free["force"], rel=1e-9)
+                continue
+            assert not (folder / "summary.json").exists()
+            lines = output.splitlines()
+            if code == 10:
+                assert len([line for line in lines if "GB" in line]) == 1, (row, output[-2000:])
+
+            else:
+                assert code == 30, (row, output[-2000:])
+                assert lines[-1].startswith("out of memory: "), (row, output[-2000:])
+        assert code == 0, row  # 3 GB are enough for each
+        with capsys.disabled():
+            print(f"\n{name}, {free['ndof']} dofs, {threads} threads, {seconds:.1f} s: {', '.join(row)}")
+
+
+def test_refused_before_it_is_taken(tmp_path):
+    """One line that says what is needed, what is there and what would fit; it does."""
+    code, output, _ = within(450, *SPACE[:-1], 0.3, folder=tmp_path / "out")
+    assert code == 10
+    assert len(output.splitlines()) == 1, output
+    assert output.startswith("-h 0.3: 40224 unknowns take 0.29 GB of memory, ")
+    assert not (tmp_path / "out").exists()
+    fits = output.split("-h ")[2].split(",")[0].strip()
+    code, output, _ = within(450, *SPACE[:-1], fits, "-estimate", 0, folder=tmp_path / "out")
+    assert code == 0, output
+
+
+def test_threads_without_addresses(tmp_path):
+    """OpenBLAS waits for ever for the buffers of two threads in 300 MB; with one there is an answer."""
+    code, output, _ = within(300, *CASES["plane, default"], threads=2, folder=tmp_path / "out")
+    assert code == 10 and "OPENBLAS_NUM_THREADS=1" in output
+    assert len(output.splitlines()) == 1
+    code, output, _ = within(300, *CASES["plane, default"], "-estimate", 0, threads=1, folder=tmp_path / "out")
+    assert code == 0, output
+
+
+SYSTEM = """
+include "case/flags.idp"
+string scene = "disc-on-block";
+include "case/output.idp"
+include "bodies/block-flags.idp"
+include "laws/all.idp"
+include "solve/methods/all.idp"
+include "case/options.idp"
+include "solve/solver.idp"
+tell("groups", groupsLeft("fake"));
+tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));
+matrix K = [[2., 0.], [0., 2.]];
+real[int] b = [1., 1.];
+real[int] x = [0.5, 0.5];
+dofsThatFit = 3;
+checkSolved(K, b, x);
+x[1] = 7;
+checkSolved(K, b, x);
+"""
+
+
+def test_groups_and_a_failed_factorisation(tmp_path):
+    """The least that a control group above the process leaves; a solution that solves nothing ends the run."""
+    files = {
+        "proc/self/cgroup": "0::/a/b\n",
+        "sys/fs/cgroup/a/b/memory.max": "max\n",
+        "sys/fs/cgroup/a/memory.max": "3000000000\n",
+        "sys/fs/cgroup/a/memory.current": "1500000000\n",
+        "sys/fs/cgroup/a/memory.stat": "anon 1\nfile 2\ninactive_file 500000000\n",
+    }
+    for name, text in files.items():
+        path = tmp_path / "fake" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    output = snippet(tmp_path, SYSTEM, expect=30)
+    assert told(output)["groups"] == [2e9]
+    assert told(output)["none"] == [1e300]
+    assert output.splitlines()[-1].startswith("out of memory: ")
