@@ -11,8 +11,23 @@ export OPENBLAS_NUM_THREADS := 1
 # Numbers with a point, whatever the user's language.
 export LC_ALL := C
 
-FREEFEM := FreeFem++ -nw -v 0
-PYTHON  := .venv/bin/python
+# What is made: in this folder, or in the cache if there is one (CONTACT_CACHE, or this folder cannot be written); results where
+# make RESULTS=folder says. The runs are told of both by the environment.
+RESULTS ?= $(or $(CONTACT_RESULTS),results)
+CACHE   := $(abspath $(shell sh edp/case/cache.sh 0 .))
+VENV    := $(if $(CACHE),$(CACHE)/venv,.venv)
+BUILD   := $(if $(CACHE),$(CACHE)/build,build)
+PYTHON  := $(VENV)/bin/python
+# A plugin in the cache is named by a .freefem++.pref there: of FreeFEM's lists only those of HOME's come before this folder's.
+FREEFEM := $(if $(CACHE),env HOME=$(BUILD) )FreeFem++ -nw -v 0
+ifneq ($(RESULTS),results)
+export CONTACT_RESULTS := $(RESULTS)
+endif
+ifneq ($(CACHE),)
+export CONTACT_CACHE := $(CACHE)
+export CONTACT_POSTPROCESS := $(PYTHON) -m postprocess
+endif
+
 SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
 SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
@@ -24,11 +39,11 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
-PAPER := results/figures/figure1.pdf results/figures/figure2.pdf
+PAPER := $(RESULTS)/figures/figure1.pdf $(RESULTS)/figures/figure2.pdf
 paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, and its two figures
 	@echo 'figures: $(PAPER)'
 
@@ -42,19 +57,19 @@ help: ## list the targets
 # ---------------------------------------------------------------- set-up
 
 FREEFEM_PACKAGES := freefem++ libfreefem++ libfreefem++-dev libopenblas0-pthread
-# The first Python that is new enough and can make virtual environments (Debian's needs a package for that).
-FIND_PYTHON := for python in python3 /usr/bin/python3; do \
-	  $$python -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && break; \
-	done
+# The first Python that is new enough and has packages of its own within the bounds of requirements.txt; else the first that can
+# make virtual environments with pip in them (Debian's needs a package for that).
+FIND_PYTHON := for found in own venv none; do for python in python3 /usr/bin/python3; do \
+	  $$python postprocess/doctor.py --can $$found 2>/dev/null && break 2; \
+	done; done; test $$found != none
 
 define PIP_INSTALL
-	@echo "Installing $< into .venv"; \
+echo "Installing $< into $(VENV)"; \
 	pip='$(PYTHON) -m pip install -q --no-input --disable-pip-version-check -r $<'; \
 	$$pip || { sleep 5; $$pip; }
-	@touch $@
 endef
 
-setup: .venv/dev.stamp | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
+setup: $(VENV)/dev.stamp | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
 
 # Installs the Debian packages in $$missing, if any. A failed update is no reason to stop: the lists may be good enough, and if
 # not, the install fails.
@@ -84,20 +99,31 @@ system:
 	{ $(FIND_PYTHON); } || missing="$$missing python3 python3-venv"; \
 	$(INSTALL_MISSING)
 
-.venv/run.stamp: requirements.txt | system
+$(VENV)/run.stamp: requirements.txt | system
 	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
-	$$python -m venv .venv
-	$(PIP_INSTALL)
+	case $$found in \
+	  own) $$python -m venv --system-site-packages --without-pip $(VENV);; \
+	  *) $$python -m venv $(VENV) && { $(PIP_INSTALL); };; \
+	esac
+	@touch $@
 
-.venv/dev.stamp: requirements-dev.txt .venv/run.stamp | system
-	$(PIP_INSTALL)
+$(VENV)/dev.stamp: requirements-dev.txt $(VENV)/run.stamp | system
+	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || missing=' python3-venv'; $(INSTALL_MISSING)
+	@$(PYTHON) -m pip --version >/dev/null 2>&1 || $(PYTHON) -m ensurepip >/dev/null
+	@$(PIP_INSTALL)
+	@touch $@
+
+# Runs need no Python, the pictures of them do: what cannot be had now is no reason not to run.
+python: | system
+	@test -e $(VENV)/run.stamp || PIP_RETRIES=1 $(MAKE) -s --no-print-directory $(VENV)/run.stamp || \
+	  echo 'no Python for the pictures: make setup says more'
 
 # The plugin for -solver multigrid, on Debian's PETSc or on the one in $(PETSC), which has include/ and lib/ (named on the command
 # line, or the variables PETSC_DIR/PETSC_ARCH of a PETSc of one's own).
 PETSC = $(firstword $(if $(PETSC_DIR),$(PETSC_DIR)/$(PETSC_ARCH)) $(wildcard /usr/lib/petscdir/petsc*/*-linux-gnu-real))
 
 mpi: | petsc ## build the plugin for -solver multigrid and several processes: make mpi [PETSC=/its/folder]
-	@$(MAKE) -s --no-print-directory build/multigrid-plugin.idp
+	@$(MAKE) -s --no-print-directory $(BUILD)/multigrid-plugin.idp
 
 petsc: | system
 	@missing=; \
@@ -107,28 +133,52 @@ petsc: | system
 	$(INSTALL_MISSING)
 
 # ff-c++ writes beside its source; what is built is put in place when it is whole, the .idp that names it last.
-build/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
-	@mkdir -p build/new && cp $< build/new && cd build/new && \
+$(BUILD)/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
+	@mkdir -p $(BUILD)/new && cp $< $(BUILD)/new && cd $(BUILD)/new && \
 	ff-c++ -mpi -I$(PETSC)/include $$(mpicxx --showme:compile) -L$(PETSC)/lib -Wl,-rpath,$(PETSC)/lib \
 	  $$(if ls $(PETSC)/lib/libpetsc_real.* >/dev/null 2>&1; then echo -lpetsc_real; else echo -lpetsc; fi) \
 	  $$(mpicxx --showme:link) multigrid.cpp >../multigrid.log 2>&1 && mv multigrid.so .. || { \
 	  cd .. && grep -m 3 'error:' multigrid.log || tail -n 5 multigrid.log; \
-	  echo "the plugin could not be built with the PETSc in $(PETSC): build/multigrid.log"; exit 1; \
+	  echo "the plugin could not be built with the PETSc in $(PETSC): $(BUILD)/multigrid.log"; exit 1; \
 	}
-	@rm -rf build/new
+	@rm -rf $(BUILD)/new
 	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
+	@test -z "$(CACHE)" || { cat ~/.freefem++.pref 2>/dev/null; \
+	  printf '%s += "$(BUILD)"\n' loadpath includepath; } >$(BUILD)/.freefem++.pref
 	@echo 'built: -solver multigrid, in scenes in space'
 
 # ---------------------------------------------------------------- runs
 
-# NP=2: on two processes, under Open MPI, which wants to be told that it may run as root.
-AS_ROOT := OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+# NP=2: on two processes. Open MPI, in versions 4 and 5, wants to be told that it may run as root and with more processes than cores.
+MPI := OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+  OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
 RUN_ONE  = $(if $(findstring -plot 1,$(ARGS)),$(FREEFEM:-nw=),$(FREEFEM)) $(SCRIPT) $(ARGS)
-RUN_MANY = $(AS_ROOT) ff-mpirun -np $(NP) $(SCRIPT) -solver multigrid $(ARGS) -v 0
-run: .venv/run.stamp | system $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"] [NP=processes, in space]
+RUN_MANY = $(MPI) mpiexec -n $(NP) $(subst FreeFem++,FreeFem++-mpi,$(FREEFEM)) $(SCRIPT) -solver multigrid $(ARGS)
+run: | system python $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS="-kappa 1e6"] [NP=processes, in space]
 	@$(if $(NP),$(RUN_MANY),$(RUN_ONE)); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; 30) why='out of memory or disk';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
+
+# ---------------------------------------------------------------- a place of its own
+
+PREFIX ?= /usr/local
+NAME   := stiff-contact
+export PREFIX DESTDIR
+
+install: ## put scripts, Python commands and the starter stiff-contact below PREFIX: make install [PREFIX=/usr/local] [DESTDIR=]
+	@case $$PREFIX in *[\;\'\"]* | [!/]* | '') echo "PREFIX=$$PREFIX: allowed: a whole path without ; and quotes"; exit 10;; esac; \
+	share=$$DESTDIR$$PREFIX/share/$(NAME) bin=$$DESTDIR$$PREFIX/bin; set -e; \
+	rm -rf "$$share"; mkdir -p "$$share" "$$bin"; \
+	tar -cf - --exclude=__pycache__ --exclude=generated --exclude='*.msh' --exclude='.making-*' \
+	  edp meshes postprocess README.md CHANGELOG.md CITATION.cff LICENSE requirements.txt freefem++.pref | (cd "$$share" && tar -xof -); \
+	test ! -e $(BUILD)/multigrid-plugin.idp || { mkdir "$$share/build"; cp $(BUILD)/multigrid.so $(BUILD)/multigrid-plugin.idp "$$share/build"; }; \
+	printf '%s\n' '#!/bin/sh' '# $(NAME): scenes and Python commands of the package from any folder: $(NAME) wavy -h 0.1' \
+	  "CONTACT_STARTER=\$$0 exec sh '$$PREFIX/share/$(NAME)/edp/freefem.sh' \"\$$@\"" >"$$bin/$(NAME)"; \
+	: >"$$share/.installed"; chmod -R a+rX "$$share"; chmod 755 "$$bin/$(NAME)"; \
+	echo "installed: $$PREFIX/bin/$(NAME)"
+
+uninstall: ## remove what make install has put below PREFIX
+	rm -rf "$$DESTDIR$$PREFIX/share/$(NAME)" "$$DESTDIR$$PREFIX/bin/$(NAME)"
 
 # ---------------------------------------------------------------- figures
 
@@ -217,29 +267,29 @@ draw.meshed-disc   := rigid
 CASES   := $(sort $(patsubst case.%,%,$(filter case.%,$(.VARIABLES))))
 FIGURES := $(sort $(patsubst figure.%,%,$(filter figure.%,$(.VARIABLES))))
 
-figures: $(FIGURES:%=results/figures/%.pdf) $(FIGURES:%=results/figures/%.png) ## draw every figure into results/figures/, with the runs that it needs
+figures: $(FIGURES:%=$(RESULTS)/figures/%.pdf) $(FIGURES:%=$(RESULTS)/figures/%.png) ## draw every figure into results/figures/, with the runs that it needs
 
 # The Makefile is a prerequisite because it holds the flags.
-$(CASES:%=results/figures/%/summary.json): results/figures/%/summary.json: $$(firstword $$(case.$$*)) $(SOURCES) Makefile | system
+$(CASES:%=$(RESULTS)/figures/%/summary.json): $(RESULTS)/figures/%/summary.json: $$(firstword $$(case.$$*)) $(SOURCES) Makefile | system
 	$(FREEFEM) $(case.$*) -out $(@D)
 
 # A pattern with two targets makes both in one go.
-results/figures/%.pdf results/figures/%.png: $$(addsuffix /summary.json,$$(addprefix results/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | .venv/run.stamp
-	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out results/figures/$*.pdf $(figure.$*:%=results/figures/%)
+$(RESULTS)/figures/%.pdf $(RESULTS)/figures/%.png: $$(addsuffix /summary.json,$$(addprefix $(RESULTS)/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | $(VENV)/run.stamp
+	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out $(RESULTS)/figures/$*.pdf $(figure.$*:%=$(RESULTS)/figures/%)
 
 # The pictures of the pages. Those of the campaigns need make bench-peers and make stability, the labs' make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
-pictures: results/figures/figure1.png results/figures/sphere/summary.json | .venv/run.stamp ## draw the small pictures of the pages anew
-	$(SMALL) results/figures/figure1.png --out postprocess/readme-figure.png
+pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json | $(VENV)/run.stamp ## draw the small pictures of the pages anew
+	$(SMALL) $(RESULTS)/figures/figure1.png --out postprocess/readme-figure.png
 	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
-	$(SMALL) results/movies/disc-on-block/movie.gif --width 600 --colours 16 --out postprocess/readme-movie.gif
-	$(SMALL) results/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
-	$(SMALL) results/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
+	$(SMALL) $(RESULTS)/movies/disc-on-block/movie.gif --width 600 --colours 16 --out postprocess/readme-movie.gif
+	$(SMALL) $(RESULTS)/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
+	$(SMALL) $(RESULTS)/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
-	  $(SMALL) $$(find results/labs/$$(basename $$lab) -name $$name) --width 700 --colours 32 --out $$lab/figure.png || exit 1; \
+	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width 700 --colours 32 --out $$lab/figure.png || exit 1; \
 	done
-	$(PYTHON) -m postprocess cut results/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
+	$(PYTHON) -m postprocess cut $(RESULTS)/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
 
 # ---------------------------------------------------------------- campaigns
 
@@ -248,66 +298,66 @@ CAMPAIGN_FIGURES = $(basename $(notdir $(filter-out %_peers.py,$(wildcard postpr
 
 define DRAW_CAMPAIGN
 for figure in $(CAMPAIGN_FIGURES); do \
-	  $(PYTHON) -m postprocess figure $$figure --out results/$@/$$figure.pdf results/$@ || exit 1; \
+	  $(PYTHON) -m postprocess figure $$figure --out $(RESULTS)/$@/$$figure.pdf $(RESULTS)/$@ || exit 1; \
 	done
 endef
 
-bench: .venv/run.stamp | system ## error against run time, cost growth, ingredients, timed one run at a time, into results/bench/
+bench: $(VENV)/run.stamp | system ## error against run time, cost growth, ingredients, timed one run at a time, into results/bench/
 	@$(PYTHON) tests/campaigns/bench.py
 	@$(DRAW_CAMPAIGN)
 
 # Large bodies: up to three million unknowns in space, 8 GB, an hour.
-bench-large: .venv/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, two processes, into results/bench/
-	@$(AS_ROOT) $(PYTHON) tests/campaigns/bench.py large
+bench-large: $(VENV)/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, two processes, into results/bench/
+	@$(MPI) $(PYTHON) tests/campaigns/bench.py large
 
 # NGSolve is wanted by this target alone.
-.venv-peers/run.stamp: requirements-peers.txt | system
+$(VENV)-peers/run.stamp: requirements-peers.txt | system
 	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
-	echo "Installing $< into .venv-peers"; \
-	$$python -m venv .venv-peers && \
-	.venv-peers/bin/python -m pip install -q --no-input --disable-pip-version-check --retries 1 -r $< 2>.venv-peers/pip.log || { \
-	  echo "bench-peers: pip could not install $< (is a package index reachable?); its messages: .venv-peers/pip.log"; exit 1; \
+	echo "Installing $< into $(VENV)-peers"; \
+	$$python -m venv $(VENV)-peers && \
+	$(VENV)-peers/bin/python -m pip install -q --no-input --disable-pip-version-check --retries 1 -r $< 2>$(VENV)-peers/pip.log || { \
+	  echo "bench-peers: pip could not install $< (is a package index reachable?); its messages: $(VENV)-peers/pip.log"; exit 1; \
 	}
 	@touch $@
 
-bench-peers: .venv/run.stamp .venv-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, into results/bench/
+bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
-	@$(PYTHON) -m postprocess figure bench_peers --out results/bench/bench_peers.pdf results/bench
+	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
 
 # Code 1: a run failed or a check did not pass; the figures show it.
-stability: .venv/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
+stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
 	@$(PYTHON) tests/campaigns/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
 
-coverage: .venv/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
+coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
 
-tables: .venv/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
+tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
 # ---------------------------------------------------------------- labs
 
 # Line by line as the labs' READMEs have them. Code 20: one of them stops a run early, as it says.
-labs: .venv/run.stamp | system ## run every command of the labs (edp/labs), with their figures, into results/labs/
+labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), with their figures, into results/labs/
 	@for readme in edp/labs/*/README.md; do \
 	  sed -n '/^```sh/,/^```/p' $$readme | grep -v '^[`#]' | while read -r command; do \
-	    echo "$$command"; sh -c "$$command" </dev/null; code=$$?; \
+	    echo "$$command"; sh -c "$$(echo "$$command" | sed 's, results/, $(RESULTS)/,g;s,^.venv/,$(VENV)/,')" </dev/null; code=$$?; \
 	    case $$code in 0|20) ;; *) exit $$code;; esac; \
 	  done || exit $$?; \
 	done
 
 # ---------------------------------------------------------------- looking
 
-MOVIE := results/movies/$(SCENE)
+MOVIE := $(RESULTS)/movies/$(SCENE)
 
 # Code 20, not converged: the steps are there, and worth seeing.
-movie: .venv/run.stamp | system ## show the method at work: make movie [SCENE=name] [ARGS="-method paper -h 0.5"], into results/movies/
+movie: $(VENV)/run.stamp | system ## show the method at work: make movie [SCENE=name] [ARGS="-method paper -h 0.5"], into results/movies/
 	@$(FREEFEM) $(SCRIPT) $(ARGS) -states 1 -out $(MOVIE); code=$$?; \
 	case $$code in 0|20) ;; *) echo "FreeFem++ ended with code $$code: no movie"; exit $$code;; esac; \
 	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE) && exit $$code
 
-report: .venv/run.stamp | system ## one page of everything that has been run: results/report/index.html
-	@$(PYTHON) -m postprocess report --out results/report/index.html results
+report: $(VENV)/run.stamp | system ## one page of everything that has been run: results/report/index.html
+	@$(PYTHON) -m postprocess report --out $(RESULTS)/report/index.html $(RESULTS)
 
 doctor: ## say what is installed, what is missing and how to get it
 	@{ $(FIND_PYTHON); } || python=python3; $$python postprocess/doctor.py
@@ -315,21 +365,21 @@ doctor: ## say what is installed, what is missing and how to get it
 # ---------------------------------------------------------------- checks
 
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
-test: .venv/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
-	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory build/multigrid-plugin.idp
+test: $(VENV)/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
+	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(BUILD)/multigrid-plugin.idp
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
-test-all: .venv/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
+test-all: $(VENV)/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
-lint: .venv/dev.stamp ## check the style of the Python and FreeFEM sources
+lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests
 	@$(PYTHON) -m ruff format --check postprocess tests
 	@$(PYTHON) tests/lint_edp.py edp
 
 clean: ## remove results and generated meshes
-	rm -rf results meshes/generated
+	rm -rf results meshes/generated $(CACHE:%=%/meshes)
 
 distclean: clean ## remove the virtual environment and caches as well
-	rm -rf .venv .venv-peers build .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(VENV)-peers $(BUILD) .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

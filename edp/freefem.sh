@@ -1,15 +1,53 @@
-# freefem.sh: FreeFem++ from any folder: sh PATH/edp/freefem.sh SCRIPT FLAGS...
-# Needs: FreeFem++; SCRIPT: a path from the present folder, or from edp/: scenes/wavy.edp.
-# Gives: what the script gives; names among the flags are taken from the present folder.
-# Exit code: FreeFem++'s; 10 without a script.
+# freefem.sh: FreeFem++ from any folder: sh PATH/edp/freefem.sh SCRIPT FLAGS..., or the Python commands: ... postprocess WORDS...
+# Needs: FreeFem++; SCRIPT: a path from the present folder, or from edp/ (scenes/wavy.edp), or a scene's name (wavy); for the
+#        Python commands numpy and matplotlib. The environment's CONTACT_STARTER, if any: how this program was called.
+# Gives: what the script gives; names among the flags are taken from the present folder. Where the package cannot be written, or
+#        is an installed one, results go to results/ in the present folder; see case/cache.sh for what is made and kept.
+# Exit code: FreeFem++'s or Python's; 10 without a script, without Python's packages, and below a folder with ; in its name.
 # FreeFEM looks for modules and plugins where the file freefem++.pref of the present folder says: elsewhere the environment says it.
 edp=$(cd "${0%/*}" && pwd)
-script=$1
-test -e "$script" || script=$edp/$1
-test -f "$script" || { echo "${1:-no script}: no such script here or in $edp; allowed: sh freefem.sh SCRIPT FLAGS..."; exit 10; }
+root=${edp%/edp}
+cache=$(sh "$edp/case/cache.sh" 0 "$root")
+test -z "$cache" || export CONTACT_CACHE="$cache"
+
+quoted()
+{
+    case $1 in
+    *[!A-Za-z0-9_./+:,@%-]*) printf "'%s'" "$(printf '%s\n' "$1" | sed "s/'/'\\\\''/g")" ;;
+    *) printf '%s' "$1" ;;
+    esac
+}
+
+if test "$1" = postprocess; then
+    shift
+    for python in "$cache/venv/bin/python" "$root/.venv/bin/python" python3 /usr/bin/python3; do
+        "$python" -c 'from importlib.util import find_spec as f; exit(not (f("numpy") and f("matplotlib")))' 2> /dev/null && break
+        python=
+    done
+    test -n "$python" || { echo "postprocess: no Python with numpy and matplotlib; allowed: one of the system's, or \
+python3 -m venv VENV and VENV/bin/pip install -r $root/requirements.txt, with VENV/bin first on the PATH"; exit 10; }
+    PYTHONPATH=$root${PYTHONPATH:+:$PYTHONPATH} exec "$python" -m postprocess "$@"
+fi
+
+for script in "$1" "$edp/$1" "$edp/$1.edp" "$edp/scenes/$1.edp" none; do test ! -f "$script" || break; done
+test "$1" != disc-on-block || test -f "$1" || script=$edp/main.edp
+test "$script" != none || {
+    echo "${1:-no script}: no such script here or in $edp; allowed: sh freefem.sh SCRIPT FLAGS..."
+    exit 10
+}
 shift
-export FF_INCLUDEPATH="$edp/../build;$edp/operator/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
+case $edp in *\;*)
+    echo "$edp: FreeFEM's lists of folders have ; between them; allowed: a path without ;"
+    exit 10 ;;
+esac
+FF_INCLUDEPATH="$root/build;$edp/operator/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
+export FF_INCLUDEPATH
 test ! -d /usr/lib/freefem++ || FF_LOADPATH="/usr/lib/freefem++${FF_LOADPATH:+;$FF_LOADPATH}"
-export FF_LOADPATH="$edp/../build${FF_LOADPATH:+;$FF_LOADPATH}"
+export FF_LOADPATH="$root/build${FF_LOADPATH:+;$FF_LOADPATH}"
+test -w "$root" && test ! -e "$root/.installed" || export CONTACT_RESULTS="${CONTACT_RESULTS:-results}"
+starter="sh $(quoted "$edp/freefem.sh")"
+test -z "$CONTACT_STARTER" || starter=$(quoted "$CONTACT_STARTER")
+test -e "$root/.venv/bin/python" || export CONTACT_POSTPROCESS="${CONTACT_POSTPROCESS:-$starter postprocess}"
+test ! -e "$cache/build/.freefem++.pref" || export HOME="$cache/build"      # names the plugin there: see the Makefile
 case " $* " in *' -plot 1 '*) window=;; *) window=-nw;; esac
 exec FreeFem++ $window -v 0 "$script" "$@"

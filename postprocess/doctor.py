@@ -1,11 +1,13 @@
 """What this package needs, what of it is here, and how to get the rest: `make doctor`.
 
 Runs with any Python 3.8 or newer and nothing else: it must work where nothing is set up. Exit code 0 when everything
-that `make run` needs is there, otherwise 1.
+that `make run` needs is there, otherwise 1. With `--can own` or `--can venv` it answers the Makefile by its exit code.
 """
 
 from __future__ import annotations
 
+import importlib.metadata
+import importlib.util
 import os
 import platform
 import re
@@ -19,6 +21,9 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parent.parent
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
 SECONDS = 60  # for a program to answer
+CACHE = os.environ.get("CONTACT_CACHE")  # where the Makefile keeps what it makes, if not here
+VENV = Path(CACHE, "venv") if CACHE else ROOT / ".venv"
+BUILD = Path(CACHE, "build") if CACHE else ROOT / "build"
 PLUGINS = {
     "gmsh": "meshes",
     "lapack": "dense matrices",
@@ -235,20 +240,50 @@ def find_gmsh() -> list:
     return [Finding("gmsh", bool(version), found, True, hint("gmsh"))]
 
 
+def numbers(version: str) -> tuple:
+    return tuple(map(int, re.findall(r"\d+", version)[:3]))
+
+
+def within_bounds() -> bool:
+    """Are there, in this Python itself, the packages that requirements.txt asks for?"""
+    for line in (ROOT / "requirements.txt").read_text().split():
+        name, least, below = re.fullmatch(r"(\w+)>=([\d.]+),<([\d.]+)", line).groups()
+        try:
+            version = numbers(importlib.metadata.version(name))
+        except importlib.metadata.PackageNotFoundError:
+            return False
+        if not numbers(least) <= version < numbers(below):
+            return False
+    return True
+
+
+def can(what: str) -> bool:
+    """Is this Python new enough, and can it draw by its own packages, or make a virtual environment with pip in it?"""
+    modules = {"own": ("venv",), "venv": ("venv", "ensurepip")}.get(what)
+    if sys.version_info < (3, 11) or not modules or not all(map(importlib.util.find_spec, modules)):
+        return False
+    # a virtual environment's packages are not those that another one made by it would see
+    return what != "own" or (sys.prefix == sys.base_prefix and within_bounds())
+
+
 def find_python() -> list:
     """A Python for the virtual environment, and what is in it."""
-    check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))"
-    able = [name for name in ("python3", "/usr/bin/python3") if answer([name, "-c", check])[0] == 0]
+    able = [
+        name
+        for what in ("own", "venv")
+        for name in ("python3", "/usr/bin/python3")
+        if answer([name, __file__, "--can", what])[0] == 0
+    ]
     version = answer([able[0], "--version"])[1].strip() if able else platform.python_version()
     words = (
         f"{version}, {shutil.which(able[0])}" if able else f"{version}; needed: 3.11 or newer, with venv and ensurepip"
     )
     findings = [Finding("Python", bool(able), words, True, hint("python"))]
-    own = next((path for path in (ROOT / ".venv/bin/python", ROOT / ".venv/Scripts/python.exe") if path.exists()), None)
+    own = next((path for path in (VENV / "bin/python", VENV / "Scripts/python.exe") if path.exists()), None)
     for names, needed in ((MODULES, True), (DEVELOPERS, False)):
         for name in names:
             version = module_version(own, name)
-            found = version or ("not in .venv" if own else "no .venv")
+            found = version or f"{'not in' if own else 'no'} {VENV.name}"
             findings.append(Finding(f"  {name}", bool(version), found, needed, "make setup"))
     return findings
 
@@ -284,7 +319,7 @@ def find_multigrid() -> list:
     launcher, compiler = shutil.which("mpiexec"), shutil.which("mpicxx")
     there = " and ".join(path for path in (launcher, compiler) if path)
     findings = [Finding("MPI", bool(launcher and compiler), there or "not on the PATH", False, hint("mpi"))]
-    for name in ("FreeFem++-mpi", "ff-mpirun", "ff-c++"):
+    for name in ("FreeFem++-mpi", "ff-c++"):
         path = shutil.which(name)
         findings.append(Finding(f"  {name}", bool(path), path or "not on the PATH", False, hint("FreeFem++")))
     own = os.environ.get("PETSC_DIR")
@@ -293,7 +328,7 @@ def find_multigrid() -> list:
     petsc = next((folder for folder in folders if (folder / "include/petsc.h").exists()), None)
     words = str(petsc or "not found; needed for -solver multigrid only")
     findings.append(Finding("PETSc", bool(petsc), words, False, hint("petsc")))
-    built = (ROOT / "build/multigrid-plugin.idp").exists()
+    built = (BUILD / "multigrid-plugin.idp").exists()
     code, _ = snippet('load "multigrid"\n') if built else (1, "")
     words = (
         "built" if code == 0 else ("built, but cannot be loaded" if built else "not built; -solver direct needs none")
@@ -317,6 +352,8 @@ def lines(findings: list) -> list:
 
 
 def main() -> int:
+    if sys.argv[1:2] == ["--can"]:
+        return 0 if can(sys.argv[2]) else 1
     print(f"{system_name()}, {processor()}, {cores()} cores")
     findings = [*find_freefem(), *find_gmsh(), *find_python(), *find_others(), *find_multigrid()]
     print("\n".join(lines(findings)))

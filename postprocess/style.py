@@ -13,6 +13,11 @@ from matplotlib.tri import Triangulation
 
 from postprocess.results import ResultsError, Run, is_number
 
+if mpl.__version_info__ < (3, 7):
+    from postprocess import matplotlib36
+
+    matplotlib36.install()
+
 COLUMN = 85 / 25.4  # inches: one column of a journal page
 PAGE = 180 / 25.4  # inches: two columns
 DPI = 300

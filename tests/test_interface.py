@@ -165,11 +165,33 @@ def test_from_any_folder(name, package, tmp_path):
         for folder in (".venv", "postprocess"):
             (package / folder).symlink_to(ROOT / folder)
         command, _, drawn = stdout.splitlines()[-1].removeprefix("  picture: ").partition(" state ")
-        assert drawn == "here/ (or stress)"
+        assert drawn == "here/"
         code, stdout = execute(["sh", "-c", f"{command} state --help"], tmp_path)
         assert code == 0 and stdout.startswith("usage: python -m postprocess state"), stdout
     code, stdout = execute([*program, "nowhere.edp"], tmp_path, BARE)
     assert code == 10 and stdout.startswith("nowhere.edp: no such script")
+
+
+@pytest.mark.parametrize("out", ["it's; touch F", '-1 "$(touch F)"'])
+def test_picture_can_be_pasted(out, tmp_path):
+    """The command that a run prints shall be that when it is pasted, whatever the names of its folders."""
+    package, here = tree(tmp_path / "it's; `touch F`"), tmp_path / "here"
+    here.mkdir()
+    (here / "freefem++.pref").symlink_to(package / "freefem++.pref")
+    (here / "edp").symlink_to(package / "edp")
+    stdout = run_in(here, package / script(BLOCK), "-h", 5, *COARSE[2:], "-out", out).stdout
+    command = stdout.splitlines()[-1].removeprefix("  picture: ")
+    _, said = execute(["sh", "-c", f"printf '%s\\n' {command}"], here)
+    folder = f"./{out}" if out.startswith("-") else out
+    words = [f"PYTHONPATH={package}/", f"{package}/.venv/bin/python", "-m", "postprocess", "state", f"{folder}/"]
+    assert said.splitlines() == words and not list(tmp_path.rglob("F"))
+
+
+def test_folder_with_a_semicolon(tmp_path):
+    """freefem.sh shall refuse a folder that FreeFEM's lists of folders would cut in two."""
+    package = tree(tmp_path / "a;b")
+    code, stdout = execute(["sh", package / "edp/freefem.sh", "main.edp", "-help"], tmp_path, BARE)
+    assert code == 10 and len(stdout.splitlines()) == 1 and "allowed: a path without ;" in stdout
 
 
 @pytest.mark.parametrize("scene", [DISC, "sphere-on-block"])

@@ -9,7 +9,7 @@ import time
 import pytest
 from freefem import ROOT, being_written, environment, execute, files, interruptible, tree
 
-DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system"]
+DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]
 
 
 def make(folder, *words):

@@ -5,6 +5,7 @@ Skipped where `make mpi` has not built the plugin; the refusals that need none a
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -16,20 +17,24 @@ from freefem import ROOT, environment, execute, flag_text, run, run_in, script, 
 built = pytest.mark.skipif(
     not (ROOT / "build" / "multigrid-plugin.idp").exists(), reason="the plugin is not built: make mpi"
 )
-AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+AS_ROOT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+}
+MPIEXEC = ["mpiexec", "-n"]
 SAME = ("force", "pressureMax", "halfWidthMoment", "energy", "reactionZ", "approach")
 
 
 def on_ranks(ranks, name, *flags, cwd=ROOT):
     """(exit code, output) of a script on so many processes; 1: FreeFem++ without mpirun."""
-    start = ["FreeFem++", "-nw"] if ranks == 1 else ["ff-mpirun", "-np", ranks]
-    return execute([*start, name, *map(flag_text, flags), "-v", "0"], cwd, environment(**AS_ROOT))
+    start = ["FreeFem++"] if ranks == 1 else [*MPIEXEC, ranks, "FreeFem++-mpi"]
+    return execute([*start, "-nw", "-v", 0, name, *map(flag_text, flags)], cwd, environment(**AS_ROOT))
 
 
 def said(output):
-    """The lines that are ours: without ff-mpirun's echo and mpiexec's banner."""
-    lines = [line for line in output.split("-----")[0].splitlines() if line.strip()]
-    return [line for line in lines if not line.startswith("'") and "oversubscribe" not in line]
+    """The lines that are ours: without mpiexec's banner."""
+    return [line for line in output.split("-----")[0].splitlines() if line.strip()]
 
 
 def process_of_rank(rank, word):
@@ -130,6 +135,40 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
 
 
 @built
+def test_words_reach_several_processes_as_they_are(tmp_path):
+    """No shell shall read the flags of a run on several processes again."""
+    flags = ["-order", 1, "-h", 1.2, "-layers", 1, "-solver", "multigrid", "-vtu", 0, "-estimate", 0]
+    package = tree(tmp_path / "package")
+    (package / "build").symlink_to(ROOT / "build")
+    code, output = on_ranks(2, script("sphere-on-block"), *flags, "-out", "a b;touch F $(touch F)", cwd=package)
+    assert code == 0, output
+    assert (package / "a b;touch F $(touch F)" / "summary.json").exists() and not list(package.glob("F*"))
+
+
+@built
+def test_plugin_in_a_cache(tmp_path):
+    """The starter shall find the plugin in the cache, a folder with a freefem++.pref or not."""
+    package = tree(tmp_path / "package")
+    shutil.copytree(ROOT / "build", tmp_path / "cache" / "build")
+    lines = [f'{kind} += "{tmp_path}/cache/build"\n' for kind in ("loadpath", "includepath")]
+    (tmp_path / "cache" / "build" / ".freefem++.pref").write_text("".join(lines))
+    words = ["sphere-on-block", "-solver", "multigrid", "-h", 2, "-order", 1, "-vtu", 0, "-estimate", 0]
+    code, output = execute(
+        ["sh", "edp/freefem.sh", *words], package, environment(CONTACT_CACHE=str(tmp_path / "cache"))
+    )
+    assert code == 0, output
+
+
+@built
+def test_several_processes_of_freefem_itself(tmp_path):
+    """mpiexec with FreeFem++, which is no program of MPI's, shall be refused with what to write instead."""
+    start = [*MPIEXEC, 2, "FreeFem++", "-nw", "-v", 0, script("sphere-on-block"), "-solver", "multigrid", "-h", 2]
+    code, output = execute([*start, "-out", tmp_path / "out"], env=environment(**AS_ROOT))
+    assert code == 10 and "allowed: mpiexec -n 2 FreeFem++-mpi" in said(output)[0] and len(said(output)) == 1, output
+    assert not (tmp_path / "out").exists()
+
+
+@built
 def test_case_is_refused(tmp_path):
     example = "edp/examples/ball-on-bracket/ball-on-bracket"
     flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-solver", "multigrid"]
@@ -143,7 +182,7 @@ def test_killed_rank(tmp_path):
     """A rank that dies ends the run, with mpiexec's word; the next run into the same folder finds its way."""
     name = script("sphere-on-block")
     flags = ["-order", 1, "-solver", "multigrid", "-vtu", 0, "-estimate", 0, "-out", tmp_path / "out"]
-    command = map(flag_text, ["ff-mpirun", "-np", 2, name, *flags, "-h", 0.4, "-v", 0])
+    command = map(flag_text, [*MPIEXEC, 2, "FreeFem++-mpi", "-nw", "-v", 0, name, *flags, "-h", 0.4])
     pipe = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
     running = subprocess.Popen(list(command), cwd=ROOT, env=environment(**AS_ROOT), **pipe)
     victim = None

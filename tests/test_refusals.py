@@ -115,6 +115,13 @@ def test_refused_by_one_scene(package, script, flag, value):
     assert "unknown flag" in line or value in line
 
 
+def test_value_of_several_lines(package):
+    """A refusal shall be one line whatever it quotes."""
+    before = listing(package)
+    lines = run_in(package, DISC, "-kappa", "1\n2", expect=10).stdout.splitlines()
+    assert lines == ["-kappa 1 2: not a number; allowed: a number above 0"] and listing(package) == before
+
+
 def test_flag_without_value(package):
     """A flag at the end without a value, or given twice, shall be refused."""
     before = listing(package)

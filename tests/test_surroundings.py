@@ -23,6 +23,7 @@ from freefem import (
     interruptible,
     listing,
     run_in,
+    snippet,
     table,
     tree,
 )
@@ -309,6 +310,81 @@ def test_files_of_the_user_stay(tmp_path):
     assert all((tmp_path / name).read_text() == "mine" for name in [*own, "movie.html", "movie.gif"])
 
 
+FOREIGN = "is not from a run of this package; allowed: a folder without it\n"
+
+
+@pytest.mark.parametrize("name", ["summary.json", "history.csv", "link"])
+def test_file_of_another_origin(tmp_path, name):
+    """A file of the user's with a result's name, or a link with it, shall be refused in one line and stay."""
+    out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
+    elsewhere.write_text("mine")
+    if name == "link":
+        run_in(ROOT, BLOCK, *TINY, out=out)
+        name = "summary.json"
+        (out / name).unlink()
+        (out / name).symlink_to(elsewhere)
+    else:
+        out.mkdir()
+        (out / name).write_text("mine")
+    before = listing(tmp_path)
+    for task in ("check", "open"):
+        code, line = execute(["sh", "edp/case/folder.sh", os.getpid(), task, out])
+        assert code == 8 and line == f"-out {out}: {name} there {FOREIGN}"
+    if name == "summary.json":
+        done = run_in(ROOT, BLOCK, *TINY, "-maxNewton", 1, out=out, expect=10)
+        assert f"-out {out}: {name} there is not" in refused_in_one_line(done.stdout)
+    assert (out / name).read_text() == "mine" and listing(tmp_path) == before
+
+
+def test_file_of_another_origin_met_late(tmp_path):
+    """One that only some runs write shall be found before it is overwritten, and no result be left beside it."""
+    (tmp_path / "states.csv").write_text("mine")
+    stdout = run_in(ROOT, BLOCK, *TINY, "-states", 1, out=tmp_path, expect=10).stdout
+    assert stdout.endswith(f"-out {tmp_path}: states.csv there {FOREIGN}")
+    assert files(tmp_path) == ["states.csv"] and (tmp_path / "states.csv").read_text() == "mine"
+    assert being_written(tmp_path) == []
+
+
+@pytest.mark.parametrize("kind", ["link", "link inside", "folder"])
+def test_own_folder_of_another_origin(tmp_path, kind):
+    """A .run that is a link, has one in it or is the user's own shall be refused, its contents untouched."""
+    out, target = tmp_path / "out", tmp_path / "target"
+    (target / "deep").mkdir(parents=True)
+    (target / "mine").write_text("mine")
+    out.mkdir()
+    if kind == "link":
+        (out / ".run").symlink_to(target)
+    elif kind == "folder":
+        shutil.copytree(target, out / ".run")
+    else:
+        (out / ".run").mkdir()
+        (out / ".run" / ".lock-1").write_text("done\n")
+        (out / ".run" / ".written").symlink_to(target / "mine")
+    before = listing(tmp_path)
+    for task in ("check", "open"):
+        code, line = execute(["sh", "edp/case/folder.sh", os.getpid(), task, out])
+        assert code == 8 and line == f"-out {out}: .run there {FOREIGN}"
+    assert listing(tmp_path) == before and (target / "mine").read_text() == "mine"
+
+
+def test_name_of_a_case(tmp_path):
+    """A case file's name shall lead to a folder below results/parts, whatever points it has."""
+    names = {
+        "...case": "case",
+        "a/..case": "case",
+        ".x.case": "x",
+        "pin.a.case": "pin.a",
+        "a.b/pin": "pin",
+        "..": "case",
+    }
+    text = (
+        'string scene = "parts";\ninclude "case/flags.idp"\ninclude "case/output.idp"\ninclude "case/case-flags.idp"\n'
+    )
+    text += "".join(f'cout << "name " << nameOfFile("{name}") << endl;\n' for name in names)
+    lines = snippet(tmp_path, text).splitlines()
+    assert [line[5:] for line in lines if line.startswith("name ")] == list(names.values())
+
+
 @pytest.mark.parametrize("name", ["it's", 'say "this"  $HOME `date`', "-x Größe * back\\slash"])
 def test_odd_folder(tmp_path, name):
     """Any printable name of a folder shall do, and be told rightly in summary.json."""
@@ -317,6 +393,20 @@ def test_odd_folder(tmp_path, name):
     assert os.listdir(tmp_path / "in") == [name]
     assert files(out) == ["adaptations.csv", "contact.csv", "history.csv", "summary.json"]
     assert json.loads((out / "summary.json").read_text())["parameters"]["out"] == str(out)
+
+
+@pytest.mark.parametrize("name", ["-1.geo", "-2 $(touch F);touch F.msh"])
+def test_odd_mesh(mesh, package, tmp_path, name):
+    """A mesh file's name shall be read by no program as a flag or a command, gmsh's own format included."""
+    for wanted in ("edp", "meshes", "freefem++.pref"):
+        (tmp_path / wanted).symlink_to(package / wanted)
+    if name.endswith(".geo"):
+        shutil.copy(mesh(1).parent / "bodies.geo", tmp_path / name)
+    else:
+        assert execute(["gmsh", "-2", "-v", 0, mesh(1), "-save", "-o", tmp_path / "new.msh"])[0] == 0
+        (tmp_path / "new.msh").rename(tmp_path / name)
+    assert run_in(tmp_path, BODIES, "-mesh", name, "-order", 1, *TINY[2:], out=tmp_path / "out").converged
+    assert not (tmp_path / "F").exists()
 
 
 @pytest.mark.parametrize("name, told", [("a\nb", "a\\nb"), ("a\tb", "a\\tb"), ("a\x1bb", "a")])

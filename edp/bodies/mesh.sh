@@ -1,7 +1,8 @@
 # mesh.sh: a mesh made by gmsh, unless it is there already: sh mesh.sh RUN MESH GEO OPTIONS-OF-GMSH...
 # Needs: RUN, the number of the run's process; GEO, the geometry, with all others in its folder; MESH, a file to be in a folder
 #        that is made if it is missing, beside GEO.
-# Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile.
+# Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in a folder with a file .shared also MESH.of,
+#        the geometries' checksum, for there they may be another copy's of the package.
 # Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 130 interrupted.
 # gmsh's own exit code means little: what it wrote is looked at, then moved into place. It ends with its run, however that ends.
 . "${0%/*}/../case/process.sh"
@@ -12,7 +13,10 @@ shift 3
 meshes=${geo%/*}
 generated=${mesh%/*}
 
-test -s "$mesh" && test -z "$(find "$meshes" -maxdepth 1 -name '*.geo' -newer "$mesh")" && exit 0
+shared=
+test ! -e "$generated/.shared" || shared=$(cat "$meshes"/*.geo | cksum)
+test -s "$mesh" && test -z "$(find "$meshes" -maxdepth 1 -name '*.geo' -newer "$mesh")" \
+    && { test -z "$shared" || test "$(cat "$mesh.of" 2> /dev/null)" = "$shared"; } && exit 0
 command -v gmsh > /dev/null || exit 3
 place=$meshes
 test ! -e "$generated" || place=$generated
@@ -38,8 +42,10 @@ kill "$watch" 2> /dev/null
 gmsh=
 if grep -q '^2.2 0 8' "$work/new.msh" 2> /dev/null && grep -q PhysicalNames "$work/new.msh" && ! grep -q ^Error "$work/log" \
     && tail -n 1 "$work/new.msh" | grep -q EndElements; then
+    rm -f "$mesh.of"
     mkdir -p "$generated" 2> /dev/null && mv -f "$work/new.msh" "$mesh" 2> /dev/null
     code=$?
+    test -z "$shared" || echo "$shared" > "$mesh.of"
     test $code = 0 || code=4
 else
     code=5

@@ -8,7 +8,9 @@
 . "${0%/*}/../case/process.sh"
 run=$1
 file=$2
+case $file in -*) file=./$file ;; esac
 folder=$3
+case $folder in /*) ;; *) folder=./$folder ;; esac
 case_=$4
 space=$5
 meshes=${0%/*}/../../meshes
@@ -30,7 +32,9 @@ how=
 case $file in *.geo)
     how=-$((2 + ${space:-0}))
     # kept as the package's own meshes are, if it stands for itself: what it includes may change unseen
-    generated=$meshes/generated
+    generated=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
+    generated=${generated:+$generated/meshes}
+    generated=${generated:-$meshes/generated}
     kept=$generated/own-$(cksum < "$file" | tr ' ' -)$how.msh
     if ! grep -qiE 'merge|include|shapefromfile' "$file" && mkdir -p "$generated" 2> /dev/null \
         && sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" -v 1 -format msh22; then
@@ -65,6 +69,6 @@ else
     code=$?
     test $code -ne 1 || mv "$folder/mesh.msh" "$folder/why"
 fi
-test $code -le 1 || no "cannot be checked: is awk there, and room in /tmp?"
-test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in /tmp"
+test $code -le 1 || no "cannot be checked: is awk there, and room in ${folder%/*}?"
+test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in ${folder%/*}"
 exit $code

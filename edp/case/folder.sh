@@ -4,7 +4,8 @@
 #        open: FOLDER is there and this run's alone, without the files of an earlier run, but for those named KEPT.
 #        publish: the files in FOLDER/.run, if each was written to its end, go into FOLDER, summary.json last; if not, none.
 # Exit codes: 0 done, 1 files not whole, 3 a control character in the name, 4 cannot be made or written, 5 another run is using
-#        it, 6 one on another computer has not finished there and cannot be looked after, 7 no room for even a line.
+#        it, 6 one on another computer has not finished there and cannot be looked after, 7 no room for even a line, 8 under a
+#        name that a run would write stands what none has written, or a link: said in a line, nothing touched.
 # FOLDER/.run holds what is being written, the list .ends of files and their lengths, the list .written of what a run has put into FOLDER, and the lock .lock-N. The lock
 # with the highest N counts, until it says "done" or the process that it names has ended: nothing needs to take it away after a
 # kill. The next run adds .lock-<N + 1>, which only one can make, and removes the older ones after that.
@@ -44,8 +45,40 @@ free()
     test "$line" != "$(owner "${line%% *}")" || return 5
 }
 
+foreign()
+{
+    printf '%s\n' "-out ${folder%/}: $1 there is not from a run of this package; allowed: a folder without it"
+    exit 8
+}
+
+# of the files with these names, those there are must be a run's: in the list, and no links
+known()
+{
+    for name; do
+        test -e "$at/$name" || test -h "$at/$name" || continue
+        test ! -h "$at/$name" && grep -qxF -e "$name" "$at/.run/.written" 2> /dev/null || foreign "$name"
+    done
+}
+
+# is the folder free, and what is in it of runs alone? .run has a lock or a list, or is empty, and has no links
+look()
+{
+    at=$folder
+    own=$folder/.run
+    if test -h "$own" || test -e "$own"; then
+        test ! -h "$own" && test -d "$own" || foreign .run
+        if test -n "$(ls -A "$own" 2> /dev/null)"; then
+            for mark in "$own/.written" "$own"/.lock-*; do test ! -e "$mark" || break; done
+            test -e "$mark" && test -z "$(find "$own" -type l)" || foreign .run
+        fi
+        (cd "$own" 2> /dev/null || exit 4; free "$(newest)") || exit
+    fi
+    known summary.json contact.csv history.csv adaptations.csv "$@"
+}
+
 case $task in
 check)
+    look
     there=$folder
     while ! test -e "$there"; do there=$(dirname "$there"); done
     test -d "$there" || exit 4
@@ -57,10 +90,9 @@ check)
     mkdir -p "$try/$new" 2> /dev/null
     code=$?
     rm -rf "$try"
-    test $code = 0 || exit 4
-    cd "$folder/.run" 2> /dev/null || exit 0
-    free "$(newest)";;
+    test $code = 0 || exit 4;;
 open)
+    look "$@"
     mkdir -p "$folder/.run" 2> /dev/null && cd "$folder/.run" || exit 4
     while :; do
         last=$(newest)
@@ -84,7 +116,7 @@ open)
     if test -e .written; then
         while read -r name; do
             case $kept in *" $name "*) continue;; esac
-            case $name in */*) ;; *) set -- "$@" "../$name";; esac
+            case $name in '' | */*) ;; *) set -- "$@" "../$name";; esac
         done < .written
     fi
     rm -rf "$@"
@@ -112,6 +144,12 @@ publish)
         $2 in size { cut += size[$2] != $1; missing--; next }
         $2 != "total" { cut++ }
         END { exit cut || missing }' .ends - 2> /dev/null || fail
+    at=..
+    (known *) || {
+        held
+        rm -rf ./* .ends
+        exit 8
+    }
     set --
     for file in *; do
         echo "$file" >> .written || fail

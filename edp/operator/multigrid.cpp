@@ -63,46 +63,39 @@ void failed(PetscErrorCode code, const char * call)
 
 // ---------------------------------------------------------------- ranks
 
-int fromEnvironment(const char * one, const char * other, int otherwise)
-{
-    const char * text = getenv(one) ? getenv(one) : getenv(other);
-    return text ? atoi(text) : otherwise;
-}
-
-bool startMpi()
-// MPI runs in FreeFem++-mpi anyway; in FreeFem++ only if mpirun has started it.
+bool mpiRuns()
+// In FreeFem++-mpi; FreeFem++ is one process, which case/ranks.idp sees to.
 {
     int on = 0;
     MPI_Initialized(&on);
-    if (!on && fromEnvironment("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1) > 1) on = MPI_Init(nullptr, nullptr) == 0;
     return on;
 }
 
 long ranksNow()
 {
     int count = 1;
-    if (startMpi()) MPI_Comm_size(MPI_COMM_WORLD, &count);
+    if (mpiRuns()) MPI_Comm_size(MPI_COMM_WORLD, &count);
     return count;
 }
 
 long rankNow()
 {
     int mine = 0;
-    if (startMpi()) MPI_Comm_rank(MPI_COMM_WORLD, &mine);
+    if (mpiRuns()) MPI_Comm_rank(MPI_COMM_WORLD, &mine);
     return mine;
 }
 
 long meetRanks()
 // Returns when every rank is here.
 {
-    if (startMpi()) MPI_Barrier(MPI_COMM_WORLD);
+    if (mpiRuns()) MPI_Barrier(MPI_COMM_WORLD);
     return 0;
 }
 
 long firstRankSays(const long & value)
 {
     long said = value;
-    if (startMpi()) MPI_Bcast(&said, 1, MPI_LONG, 0, MPI_COMM_WORLD);
+    if (mpiRuns()) MPI_Bcast(&said, 1, MPI_LONG, 0, MPI_COMM_WORLD);
     return said;
 }
 

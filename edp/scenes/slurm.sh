@@ -9,4 +9,4 @@
 export OPENBLAS_NUM_THREADS=1
 # the mesh first, by one process: the others would wait for gmsh
 FreeFem++ -nw -v 0 edp/scenes/sphere-on-block.edp -h 0.05 -order 1 -maxNewton 1 -solver multigrid -vtu 0 -out results/mesh-only
-mpiexec -n "$SLURM_NTASKS" FreeFem++-mpi -nw edp/scenes/sphere-on-block.edp -v 0 -h 0.05 -order 1 -solver multigrid -out results/slurm
+mpiexec -n "$SLURM_NTASKS" FreeFem++-mpi -nw -v 0 edp/scenes/sphere-on-block.edp -h 0.05 -order 1 -solver multigrid -out results/slurm

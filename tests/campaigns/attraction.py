@@ -8,6 +8,7 @@ The end says how many were stable, how many said which limit they had met, and e
 import argparse
 import csv
 import json
+import os
 import subprocess
 import tempfile
 from pathlib import Path
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-FILE = ROOT / "results" / "attraction" / "loads.csv"
+FILE = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results") / "attraction" / "loads.csv"
 COLUMNS = "run tabor order perLength approach code stability newton backsolves message".split()
 MODULUS, RADIUS, GAP = 100 / 0.91, 10, 1e-3  # the scene's E/(1 - nu^2), R, eps0
 

@@ -28,7 +28,7 @@ import numpy as np
 import reference
 from campaign import case, decade, markdown, select, signed, value
 
-FOLDER = campaign.ROOT / "results" / "bench"
+FOLDER = campaign.RESULTS_FOLDER / "bench"
 REPEATS = 3
 
 CASES = [(1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3)]  # kappa, m: the paper's, an extreme one, two stiff ones
@@ -224,7 +224,6 @@ def hertz(_root: Path) -> list[campaign.Case]:
 LARGE = {1: (0.3, 0.21, 0.15, 0.088, 0.058), 2: (0.5, 0.3, 0.2)}  # h, by degree: to 3e6 and 1e6 degrees of freedom
 LARGE_ONE = {1: 0.21, 2: 0.45}  # about 1e5, over stiffness and exponent
 LARGE_LAWS = [(1, 3), (1e4, 3), (1e8, 3), (1e12, 3), (1e3, 1.05), (1e3, 20)]
-MPIRUN = ("ff-mpirun", "-np")
 ONE_SOLVE = "edp/scenes/one-solve.edp"  # the scene, and after it one solve under the same forces
 
 
@@ -238,7 +237,7 @@ def large(_root: Path) -> list[campaign.Case]:
         if name == "law":
             item = dataclasses.replace(item, script=ONE_SOLVE)
         if ranks > 1:
-            item = dataclasses.replace(item, flags=(*item.flags, "-v", "0"), program=(*MPIRUN, str(ranks)))
+            item = dataclasses.replace(item, program=("mpiexec", "-n", str(ranks), "FreeFem++-mpi", "-nw", "-v", "0"))
         found.append(item)
 
     add("two", (1e9, 3), 0.147, 1, 2)

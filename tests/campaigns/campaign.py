@@ -34,6 +34,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+RESULTS_FOLDER = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results").absolute()
+CACHE = Path(os.environ["CONTACT_CACHE"]).absolute() if os.environ.get("CONTACT_CACHE") else None
 FREEFEM = ("FreeFem++", "-nw", "-v", "0")
 THREADS = 1  # of BLAS, in every run
 REPEATS_END = 20.0  # wall seconds of a case after which it is not repeated once more
@@ -144,9 +146,10 @@ def frozen_sources(root: Path, files: dict[str, str] | None = None):
             target = copy / path.relative_to(root)
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(path, target)
-        (root / "meshes" / "generated").mkdir(parents=True, exist_ok=True)
         (copy / "meshes").mkdir(exist_ok=True)
-        (copy / "meshes" / "generated").symlink_to(root / "meshes" / "generated")
+        if not CACHE:
+            (root / "meshes" / "generated").mkdir(parents=True, exist_ok=True)
+            (copy / "meshes" / "generated").symlink_to(root / "meshes" / "generated")
         if (root / "build").exists():
             (copy / "build").symlink_to(root / "build")
         for relative, text in (files or {}).items():

@@ -14,7 +14,7 @@ import campaign
 import numpy as np
 from campaign import case, markdown, value
 
-FOLDER = campaign.ROOT / "results" / "coverage"
+FOLDER = campaign.RESULTS_FOLDER / "coverage"
 QUANTITIES = ("force", "approach", "pressureMax", "halfWidth", "profile", "energy")
 PARTS = ("inside", "line", "model", "algebra")
 COLUMNS = [f"{name}{kind}" for name in QUANTITIES for kind in ("Value", "Said", "True")]

@@ -22,7 +22,7 @@ from bench import FOLDER, cheapest, contact_seconds, element, ends, problem, pro
 from campaign import case, decade, markdown, value
 
 PEER = "ngsolve_contact.py"
-PYTHON = campaign.ROOT / ".venv-peers" / "bin" / "python"
+PYTHON = (campaign.CACHE / "venv-peers" if campaign.CACHE else campaign.ROOT / ".venv-peers") / "bin" / "python"
 ROUNDS = 3
 ERRORS = (2e-3, 5e-4, 1e-4, 1e-5, 1e-6, 1e-7)  # errors in force that the table asks the price of
 TOL = 1e-8  # of the residual, for both

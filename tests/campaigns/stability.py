@@ -18,7 +18,7 @@ import numpy as np
 import reference
 from campaign import case, decade, markdown, select, signed, value
 
-FOLDER = campaign.ROOT / "results" / "stability"
+FOLDER = campaign.RESULTS_FOLDER / "stability"
 COLUMNS = ("stepsPerModel", "rounds", "masterForce", "approach")
 
 KAPPAS = (1e-2, 1.0, 1e3, 1e6, 1e9, 1e12, 1e30)

@@ -87,7 +87,7 @@ def told(rows: Rows, whole: int) -> str:
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--partial", action="store_true", help="also from a CSV that has not been run whole")
-    parser.add_argument("--results", type=Path, default=campaign.ROOT / "results", help="folder of the CSV files")
+    parser.add_argument("--results", type=Path, default=campaign.RESULTS_FOLDER, help="folder of the CSV files")
     parser.add_argument("--document", type=Path, default=DOCUMENT, help="the text that has the markers")
     arguments = parser.parse_args(argv)
     text = arguments.document.read_text(encoding="utf-8")
