@@ -39,7 +39,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -80,11 +80,11 @@ test -n "$$missing" || exit 0; \
 	  echo "Please install:$$missing (Debian's names; there is no apt-get here, or no right to use it)"; exit 1; \
 	fi; \
 	echo "Installing:$$missing"; \
-	for try in 1 2; do \
+	for pause in 0 5 30; do \
+	  sleep $$pause; \
 	  $$sudo apt-get -q update </dev/null; \
 	  $$sudo env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends \
 	    -o DPkg::Lock::Timeout=300 install $$missing </dev/null && exit 0; \
-	  sleep 5; \
 	done; \
 	echo "apt-get could not install:$$missing"; exit 1
 endef
@@ -280,14 +280,19 @@ $(RESULTS)/figures/%.pdf $(RESULTS)/figures/%.png: $$(addsuffix /summary.json,$$
 # The pictures of the pages. Those of the campaigns need make bench-peers and make stability, the labs' make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
 pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json | $(VENV)/run.stamp ## draw the small pictures of the pages anew
-	$(SMALL) $(RESULTS)/figures/figure1.png --out postprocess/readme-figure.png
+	$(SMALL) $(RESULTS)/figures/figure1.png --width 600 --out postprocess/readme-figure.png
 	$(MAKE) movie ARGS='-method paper -order 1 -h 0.5'
-	$(SMALL) $(RESULTS)/movies/disc-on-block/movie.gif --width 600 --colours 16 --out postprocess/readme-movie.gif
+	$(SMALL) $(RESULTS)/movies/disc-on-block/movie.gif --width 540 --out postprocess/readme-movie.gif
+	for page in edp/examples/*/README.md; do \
+	  picture=$$(sed -n 's/^!\[.*](\(.*\.png\))/\1/p' $$page); \
+	  sed -n '/^```sh/,/^```/{/^[^`]/p;}' $$page | while read -r command; do sh -c "$$command" </dev/null || exit 1; done && \
+	  $(SMALL) $(RESULTS)/parts*/$$(basename $$(dirname $$page))/$$picture --width 560 --out $$(dirname $$page)/$$picture || exit 1; \
+	done
 	$(SMALL) $(RESULTS)/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
 	$(SMALL) $(RESULTS)/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
-	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width 700 --colours 32 --out $$lab/figure.png || exit 1; \
+	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
 	done
 	$(PYTHON) -m postprocess cut $(RESULTS)/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
 
@@ -369,7 +374,14 @@ test: $(VENV)/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(BUILD)/multigrid-plugin.idp
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
-test-all: $(VENV)/dev.stamp | system ## run the long tests as well: every figure drawn anew, both campaigns begun
+# What tests need beside the package: each is skipped where its tool is not there.
+tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, Chromium, a locale's sources
+	@missing=; \
+	command -v chromium chromium-browser google-chrome >/dev/null || missing=' chromium'; \
+	test -e /usr/share/i18n/locales/de_DE || missing="$$missing locales"; \
+	$(INSTALL_MISSING)
+
+test-all: $(VENV)/dev.stamp | system ## run the long tests as well: every figure drawn anew, `make bench` and `make stability` begun
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources

@@ -9,6 +9,19 @@ from text_boxes import faults
 from postprocess import output
 
 
+def pytest_addoption(parser):
+    parser.addoption("--no-skips", action="store_true", help="a test that is skipped is named and fails the session")
+
+
+def pytest_sessionfinish(session):
+    config = session.config
+    reporter = config.pluginmanager.get_plugin("terminalreporter")
+    if config.getoption("--no-skips") and reporter:  # not in a worker
+        for report in reporter.stats.get("skipped", []):
+            reporter.write_line(f"\nSKIPPED {report.nodeid}: {report.longrepr[2]}")
+            session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
 @pytest.fixture(scope="session", autouse=True)
 def run_store(tmp_path_factory):
     base = tmp_path_factory.getbasetemp()

@@ -200,6 +200,11 @@ def test_page_numbers(name, tmp_path):
     command = shlex.split(fences(page, "sh")[0].splitlines()[0])
     case = solve(tmp_path, command[command.index("-mesh") + 1], command[-1], name in SPACE)
     written = {row[0]: row[1] for row in rows(section(page, "Numbers")) if len(row) == 5}
+    for count in re.findall(r"linearisations?, (\d+) back-substitutions\.", page):  # another gmsh makes another mesh
+        assert case.summary["backsolves"] == pytest.approx(int(count), abs=1)
+    if name == "pin-in-hole":
+        (line,) = re.findall(r"^  bore pin-surface within.*$", (ROOT / "edp/MANUAL.md").read_text(), re.M)
+        assert line in case.stdout
     contacts = case.summary["contacts"]
     if name == "roller":
         for contact, where in zip(contacts, ("above", "below"), strict=True):

@@ -76,7 +76,7 @@ def test_parts_of_a_lab(lab):
     (core,) = re.findall(r"^Core: ([\d, ]+)\.$", section(text, "Questions"), re.M)
     asked = re.findall(r"^(\d+)\. ", section(text, "Questions"), re.M)
     assert set(core.split(", ")) <= set(asked)
-    assert "](figure.png)" in text and (ROOT / "edp/labs" / lab / "figure.png").stat().st_size < 100_000
+    assert "](figure.png)" in text and (ROOT / "edp/labs" / lab / "figure.png").stat().st_size < 130_000
     (drawn,) = re.findall(r"^\*`(\w+)\.png` of these commands: .*\*$", text, re.M)
     assert f"{drawn}.pdf" in text or f"postprocess {drawn} " in text
     assert "ANSWERS" not in text + INDEX
@@ -227,6 +227,20 @@ def test_instructor(lab, head, flags, cells, plain, coating):
             continue
         value = result.summary[quoted(label)[0]] if quoted(label) else number_printed(result.stdout, label)
         assert agrees(cell, value), f"{label}: {value} is not {cell}"
+
+
+def test_words_of_the_gecko():
+    """The coarse mesh's jumps in the words shall be the table's."""
+    (jumps,) = re.findall(r"^- 5: (\d+)\.", answers("7-gecko"), re.M)
+    assert jumps == next(tables(answers("7-gecko")))[1][-1][3]
+
+
+@pytest.mark.long
+def test_unknowns_of_the_sphere(tmp_path):
+    """The unknowns that lab 6 says of its finest mesh shall be the run's."""
+    (flags, count) = re.findall(r"^With `(.*)` the block has ([\d ]+) unknowns", readme("6-sphere"), re.M)[0]
+    done = run_in(ROOT, lab_script("6-sphere"), *flags.split(), "-vtu", 0, "-estimate", 0, out=tmp_path / "out")
+    assert done.summary["ndof"] == int(count.replace(" ", ""))
 
 
 def changed_page(words):

@@ -13,6 +13,7 @@ import time
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, script, tree
+from PIL import Image
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
 
@@ -249,6 +250,8 @@ def test_pictures_are_small():
     shown = {path for page in PAGES for path in re.findall(r"!\[[^]]*\]\(([^)]+)\)", (ROOT / page).read_text())}
     names = {name for name in shown if "readme-" in name}
     assert len(names) >= 5
+    for path in (ROOT / "edp").rglob("*.png"):  # in full colour: few make bands of smooth stresses
+        assert path.stat().st_size < 130_000 and Image.open(path).mode == "RGB", path
     for name in names:
         path = ROOT / "postprocess" / name.rsplit("/", 1)[1]
         assert path.stat().st_size < 150_000 and f"--out postprocess/{path.name}" in drawn, name
@@ -509,16 +512,37 @@ def test_method_example(grown, tmp_path):
     assert f"only with -method {METHOD}" in stdout
 
 
+def test_version(paper_run):
+    """The package's version, in one file, shall be the citation's and the changelog's newest; runs shall say it."""
+    version = (ROOT / "edp/VERSION").read_text().strip()
+    assert re.fullmatch(r"\d+\.\d+\.\d+", version)
+    headings = re.findall(r"^## \[(.*?)\](.*)$", (ROOT / "CHANGELOG.md").read_text(), re.M)
+    assert next(name for name, _ in headings if name != "Unreleased") == version
+    for name, rest in headings:
+        assert name == "Unreleased" or re.fullmatch(r" - (unreleased|\d{4}-\d\d-\d\d)", rest)
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text()
+    assert paper_run.summary["package"] == version
+
+
+def test_made_by(paper_run, tmp_path):
+    """A run shall say its FreeFEM as the system's package has it, its gmsh if that made the mesh, and the date."""
+    asked = execute(["dpkg-query", "-W", "-f", "${Version}", "freefem++"]) if shutil.which("dpkg-query") else (1, "")
+    if asked[0] == 0 and os.path.samefile(shutil.which("FreeFem++"), "/usr/bin/FreeFem++"):
+        assert paper_run.summary["freefem"] == asked[1]
+    assert paper_run.summary["gmsh"] == execute(["gmsh", "-version"])[1].split()[-1]
+    day = {**environment(), "SOURCE_DATE_EPOCH": "86400"}
+    summary = run_in(ROOT, script("confined-block"), "-h", 5, out=tmp_path / "out", env=day).summary
+    assert summary["gmsh"] is None and summary["date"] == "1970-01-02T00:00:00Z"
+
+
 def test_citation():
-    """CITATION.cff shall have what its format asks for, the paper, and the version that the changelog speaks of."""
+    """CITATION.cff shall have what its format asks for, and prefer the paper."""
     lines = (ROOT / "CITATION.cff").read_text().splitlines()
     keys = dict(line.split(": ", 1) for line in lines if re.match(r"[a-z-]+: ", line))
     assert keys.keys() >= {"cff-version", "message", "title", "type", "version", "license"}
     assert {"authors:", "references:"} <= set(lines)
-    assert any("An eXtended-Newton Scheme for the Solution of Stiff Normal Contact Problems" in line for line in lines)
-    (heading,) = re.findall(r"^## \[(.*)\]$", (ROOT / "CHANGELOG.md").read_text(), re.M)
-    assert heading in ("Unreleased", keys["version"])
-    assert keys["version"] in section((ROOT / "CHANGELOG.md").read_text(), f"[{heading}]")
+    preferred = lines[lines.index("preferred-citation:") :]
+    assert preferred[2] == "  title: An eXtended-Newton Scheme for the Solution of Stiff Normal Contact Problems"
 
 
 # ---------------------------------------------------------------- numbers
@@ -568,6 +592,14 @@ def test_every_module_is_in_the_map():
     """The theory's list of modules shall be that of the package."""
     listed = {quoted(row[0])[0] for row in rows(section(THEORY, "Modules")) if ".idp" in row[0]}
     assert listed == {str(path.relative_to(ROOT / "edp")) for path in (ROOT / "edp").rglob("*.idp")}
+
+
+def test_dual_mean_of_a_gap():
+    """The mean of the gap x²/2R with P1's dual function, 2 - 3 x/h on an edge, shall be what the theory says."""
+    x, weight = (np.polynomial.legendre.leggauss(3) + np.array([[1], [0]])) / 2
+    dual = weight * (2 - 3 * x)
+    assert dual @ (x**2 / 2) / dual.sum() == pytest.approx(-1 / 12)
+    assert "its mean with ψ*_j is too small by h²/12R" in THEORY
 
 
 def test_notation():

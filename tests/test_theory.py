@@ -113,6 +113,17 @@ def stiffness_of(C, w):
     return 1 / (np.diag(C) * w)
 
 
+def test_two_forms():
+    """The least values of the two forms shall add up to nothing: the run's energy, and that of its forces alone."""
+    done = run(DISC, "-h", 0.5, "-tol", 1e-11)
+    x, w, p, s = (done.contact[name] for name in ("x", "weight", "pressure", "s"))
+    given = done.parameters
+    at_rest = given["u0"] - given["gap"] - given["R"] + np.sqrt(given["R"] ** 2 - x**2) - given["d0"]
+    conjugate = given["m"] / (given["m"] + 1) * p * (p / given["kappa"]) ** (1 / given["m"])
+    q = w * p
+    assert 0.5 * q @ (at_rest - s) - at_rest @ q + w @ conjugate == pytest.approx(-done.energy, rel=1e-9)
+
+
 def test_resolvent():
     """It shall be increasing, not expansive, with the derivative 1/(1 + k a), and near max(c, 0) for a stiff law."""
     k, (kappa, m) = 3.0, SOFT
@@ -394,7 +405,13 @@ def test_space_kernel_is_positive_definite():
 
 
 def test_every_number_has_its_test():
-    """The page shall name tests of this file, and only such."""
-    named = set(re.findall(r"`(test_\w+)`", THEORY))
+    """Each section shall name tests: all of this file, those of others with the file, and only such as there are."""
+    elsewhere = r"\(`(test_\w+\.py)`:([^)]*)\)"
+    for file, names in re.findall(elsewhere, THEORY):
+        for name in re.findall(r"`(test_\w+)`", names):
+            assert f"def {name}(" in (ROOT / "tests" / file).read_text(), name
+    named = set(re.findall(r"`(test_\w+)`", re.sub(elsewhere, "", THEORY)))
     there = {name for name in globals() if name.startswith("test_")}
     assert named == there - {"test_every_number_has_its_test"}
+    for text in THEORY.split("\n## ")[1:]:
+        assert "`test_" in text, text.partition("\n")[0]

@@ -1,8 +1,8 @@
 # mesh.sh: a mesh made by gmsh, unless it is there already: sh mesh.sh RUN MESH GEO OPTIONS-OF-GMSH...
 # Needs: RUN, the number of the run's process; GEO, the geometry, with all others in its folder; MESH, a file to be in a folder
 #        that is made if it is missing, beside GEO.
-# Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in a folder with a file .shared also MESH.of,
-#        the geometries' checksum, for there they may be another copy's of the package.
+# Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in its $Comments "Gmsh" and gmsh's version; in a
+#        folder with a file .shared also MESH.of, the geometries' checksum, for there they may be another copy's of the package.
 # Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 130 interrupted.
 # gmsh's own exit code means little: what it wrote is looked at, then moved into place. It ends with its run, however that ends.
 . "${0%/*}/../case/process.sh"
@@ -28,7 +28,7 @@ work=$work-$run
 gmsh=
 trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; rm -rf "$work"; exit 130' HUP INT TERM
 mkdir "$work" 2> /dev/null || exit 4
-gmsh "$@" "$geo" -o "$work/new.msh" > "$work/log" 2>&1 &
+gmsh "$@" -v 4 "$geo" -o "$work/gmsh.msh" > "$work/log" 2>&1 &
 gmsh=$!
 (
     while sleep 1; do
@@ -40,7 +40,12 @@ watch=$!
 wait "$gmsh" 2> /dev/null
 kill "$watch" 2> /dev/null
 gmsh=
-if grep -q '^2.2 0 8' "$work/new.msh" 2> /dev/null && grep -q PhysicalNames "$work/new.msh" && ! grep -q ^Error "$work/log" \
+if grep -q '^2.2 0 8' "$work/gmsh.msh" 2> /dev/null && grep -q PhysicalNames "$work/gmsh.msh" && ! grep -q ^Error "$work/log" \
+    && {
+        head -n 3 "$work/gmsh.msh"
+        sed -n '1s/.*\[\(Gmsh [^],]*\).*/$Comments\n\1\n$EndComments/p' "$work/log"
+        tail -n +4 "$work/gmsh.msh"
+    } > "$work/new.msh" 2> /dev/null \
     && tail -n 1 "$work/new.msh" | grep -q EndElements; then
     rm -f "$mesh.of"
     mkdir -p "$generated" 2> /dev/null && mv -f "$work/new.msh" "$mesh" 2> /dev/null

@@ -1,7 +1,7 @@
 """draw the bodies below a contact in space, cut open: the pressure on top, von Mises' stress inside (needs PyVista)
 
 RUN is a run of a scene in space with one horizontal contact surface, cut by the plane y = 0; what is missing of a half
-or a quarter is its mirror image. FILE.png is 1000 pixels wide.
+or a quarter is its mirror image. FILE.png is 860 pixels wide.
 """
 
 import argparse
@@ -12,12 +12,14 @@ import numpy as np
 from PIL import Image
 
 from postprocess import style
+from postprocess.commands import small
 from postprocess.output import write_files
 from postprocess.results import ResultsError, Run, read_run
 from postprocess.vtu import MOVE, PRESSURE, STRESS
 
 SIZE = (3000, 1500)  # pixels, before the picture is cropped and made small
 CROP = (0, 120, 3000, 1410)
+WIDTH = 860
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -35,9 +37,8 @@ def run(arguments: argparse.Namespace) -> None:
         raise ResultsError("cut", "needs PyVista: .venv/bin/python -m pip install pyvista") from None
     chosen = read_run(arguments.folder)
     picture = Image.fromarray(drawn(pyvista, chosen, arguments.factor, arguments.units[1]))
-    picture = picture.crop(CROP).resize((1000, 430), Image.Resampling.LANCZOS)
     written = io.BytesIO()
-    picture.quantize(256, kmeans=3, dither=Image.Dither.NONE).save(written, "PNG", optimize=True)
+    small.reduced(picture.crop(CROP), WIDTH).save(written, "PNG", optimize=True)
     for path in write_files({Path(arguments.out): written.getvalue()}):
         print(path)
 

@@ -64,7 +64,12 @@ def draw_section(axes, bodies: Bodies, units: style.Units):
     sections = [cut(turned, level + way * aside) for way in (1, -1)]
     pieces, stress, outline = max(sections, key=lambda section: len(section[0]))
     corner = np.arange(4 * len(pieces)).reshape(-1, 4)
-    mesh = Triangulation(*pieces.reshape(-1, 2).T, np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]]))
+    triangles = np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]])
+    place = pieces.reshape(-1, 2)[triangles]
+    longest = np.square(np.roll(place, 1, axis=1) - place).sum(axis=2).max(axis=1)
+    # without needles, which shading would colour far beyond their ends
+    full = abs(np.linalg.det(place[:, 1:] - place[:, :1])) > 0.01 * longest
+    mesh = Triangulation(*pieces.reshape(-1, 2).T, triangles[full])
     look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "vmax": grid.stress.max(), "rasterized": True}
     colours = axes.tripcolor(mesh, stress.ravel(), **look)
     axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.5))
