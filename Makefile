@@ -39,7 +39,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all lint doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -51,7 +51,7 @@ paper-run: | system
 	@$(FREEFEM) edp/main.edp -method paper -order 1 -h 0.5
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 	@echo 'Scenes: $(SCENES)'
 
 # ---------------------------------------------------------------- set-up
@@ -383,6 +383,10 @@ tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipp
 
 test-all: $(VENV)/dev.stamp | system ## run the long tests as well: every figure drawn anew, `make bench` and `make stability` begun
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
+
+# As root, with debootstrap. CONTACT_SYSTEMS=folder keeps the trees; SYSTEMS="trixie noble" chooses.
+test-systems: $(VENV)/run.stamp | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README's commands, make test, the same numbers
+	@PYTEST_ARGS='$(PYTEST_ARGS)' TESTS='$(TESTS)' $(PYTHON) tests/systems.py $(SYSTEMS)
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests

@@ -32,6 +32,7 @@ PLUGINS = {
     "Element_P4": "P4",
     "Element_P3dc": "P4",
 }
+PACKAGED = Path("/usr/lib/freefem++")  # where the package libfreefem++ puts them
 FURTHER_PLUGINS = {"msh3": "meshes in space", "ff-Ipopt": "the scene disc-on-block-ipopt"}
 MODULES = ("numpy", "matplotlib")
 DEVELOPERS = ("pytest", "pytest-xdist", "ruff")
@@ -202,12 +203,14 @@ def find_freefem() -> list:
         for name, use in plugins.items():
             code, _ = snippet(f'load "{name}"\n')
             words = use if code == 0 else f"cannot be loaded ({use})"
-            findings.append(Finding(f"  plugin {name}", code == 0, words, needed, plugin_hint()))
+            findings.append(Finding(f"  plugin {name}", code == 0, words, needed, plugin_hint(name)))
     return [*findings, *plugin_path(all(finding.there for finding in findings if finding.needed))]
 
 
-def plugin_hint() -> str:
+def plugin_hint(name: str = "") -> str:
     """How to get a plugin: from Debian's package where FreeFEM is Debian's, otherwise by naming its folder."""
+    if name and (PACKAGED / "gmsh.so").exists() and not (PACKAGED / f"{name}.so").exists():
+        return "this system's package libfreefem++ is without it: what needs it says so"
     if shutil.which("apt-get") and os.path.realpath(shutil.which("FreeFem++") or "/usr/bin/").startswith("/usr/bin/"):
         return "apt-get install libfreefem++; run FreeFem++ in the repository's root, where freefem++.pref is"
     return 'add the plugins\' folder to ~/.freefem++.pref: loadpath += "/path/to/lib/ff++/.../lib"'

@@ -138,7 +138,19 @@ def execute(command, cwd=ROOT, env=None):
         stdin=subprocess.DEVNULL,
         timeout=TIMEOUT,
     )
-    return done.returncode, done.stdout.decode(errors="replace")
+    # 4.13's plugin says its name before anything else, and no verbosity keeps it from it
+    return done.returncode, done.stdout.decode(errors="replace").replace(" load : P4 ", "", 1)
+
+
+@functools.cache
+def has_ipopt():
+    """Whether this FreeFEM has the plugin ff-Ipopt: Debian 13's has not."""
+    return execute([*FREEFEM, "edp/scenes/ipopt/plugin.edp"])[0] == 0
+
+
+def skip_without_ipopt(name):
+    if "disc-on-block-ipopt" in str(name) and not has_ipopt():
+        pytest.skip("FreeFEM has no plugin ff-Ipopt")
 
 
 def run(scene, *flags, expect=0):
@@ -149,6 +161,7 @@ def run(scene, *flags, expect=0):
     The elements are P1, whatever the scene's default, unless -order is among the flags: most meshes are made for it.
     The error is not estimated unless a flag asks for it: that is half of a short run.
     """
+    skip_without_ipopt(scene)
     if "-order" not in flags:
         flags = (*flags, "-order", 1)
     if not {"-estimate", "-accuracy"} & set(flags):
@@ -179,6 +192,7 @@ def stored(scene, flags):
 
 def run_in(cwd, name, *flags, out=None, expect=0, env=None):
     """One run, not shared, of a script file as a user would start it in `cwd`; `out` is its results' folder."""
+    skip_without_ipopt(name)
     code, stdout = execute([*FREEFEM, name, *map(flag_text, flags), *(["-out", out] if out else [])], cwd, env)
     assert code == expect, f"exit code {code} of {name} {flags}:\n{stdout[-2000:]}"
     return Run(code, stdout, out or cwd)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import OPEN, ROOT, WALL, run, run_in
+from freefem import FREEFEM, OPEN, ROOT, WALL, execute, run, run_in, script, tree
 
 DISC, WITH_IPOPT = "disc-on-block", "disc-on-block-ipopt"
 LAWS = {
@@ -112,6 +112,16 @@ def test_refused_without_the_plugin(tmp_path, script):
     refused = run_in(ROOT, script, "-method", "ipopt", out=out, expect=10)
     assert "edp/scenes/disc-on-block-ipopt.edp" in refused.stdout
     assert not out.exists()
+
+
+def test_said_in_one_line_where_the_plugin_is_not(tmp_path):
+    """Where FreeFEM has no plugin ff-Ipopt the scene shall say so in one line, with code 10, nothing written."""
+    package = tree(tmp_path / "it's here")
+    plugin = package / "edp/scenes/ipopt/plugin.edp"
+    plugin.write_text(plugin.read_text().replace("ff-Ipopt", "ff-Nowhere"))
+    code, stdout = execute([*FREEFEM, script(WITH_IPOPT), "-h", 1], package)
+    assert (code, stdout.count("\n")) == (10, 1) and "no plugin ff-Ipopt" in stdout
+    assert not (package / "results").exists()
 
 
 def test_force_is_refused(tmp_path):

@@ -246,6 +246,46 @@ def test_body_load(tmp_path):
     np.testing.assert_allclose(values["top"], -3 * 2**2 / (2 * CONFINED), rtol=1e-12)
 
 
+# ---------------------------------------------------------------- bodies/half.idp
+
+HALVES = """include "case/flags.idp"
+include "bodies/half.idp"
+mesh Th = square(3, 2);
+fespace Vh(Th, [P2, P2]);
+varf form([u, v], [a, b]) = int2d(Th)(dx(u) * dx(a) + dy(v) * dy(b) + u * a + v * b + dx(u) * dy(b) + dy(v) * dx(a));
+matrix full = form(Vh, Vh);
+matrix assembled = form(Vh, Vh, sym = 1);
+if (!assembledHalf()) halve(assembled);
+matrix halved = full;
+halve(halved);
+tell("stored", real(assembled.nnz) - halved.nnz);
+real[int] b(Vh.ndof);
+for (int i = 0; i < b.n; i++) b[i] = cos(2. * i);
+real[int] product = full * b;
+real[int] difference = halved * b;
+difference -= product;
+tell("product", difference.linfty);
+halved += assembled;
+difference = halved * b;
+difference -= product;
+difference -= product;
+tell("sum", difference.linfty);
+set(full, solver = "UMFPACK");
+set(halved, solver = "CHOLMOD", sym = 1, positive = 1);
+difference = halved^-1 * b;
+difference *= 2;
+real[int] solved = full^-1 * b;
+difference -= solved;
+tell("solution", difference.linfty / solved.linfty);
+"""
+
+
+def test_half_matrices(tmp_path):
+    """What any FreeFEM halves shall multiply, be added to and be factorised as the whole."""
+    values = told(snippet(tmp_path, HALVES))
+    assert values["stored"] == 0 and max(values["product"], values["sum"], values["solution"]) < 1e-12
+
+
 # ---------------------------------------------------------------- surface/slave.idp
 
 POINTS = """

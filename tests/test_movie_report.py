@@ -648,6 +648,13 @@ class TestDoctor:
         code, stdout = self.examine(tmp_path, HOME=str(tmp_path), FF_LOADPATH="")
         assert code == 1 and re.search(r"^MISSING +plugin gmsh +cannot be loaded", stdout, re.M)
 
+    def test_a_plugin_that_no_package_brings(self, monkeypatch, tmp_path):
+        """Where the package is there and the plugin is not, the package shall not be advised."""
+        (tmp_path / "gmsh.so").touch()
+        monkeypatch.setattr(doctor, "PACKAGED", tmp_path)
+        assert "apt-get" not in doctor.plugin_hint("ff-Ipopt") and "without it" in doctor.plugin_hint("ff-Ipopt")
+        assert "without it" not in doctor.plugin_hint("gmsh")
+
     @pytest.mark.parametrize("system", ["Linux", "Darwin", "Windows"])
     def test_hints_without_apt(self, monkeypatch, system):
         monkeypatch.setattr(doctor.platform, "system", lambda: system)

@@ -5,7 +5,7 @@ import shlex
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, run_in, script, table
+from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, run_in, script, skip_without_ipopt, table
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_readme import MANUAL, README, fences, quoted, rows, section
 
@@ -74,7 +74,7 @@ def included(name, space=None):
 
 def boundaries(scene):
     """The names of a scene's boundary: groups of its .geo one dimension below the body's, or labels of its script."""
-    text = included(script(scene).removeprefix("edp/"))
+    text = included(script(scene.removesuffix("-ipopt")).removeprefix("edp/"))
     geos = re.findall(r'gmshMesh\("([\w-]+)"', text)
     if not geos:
         mesh = text.partition("runStart = clock();")[2]
@@ -425,6 +425,7 @@ def result(command, out):
     (flags,) = [word for word in words if word.startswith("ARGS=")]
     scene = next((word.removeprefix("SCENE=") for word in words if word.startswith("SCENE=")), "disc-on-block")
     given = shlex.split(flags.removeprefix("ARGS="))
+    skip_without_ipopt(scene)
     code, stdout = execute([*FREEFEM, script(scene), *given, "-estimate", "0", "-vtu", "0", "-out", out])
     assert code == 0, stdout[-2000:]
     done = Run(code, stdout, out)

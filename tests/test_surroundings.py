@@ -28,6 +28,7 @@ from freefem import (
     tree,
 )
 from freefem import script as scene_script
+from systems import NotTried, bootstrap, inside, mounted, tracked
 
 from postprocess.__main__ import main
 
@@ -111,6 +112,8 @@ def comma(tmp_path_factory):
         pytest.skip("localedef or its sources are not there (Debian's package locales)")
     folder = tmp_path_factory.mktemp("locales")
     code, stdout = execute(["localedef", "-i", "de_DE", "-f", "UTF-8", folder / "de_DE.UTF-8"])
+    if "charmap" in stdout:
+        pytest.skip("localedef has no character maps")
     assert (folder / "de_DE.UTF-8" / "LC_NUMERIC").exists(), (code, stdout)
     kept = {name: value for name, value in environment().items() if not name.startswith("LC_")}
     env = {**kept, "LANG": "de_DE.UTF-8", "LOCPATH": str(folder)}
@@ -637,14 +640,6 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
 # ---------------------------------------------------------------- a bare system
 
 
-def tracked(folder):
-    """The package's files in a folder, as `git clone` and Docker's COPY give them."""
-    names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=True).stdout
-    for name in names.split("\0")[:-1]:
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, folder / name)
-
-
 @pytest.mark.long
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
 def test_dockerfile(tmp_path):
@@ -653,13 +648,11 @@ def test_dockerfile(tmp_path):
     words = {line.split()[0] for line in lines if not line.startswith("#")}
     assert lines[1] == "FROM debian:12" and words == {"FROM", "RUN", "COPY", "WORKDIR", "CMD"}
     system = tmp_path / "debian"
-    command = ["debootstrap", "--variant=minbase", "bookworm", system, "http://deb.debian.org/debian"]
-    if subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0:
-        pytest.skip("Debian's packages cannot be reached")
-    shutil.copy("/etc/resolv.conf", system / "etc/resolv.conf")
-    subprocess.run(["mount", "-t", "proc", "proc", system / "proc"], check=True)
     try:
-        bare = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
+        bootstrap("bookworm", system)
+    except NotTried as reason:
+        pytest.skip(str(reason))
+    with mounted(system):
         folder = ""
         for line in [*lines, "RUN make run", "RUN make run SCENE=sphere-on-block NP=2"]:
             word, _, rest = line.partition(" ")
@@ -667,14 +660,7 @@ def test_dockerfile(tmp_path):
             if word == "COPY":
                 tracked(system / rest.split()[1].strip("/"))
             elif word == "RUN":
-                done = subprocess.run(
-                    ["chroot", system, "sh", "-c", f"cd /{folder} && {rest}"], env=bare, capture_output=True, text=True
-                )
-                assert done.returncode == 0, f"{line}\n{done.stdout[-2000:]}{done.stderr[-2000:]}"
-                certificates = system / "etc/ssl/certs/ca-certificates.crt"
-                if certificates.exists():  # those of this machine's own network
-                    shutil.copy("/etc/ssl/certs/ca-certificates.crt", certificates)
-        assert (system / "contact/results/disc-on-block/xnewton/summary.json").exists()
-        assert json.loads((system / "contact/results/sphere-on-block/xnewton/summary.json").read_text())["ranks"] == 2
-    finally:
-        subprocess.run(["umount", system / "proc"], check=True)
+                code, said = inside(system, rest, f"/{folder}")
+                assert code == 0, f"{line}\n{said[-2000:]}"
+    assert (system / "contact/results/disc-on-block/xnewton/summary.json").exists()
+    assert json.loads((system / "contact/results/sphere-on-block/xnewton/summary.json").read_text())["ranks"] == 2
