@@ -12,12 +12,8 @@ import time
 
 import numpy as np
 import pytest
-<<<<<<< HEAD
-from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, script, tree
-from PIL import Image
-=======
 from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, has_ipopt, interruptible, run, run_in, script, tree
->>>>>>> w-systems
+from PIL import Image
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
 
