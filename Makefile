@@ -385,8 +385,8 @@ test-all: $(VENV)/dev.stamp | system ## run the long tests as well: every figure
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
 # As root, with debootstrap. CONTACT_SYSTEMS=folder keeps the trees; SYSTEMS="trixie noble" chooses.
-test-systems: $(VENV)/run.stamp | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README's commands, make test, the same numbers
-	@PYTEST_ARGS='$(PYTEST_ARGS)' TESTS='$(TESTS)' $(PYTHON) tests/systems.py $(SYSTEMS)
+test-systems: | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README's commands, make test, the same numbers
+	@{ $(FIND_PYTHON); } && PYTEST_ARGS='$(PYTEST_ARGS)' TESTS='$(TESTS)' $$python tests/systems.py $(SYSTEMS)
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests

@@ -228,7 +228,7 @@ def attempt(release, tree, reference):
         failed += [f"{line}: code {code}" for line in commands if (code := execute(line)[0])]
         words = "dpkg-query -W -f '${Version}' freefem++; echo; gmsh --version; .venv/bin/python -V; "
         words += ".venv/bin/python -c 'import numpy, matplotlib as m; print(numpy.__version__, m.__version__)'"
-        versions = execute(words)[1].split("\n")
+        versions = execute(words)[1].replace("Python ", "").split("\n")
         pytest = f"PYTEST_ARGS='{os.environ.get('PYTEST_ARGS', '')}' TESTS='{os.environ.get('TESTS', 'tests')}'"
         _, said = execute(f"make test {pytest}")
         counted = re.findall(r"^(.*\b(?:passed|failed|error)\b.*) in [\d.]+s", said, re.M)

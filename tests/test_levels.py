@@ -38,7 +38,7 @@ setUpKernel();
     [
         ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
         pytest.param("rough", ["-order", 2, "-h", 0.2, "-modes", 32], marks=pytest.mark.long),
-        ("disc-on-block", ["-order", 4, "-h", 0.2]),
+        ("rough", ["-order", 4, "-h", 0.4, "-modes", 32]),
         ("sphere-on-block", ["-order", 1, "-h", 0.5]),
         pytest.param("sphere-on-block", ["-order", 2, "-h", 0.8], marks=pytest.mark.long),
         ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
@@ -70,6 +70,7 @@ grown(immobile)
 grown(paired)
 paired = 1;
 normalZ = 1;
+verticalGaps = true;
 mirrorX = true;
 mirrorY = true;
 copies = 4;
@@ -132,7 +133,7 @@ def test_start(side, tmp_path):
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
-    name = package / "edp" / "kernel" / "levels.idp"
+    name = package / "edp" / "options" / "many" / "levels.idp"
     text = name.read_text()
     assert text.count("int manyOnLevels = 1500;") == 1
     usual = run(scene, *flags).summary

@@ -25,7 +25,8 @@ def test_list():
     """The list of options shall have each with the scenes that read it."""
     assert sorted(name for name, *_ in OFFERS) == OPTIONS
     for name, _, scenes in OFFERS:
-        assert sorted(scenes.split(", ")) == sorted(s for s in SCENES if name in reads(script(s).removeprefix("edp/")))
+        scripts = {scene: script(scene) for scene in SCENES} | {name: name + ".edp" for name in ("parts", "parts-3d")}
+        assert sorted(scenes.split(", ")) == sorted(s for s in scripts if name in reads(scripts[s].removeprefix("edp/")))
 
 
 def test_core_names_no_option():
