@@ -381,7 +381,7 @@ def test_name_of_a_case(tmp_path):
         "..": "case",
     }
     text = (
-        'string scene = "parts";\ninclude "case/flags.idp"\ninclude "case/output.idp"\ninclude "case/case-flags.idp"\n'
+        'string scene = "parts";\ninclude "case/flags.idp"\ninclude "case/output.idp"\ninclude "options/parts/case-flags.idp"\n'
     )
     text += "".join(f'cout << "name " << nameOfFile("{name}") << endl;\n' for name in names)
     lines = snippet(tmp_path, text).splitlines()
