@@ -120,7 +120,7 @@ SYSTEM = """
 include "case/flags.idp"
 string scene = "disc-on-block";
 include "case/output.idp"
-include "bodies/block-flags.idp"
+include "blocks/block-flags.idp"
 include "laws/all.idp"
 include "solve/methods/all.idp"
 include "case/options.idp"

@@ -1,4 +1,4 @@
-"""solve/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
+"""problem/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
 
 import numpy as np
 import pytest

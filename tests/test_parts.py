@@ -289,10 +289,10 @@ include "options/parts/case-file.idp"
 include "options/parts/bodies.idp"
 include "bodies/spaces.idp"
 IFMACRO(!threeDimensional)
-include "bodies/curved.idp"
+include "discretisation/curved.idp"
 ENDIFMACRO
 {
-    macro ofElement() include "bodies/stiffness.idp" //
+    macro ofElement() include "discretisation/stiffness.idp" //
     include "bodies/elements.idp"
 }
 checkTouched();
