@@ -5,7 +5,7 @@ from freefem import run, run_in, scene_text, script, snippet, told, tree
 
 PRODUCTS = """
 topNodes = 100;                               // three grids of few points
-setUpKernel();
+setUpContact();
 {
     int[int] all(points);
     for (int i = 0; i < points; i++) all[i] = i;
@@ -91,9 +91,7 @@ for (int i = 0; i < points; i++)
 localCompliance = (1 - nu * nu) / (pi * youngModulus);
 wholeApproach = u0;
 tell("hertz", 4. / 3 * youngModulus / (1 - nu * nu) * sqrt(radius) * (u0 - d0)^1.5);
-setUpKernel();
-setUpMotions();
-setUpProblem();
+setUpContact();
 setUpPreconditioner();
 kernelUsed = true;
 kernelC = 0;
