@@ -123,7 +123,7 @@ include "case/output.idp"
 include "blocks/block-flags.idp"
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 include "solve/solver.idp"
 tell("groups", groupsLeft("fake"));
 tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));

@@ -18,7 +18,7 @@ preset("-law", "signorini");
 preset("-d0", "0");
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 include "solve/solver.idp"
 flagsDone("A contact problem of given matrices.");
 localCompliance = 1;

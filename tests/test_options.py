@@ -8,7 +8,7 @@ from freefem import ROOT, run, run_in, script, snippet
 from test_contracts import EDP, MODULES, owners, uses
 from test_readme import SCENES
 
-LIST = (EDP / "options/options.idp").read_text()
+LIST = (EDP / "case/hooks.idp").read_text()
 OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
 OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
 
