@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
-FOLDERS = "case bodies surface operator kernel laws solve report options labs".split()  # as data goes
+FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 

@@ -1,6 +1,6 @@
 """The heads of the modules against their code: what crosses files is in "Needs" here and in "Gives" there.
 
-Needs may name an identifier, or the module that gives it (`solve/problem.idp`), or a folder with two algorithms behind
+Needs may name an identifier, or the module that gives it (`problem/problem.idp`), or a folder with two algorithms behind
 one contract (`operator/`). A word of a head is an identifier if it stands alone between commas and the like, behind its
 type if that is said, or is written in camelCase; a function's arguments are none. Lines that go on are indented.
 """
@@ -255,19 +255,19 @@ def test_the_code_is_read():
     assert own <= code.used
     locals_and_words = set("p1 p2 p3 t i j k l u v u1 v1 Y order real string int none".split())
     assert not code.used & (locals_and_words | {f"no{number}" for number in range(1, 6)})
-    assert {"sRest", "approach", "applyLoad", "setUpProblem"} <= read("solve/problem.idp")[0]
-    assert {"graphPoint", "forceControl", "threeDimensional"} <= uses("solve/problem.idp")
+    assert {"sRest", "approach", "applyLoad", "setUpProblem"} <= read("problem/problem.idp")[0]
+    assert {"graphPoint", "forceControl", "threeDimensional"} <= uses("problem/problem.idp")
     assert len(owners()) > 300
 
 
 def test_heads_are_read():
     """What this test takes for identifiers and paths in a head shall be what is meant."""
     text = (
-        "real h: a size; solve/problem.idp; applyLoad(fraction); the law of points; "
+        "real h: a size; problem/problem.idp; applyLoad(fraction); the law of points; "
         "kernel/ (force/area, meshes/<name>.geo); macro loads(v): d0."
     )
     assert named(text) == {"h", "applyLoad", "loads", "d0"}
-    assert paths(text) == ["solve/problem.idp", "kernel/"]
+    assert paths(text) == ["problem/problem.idp", "kernel/"]
 
 
 def test_needs():

@@ -16,7 +16,7 @@ include "case/flags.idp"
 include "case/output.idp"
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 flagsDone("unit");
 int rows;
 ifstream in("rows.txt");

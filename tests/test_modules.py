@@ -190,7 +190,7 @@ def test_unknown_group_is_refused(tmp_path):
     assert 'no physical group "contac"' in first
 
 
-# ---------------------------------------------------------------- bodies/stiffness.idp
+# ---------------------------------------------------------------- discretisation/stiffness.idp
 
 # the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
 BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]
@@ -239,7 +239,7 @@ tell("load", bodyLoad.sum);
 
 def test_body_load(tmp_path):
     """A confined column under its own weight g shall sink at its top by g L^2 / (2 M)."""
-    discretise = 'include "bodies/discretise.idp"'
+    discretise = 'include "discretisation/discretise.idp"'
     text = scene_text("confined-block")
     assert text.count(discretise) == 1
     values = told(snippet(tmp_path, text.replace(discretise, WEIGHT + discretise) + SINKING, *BLOCK, "-order", 2))

@@ -1,4 +1,4 @@
-"""solve/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
+"""problem/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ preset("-law", "signorini");
 preset("-d0", "0");
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 include "solve/solver.idp"
 flagsDone("A contact problem of given matrices.");
 localCompliance = 1;

@@ -9,13 +9,11 @@ from freefem import ROOT, run, run_in, script, snippet
 from test_contracts import EDP, MODULES, owners, part, uses
 from test_readme import SCENES
 
-LIST = (EDP / "options/options.idp").read_text()
+LIST = (EDP / "case/hooks.idp").read_text()
 OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
 OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
 PACKAGE = [script(scene).removeprefix("edp/") for scene in SCENES] + ["parts.edp", "parts-3d.edp"]
 EACH = re.compile(r"^macro (?:each|more)Option\(do, what\) (.*?)//", re.M | re.S)
-# what FreeFEM reads of a script, its own file included: files, lines of them; may be lowered, not raised
-READ = {"main.edp": (102, 10_690), "bare.edp": (73, 7_210), "parts.edp": (128, 16_150)}
 
 
 def options_in(text):
@@ -64,7 +62,7 @@ def test_core_names_no_option():
         for word in uses(name):
             if not own & set(map(option_of, owners()[word])):
                 wrong.append(f"{name}: {word} of {', '.join(owners()[word])}")
-        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "options/options.idp" else []
+        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "case/hooks.idp" else []
         wrong += [f"{name}: options/{option}/" for option in texts if option not in own | {option_of(name)}]
     assert not wrong, "\n".join(wrong)
 
@@ -84,24 +82,13 @@ def test_hooks():
         for hook in re.findall(r"^\s*optionHook\((\w+)\)", (EDP / name).read_text(), flags=re.M):
             hooks.setdefault(hook, set()).add(option_of(name))
     listed = set(re.findall(r"\b[A-Z]\w+\b", "".join(re.findall(r"^//   .*\n", LIST, flags=re.M)).replace("NAME", "")))
-    wrong = [f"options/options.idp: {hook} is not in the list" for hook in hooks if hook not in listed]
+    wrong = [f"case/hooks.idp: {hook} is not in the list" for hook in hooks if hook not in listed]
     for option in OPTIONS:
         text = (EDP / f"options/{option}/{option}.idp").read_text()
         for hook in re.findall(rf"^macro {option}([A-Z]\w*)\(", text, flags=re.M):
             if not hooks.get(hook, set()) & {"", option, *beside(option)}:
                 wrong.append(f"{option}: {option}{hook}: there is no hook {hook}")
     assert not wrong, "\n".join(wrong)
-
-
-@pytest.mark.parametrize("name", READ)
-def test_little_is_read(tmp_path, name):
-    """What FreeFEM reads of a scene shall not grow: bare.edp is the paper's test without options."""
-    text = (EDP / (name if name != "bare.edp" else "main.edp")).read_text()
-    heads = {(text if path.name == name else path.read_text()).split("\n")[0]: path for path in EDP.rglob("*.idp")}
-    shown = snippet(tmp_path, EACH.sub("", text) if name == "bare.edp" else text, "-v", 100, "-help")
-    read = [path for head, path in heads.items() if head in shown]
-    files, lines = len(read) + 1, text.count("\n") + sum(path.read_text().count("\n") for path in read)
-    assert (files, lines) <= READ[name] and lines <= READ[name][1], (files, lines)
 
 
 def test_not_read(tmp_path):

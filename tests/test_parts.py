@@ -285,14 +285,14 @@ def solve(folder, mesh, case, *flags, expect=0, script="parts.edp"):
 # ---------------------------------------------------------------- supports and loads, on the bodies alone
 
 BODIES = """
-include "case/case-file.idp"
-include "bodies/parts.idp"
+include "options/parts/case-file.idp"
+include "options/parts/bodies.idp"
 include "bodies/spaces.idp"
 IFMACRO(!threeDimensional)
-include "bodies/curved.idp"
+include "discretisation/curved.idp"
 ENDIFMACRO
 {
-    macro ofElement() include "bodies/stiffness.idp" //
+    macro ofElement() include "discretisation/stiffness.idp" //
     include "bodies/elements.idp"
 }
 checkTouched();
@@ -331,7 +331,7 @@ def bodies(folder, mesh, case, *flags, space=False):
     """What the bodies alone do under a case's supports and loads, without contact: {name: numbers} and the output."""
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
-    script = (ROOT / "edp/parts.edp").read_text().split('include "case/case-file.idp"')[0]
+    script = (ROOT / "edp/parts.edp").read_text().split('include "options/parts/case-file.idp"')[0]
     head = 'macro threeDimensional() 1 //\nstring scene = "parts-3d";\n' if space else ""
     stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)
     return told(stdout), stdout

@@ -520,7 +520,7 @@ def test_option_example(tmp_path):
     option, offer = fences(section(MANUAL, "Adding an option"), "freefem")
     (package / "edp/options/centre").mkdir()
     (package / "edp/options/centre/centre.idp").write_text(option)
-    listed = package / "edp/options/options.idp"
+    listed = package / "edp/case/hooks.idp"
     listed.write_text(listed.read_text().replace('optionOffers("meshes"', offer + 'optionOffers("meshes"'))
     punch = package / "edp/scenes/flat-punch.edp"
     punch.write_text(punch.read_text().replace("do(pictures, what)", "do(pictures, what) do(centre, what)"))
