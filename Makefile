@@ -39,7 +39,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -392,6 +392,9 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests
 	@$(PYTHON) -m ruff format --check postprocess tests
 	@$(PYTHON) tests/lint_edp.py edp
+
+pages: $(VENV)/run.stamp ## write the tables of edp/README.md from the heads of the sources
+	@$(PYTHON) tests/pages.py
 
 clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(CACHE:%=%/meshes)

@@ -108,11 +108,11 @@ def test_counts(law, symmetry):
     assert sphere.summary["used"]["kernel"]
 
 
-MESH = 'mesh3 Th = gmshMesh("block-3d", meshNames, meshValues, width);'
+MESH = 'Th = gmshMesh("block-3d", meshNames, meshValues, width);'
 UNFOLDED = """meshValues[5] = 2;
 mesh3 quarter = gmshMesh("block-3d", meshNames, meshValues, width);
 mesh3 side = quarter + movemesh(quarter, [-x, y, z], orientation = -1);
-mesh3 Th = side + movemesh(side, [x, -y, z], orientation = -1);
+Th = side + movemesh(side, [x, -y, z], orientation = -1);
 """
 
 

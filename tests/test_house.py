@@ -10,10 +10,10 @@ from graphlib import CycleError, TopologicalSorter
 
 import pytest
 from freefem import ROOT, execute
+from pages import FOLDERS
 
 EDP = ROOT / "edp"
-# each may use those before it
-ORDER = "case laws contact bodies surface operator discretisation problem kernel solve report options blocks".split()
+ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 TYPE = r"(?:real|int|bool|string|mesh3?|meshS|meshL|matrix|fespace|complex)(?:\[[a-z, ]*\])*"
 BARE = "edp/scenes/confined-block.edp"  # without its options
 READ = {"edp/main.edp": (10750, 104), "edp/parts.edp": (16200, 130), BARE: (7000, 70)}  # lines, files
@@ -29,7 +29,11 @@ def code(text):
 @cache
 def modules():
     """Path below edp/ and code of each module."""
-    return {path.relative_to(EDP).as_posix(): code(path.read_text()) for path in EDP.rglob("*.idp") if "labs" not in path.parts}
+    return {
+        path.relative_to(EDP).as_posix(): code(path.read_text())
+        for path in EDP.rglob("*.idp")
+        if "labs" not in path.parts
+    }
 
 
 def depths(text):

@@ -123,7 +123,7 @@ def test_output_is_published_whole(tmp_path):
     folder = tmp_path / "folder of results"
     folder.mkdir()
     (folder / ".run").mkdir()
-    (folder / ".run/.written").write_text("contact.csv\nmovie.gif\n")
+    (folder / ".run/.written").write_text("summary.json\ncontact.csv\nmovie.gif\n")
     for name in (".run/series.csv", "summary.json", "contact.csv", "movie.gif", "mine.txt", "mine.vtu", "movie.html"):
         (folder / name).touch()
     stdout = snippet(tmp_path, OUTPUT.replace("CUT", "0"))
@@ -161,7 +161,7 @@ def test_decimal_text(tmp_path):
 MESH = """
 string[int] names = ["depth", "left", "right", "h", "grading"];
 real[int] values = [0.5, 0.25, 0.75, 0.125, 0];
-mesh Th = gmshMesh("block", names, values, 40.);
+Th = gmshMesh("block", names, values, 40.);
 """
 
 GROUPS = """
@@ -250,7 +250,7 @@ def test_body_load(tmp_path):
 
 HALVES = """include "case/flags.idp"
 include "bodies/half.idp"
-mesh Th = square(3, 2);
+Th = square(3, 2);
 fespace Vh(Th, [P2, P2]);
 varf form([u, v], [a, b]) = int2d(Th)(dx(u) * dx(a) + dy(v) * dy(b) + u * a + v * b + dx(u) * dy(b) + dy(v) * dx(a));
 matrix full = form(Vh, Vh);
@@ -336,8 +336,8 @@ Uh [b1, b2] = [x * y, 0];
 seen = overlapMap * b1[];
 tell("sideways", seen);
 Uh [s1, s2] = [0, 0];
-s1[] = placeShift;
-Uh [c1, c2] = [0, (region == disc) * (2 - 3 * (x + s1))];
+for (int n = 0; n < nodes; n++) s1[][nodeDof(n, 0)] = nodeAt(n, 0);
+Uh [c1, c2] = [0, (region == disc) * (2 - 3 * s1)];
 seen = overlapMap * c1[];
 tell("linear", seen);
 Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)];

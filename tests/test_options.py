@@ -2,40 +2,93 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 from freefem import ROOT, run, run_in, script, snippet
-from test_contracts import EDP, MODULES, owners, uses
+from test_contracts import EDP, MODULES, owners, part, uses
 from test_readme import SCENES
 
 LIST = (EDP / "case/hooks.idp").read_text()
 OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
 OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
+PACKAGE = [script(scene).removeprefix("edp/") for scene in SCENES] + ["parts.edp", "parts-3d.edp"]
+EACH = re.compile(r"^macro (?:each|more)Option\(do, what\) (.*?)//", re.M | re.S)
+
+
+def options_in(text):
+    """The options of a scene's own line."""
+    line = EACH.search(text)
+    return set(re.findall(r"do\((\w+), what\)", line[1])) if line else set()
 
 
 def reads(name):
     """The options that a script of edp/ reads: by its own line, or by that of a script that it includes."""
     text = (EDP / name).read_text()
-    line = re.search(r"^macro eachOption\(do, what\) (.*?)//", text, flags=re.M)
-    own = re.findall(r"do\((\w+), what\)", line[1]) if line else []
-    return set(own).union(*map(reads, re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)))
+    inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
+    return options_in(text).union(*map(reads, inner))
+
+
+def option_of(name):
+    """The option that a module belongs to; the list of them belongs to the core."""
+    return name.split("/")[1] if re.match(r"options/\w+/", name) else ""
+
+
+def beside(option):
+    """The options whose names an option may use: those in the Needs of its files."""
+    needs = " ".join(part(name, "Needs") for name in MODULES if option_of(name) == option)
+    return set(re.findall(r"\boptions/(\w+)/", needs)) - {option}
 
 
 def test_list():
-    """The list of options shall have each with the scenes that read it."""
-    assert sorted(name for name, *_ in OFFERS) == OPTIONS
-    for name, _, scenes in OFFERS:
-        scripts = {scene: script(scene) for scene in SCENES} | {name: name + ".edp" for name in ("parts", "parts-3d")}
-        assert sorted(scenes.split(", ")) == sorted(s for s in scripts if name in reads(scripts[s].removeprefix("edp/")))
+    """The list shall have each option that has flags, and the scenes that read it if not all do."""
+    entries = {name: scenes for name, _, scenes in OFFERS}
+    assert entries.keys() <= set(OPTIONS)
+    for name, scenes in entries.items():
+        found = {Path(path).stem.replace("main", "disc-on-block") for path in PACKAGE if name in reads(path)}
+        assert set(scenes.split(", ")) == found or scenes == f"scenes that read the option {name}"
+    for name in OPTIONS:
+        own = "".join(path.read_text() for path in (EDP / "options" / name).glob("*.idp"))
+        flags = set(re.findall(r'\b(?:number|count|word|text)Flag\("(-[\w-]+)"', own))
+        assert flags <= {word for option, words, _ in OFFERS if option == name for word in words.split(", ")}, name
 
 
 def test_core_names_no_option():
-    """No module outside an option shall use what options alone declare, nor a scene that does not read it."""
-    for name in [*MODULES, *(script(scene).removeprefix("edp/") for scene in SCENES)]:
-        own = reads(name) if name.endswith(".edp") else {name.split("/")[1]} if name.startswith("options/") else set()
+    """What options declare, and their files, shall be named by what reads them alone."""
+    wrong = []
+    for name in [*MODULES, *PACKAGE]:
+        own = reads(name) if name.endswith(".edp") else {option_of(name)}
+        own |= {other for option in own if option for other in beside(option)} | {""}
         for word in uses(name):
-            homes = {owner.split("/")[1] if owner.startswith("options/") else "" for owner in owners()[word]}
-            assert homes & {"", "options.idp", *own}, (name, word)
+            if not own & set(map(option_of, owners()[word])):
+                wrong.append(f"{name}: {word} of {', '.join(owners()[word])}")
+        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "case/hooks.idp" else []
+        wrong += [f"{name}: options/{option}/" for option in texts if option not in own | {option_of(name)}]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_no_option_needs_itself():
+    """Options that use each other's names shall do so in one direction."""
+    reached = {option: beside(option) for option in OPTIONS}
+    for _ in OPTIONS:
+        reached = {option: near.union(*(reached[other] for other in near)) for option, near in reached.items()}
+    assert not [option for option in OPTIONS if option in reached[option]]
+
+
+def test_hooks():
+    """The macros of options shall be hooks of the core, or of an option that they need; each hook is in the list."""
+    hooks = {"Laws": {""}}
+    for name in MODULES:
+        for hook in re.findall(r"^\s*optionHook\((\w+)\)", (EDP / name).read_text(), flags=re.M):
+            hooks.setdefault(hook, set()).add(option_of(name))
+    listed = set(re.findall(r"\b[A-Z]\w+\b", "".join(re.findall(r"^//   .*\n", LIST, flags=re.M)).replace("NAME", "")))
+    wrong = [f"case/hooks.idp: {hook} is not in the list" for hook in hooks if hook not in listed]
+    for option in OPTIONS:
+        text = (EDP / f"options/{option}/{option}.idp").read_text()
+        for hook in re.findall(rf"^macro {option}([A-Z]\w*)\(", text, flags=re.M):
+            if not hooks.get(hook, set()) & {"", option, *beside(option)}:
+                wrong.append(f"{option}: {option}{hook}: there is no hook {hook}")
+    assert not wrong, "\n".join(wrong)
 
 
 def test_not_read(tmp_path):
@@ -88,8 +141,8 @@ def test_side_by_side(tmp_path, options):
     folder.mkdir(parents=True)
     (folder / "second.idp").write_text(SECOND)
     (folder / "springs.idp").write_text(SPRINGS)
-    text = f'macro eachOption(do, what) {options} //\ninclude "main.edp"\n'
-    words = ["-h", 5, "-second", 3, "-law", "springs", "-vtu", 0, "-estimate", 0, "-out", tmp_path / "out"]
+    text = EACH.sub(f"macro eachOption(do, what) {options} //", (EDP / "main.edp").read_text())
+    words = ["-h", 5, "-second", 3, "-law", "springs", "-out", tmp_path / "out"]
     path = ["-path", "1 2", "-steps", 1] if "attraction" in options else []
     snippet(tmp_path, text, *words, *path)
     summary = json.loads((tmp_path / "out/summary.json").read_text())

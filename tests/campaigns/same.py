@@ -1,11 +1,11 @@
 """Whether two versions of the package give the same results: `python tests/campaigns/same.py OTHER [WORDS]`.
 
-OTHER is a folder with another version, a worktree of the commit before say. Every run of RUNS whose name has one of the
-words is made with both; its exit code, what a refusal says, summary.json and contact.csv are compared. Counts, words and
-statuses must be equal; numbers may differ by TOLERANCE of their scale: of forces the largest force, of moments force
-times the model's width, of points' values the column's largest; residuals and algebraic errors must be below -tol; the
-estimates' own numbers may differ by ESTIMATED. Left out: seconds, modules, folders, dates. Runs of OTHER are kept in
-its results/same/, made anew when its sources change.
+OTHER is a folder with another version, a worktree of the commit before say. Every run of RUNS whose name has one of
+the words is made with both; its exit code, what a refusal says, summary.json and contact.csv are compared. Counts,
+words and statuses must be equal; numbers may differ by TOLERANCE of their scale: of forces the largest force, of
+moments force times the model's width, of points' values the column's largest; residuals and algebraic errors must be
+below -tol; the estimates' own numbers may differ by ESTIMATED. Left out: seconds, modules, folders, dates. Runs of
+OTHER are kept in its results/same/, made anew when its sources change.
 Exit code 1: a difference, printed a line each.
 """
 
