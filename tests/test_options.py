@@ -26,7 +26,9 @@ def test_list():
     assert sorted(name for name, *_ in OFFERS) == OPTIONS
     for name, _, scenes in OFFERS:
         scripts = {scene: script(scene) for scene in SCENES} | {name: name + ".edp" for name in ("parts", "parts-3d")}
-        assert sorted(scenes.split(", ")) == sorted(s for s in scripts if name in reads(scripts[s].removeprefix("edp/")))
+        assert sorted(scenes.split(", ")) == sorted(
+            s for s in scripts if name in reads(scripts[s].removeprefix("edp/"))
+        )
 
 
 def test_core_names_no_option():
