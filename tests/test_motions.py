@@ -10,7 +10,7 @@ string geometry = "strain";
 bool forceControl = false;
 real prescribedForce = 0;
 macro lawsByContact() 1 //
-macro eachOption(do, what) do(frames, what) do(floating, what) //
+macro eachOption(do, what) do(floating, what) //
 macro deformableMaster() 1 //
 include "case/flags.idp"
 include "case/output.idp"
