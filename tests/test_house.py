@@ -1,7 +1,7 @@
 """The house: arrows between files go one way, folder by folder; no cycles; what a scene reads stays small.
 
-A file uses another one if a name stands in it that the other one alone declares at its top level: a function or a variable. Macros
-are hooks, which a scene or an option fills in, and are left out; so are the scenes' own scripts.
+A file uses another one if a name stands in it that the other one alone declares at its top level: a function or a
+variable. Macros are hooks, which a scene or an option fills in, and are left out; so are the scenes' own scripts.
 """
 
 import re

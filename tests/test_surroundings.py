@@ -380,7 +380,8 @@ def test_name_of_a_case(tmp_path):
         "a.b/pin": "pin",
         "..": "case",
     }
-    text = 'string scene = "parts";\ninclude "case/flags.idp"\ninclude "case/output.idp"\ninclude "options/parts/case-flags.idp"\n'
+    text = 'string scene = "parts";\ninclude "case/flags.idp"\n'
+    text += 'include "case/output.idp"\ninclude "options/parts/case-flags.idp"\n'
     text += "".join(f'cout << "name " << nameOfFile("{name}") << endl;\n' for name in names)
     lines = snippet(tmp_path, text).splitlines()
     assert [line[5:] for line in lines if line.startswith("name ")] == list(names.values())
