@@ -68,7 +68,9 @@ def included(name, space=None):
     space = "macro threeDimensional()" in text if space is None else space
     other = "!threeDimensional" if space else "threeDimensional"
     text = re.sub(rf"^ *IFMACRO\({other}\)\n.*?^ *ENDIFMACRO\n", "", text, flags=re.M | re.S)
-    inner = re.findall(r'^include "(main\.edp|scenes/\S+|bodies/(?!gmsh|curve|element)\S+)"', text, re.M)
+    inner = re.findall(
+        r'^include "(main\.edp|scenes/\S+|blocks/\S+|bodies/(?!gmsh|curve|element|shapes)\S+)"', text, re.M
+    )
     return text + "".join(included(file, space) for file in inner)
 
 
