@@ -32,11 +32,39 @@ def table(kind, names):
     return "\n".join(rows) + "\n"
 
 
+EACH = re.compile(r"^macro (?:each|more)Option\(do, what\) (.*?)//", re.M | re.S)
+
+
+def reads(script):
+    """The options that a script of edp/ reads: by its own line, or by that of a script that it includes."""
+    text = (EDP / script).read_text()
+    own = re.findall(r"do\((\w+), what\)", "".join(EACH.findall(text)))
+    inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
+    return set(own).union(*map(reads, inner))
+
+
+def scripts():
+    """{scene: its script}."""
+    found = {path.stem: str(path.relative_to(EDP)) for path in sorted(EDP.glob("scenes/*.edp"))}
+    found["disc-on-block-ipopt"] = "scenes/ipopt/disc-on-block.edp"
+    return {"disc-on-block": "main.edp", **found, "parts": "parts.edp", "parts-3d": "parts-3d.edp"}
+
+
+def options():
+    """A row an option: what the first line of its first file says, and who reads it."""
+    rows = ["| option | what it does | read by |", "|---|---|---|"]
+    every = {scene: reads(script) for scene, script in scripts().items()}
+    for folder in sorted(path for path in (EDP / "options").iterdir() if path.is_dir()):
+        name = folder.name
+        first = (folder / f"{name}.idp").read_text().split("\n")[0].split(": ", 1)[1]
+        by = [f"`{scene}`" for scene in every if name in every[scene]]
+        rows.append(f"| `{name}` | {first} | {', '.join(by) if len(by) < len(every) else 'all'} |")
+    return "\n".join(rows) + "\n"
+
+
 TABLES = {
     "modules": lambda: table("module", sources(".idp")),
-    "options": lambda: table(
-        "option", [name for name in sources(".idp") if re.fullmatch(r"options/(\w+)/\1.idp", name)]
-    ),
+    "options": options,
     "programs": lambda: table("program", sources(".sh")),
 }
 

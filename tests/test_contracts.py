@@ -1,8 +1,9 @@
 """The heads of the modules against their code: what crosses files is in "Needs" here and in "Gives" there.
 
 Needs may name an identifier, or the module that gives it (`problem/problem.idp`), or a folder with two algorithms
-behind one contract (`operator/`). A word of a head is an identifier if it stands alone between commas and the like, behind its
-type if that is said, or is written in camelCase; a function's arguments are none. Lines that go on are indented.
+behind one contract (`operator/`). A word of a head is an identifier if it stands alone between commas and the like,
+behind its type if that is said, or is written in camelCase; a function's arguments are none. Lines that go on are
+indented.
 """
 
 import re

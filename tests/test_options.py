@@ -2,31 +2,16 @@
 
 import json
 import re
-from pathlib import Path
 
+import pages
 import pytest
-from freefem import ROOT, run, run_in, script, snippet
+from freefem import ROOT, run, run_in, snippet
 from test_contracts import EDP, MODULES, owners, part, uses
-from test_readme import SCENES
 
 LIST = (EDP / "case/hooks.idp").read_text()
 OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
 OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
-PACKAGE = [script(scene).removeprefix("edp/") for scene in SCENES] + ["parts.edp", "parts-3d.edp"]
-EACH = re.compile(r"^macro (?:each|more)Option\(do, what\) (.*?)//", re.M | re.S)
-
-
-def options_in(text):
-    """The options of a scene's own line."""
-    line = EACH.search(text)
-    return set(re.findall(r"do\((\w+), what\)", line[1])) if line else set()
-
-
-def reads(name):
-    """The options that a script of edp/ reads: by its own line, or by that of a script that it includes."""
-    text = (EDP / name).read_text()
-    inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
-    return options_in(text).union(*map(reads, inner))
+SCRIPTS = pages.scripts()
 
 
 def option_of(name):
@@ -50,9 +35,9 @@ def test_list():
     entries = {name: scenes for name, _, scenes in OFFERS}
     assert entries.keys() <= set(OPTIONS)
     for name, scenes in entries.items():
-        found = {Path(path).stem.replace("main", "disc-on-block") for path in PACKAGE if name in reads(path)}
+        found = {scene for scene, path in SCRIPTS.items() if name in pages.reads(path)}
         assert set(scenes.split(", ")) == found or scenes == f"scenes that read the option {name}"
-    elsewhere = {flag for name in [*MODULES, *PACKAGE] for flag in flags_of(name) if not option_of(name)}
+    elsewhere = {flag for name in [*MODULES, *SCRIPTS.values()] for flag in flags_of(name) if not option_of(name)}
     for name in filter(option_of, MODULES):
         offered = {word for option, words, _ in OFFERS if option == option_of(name) for word in words.split(", ")}
         assert flags_of(name) <= offered | elsewhere, name
@@ -61,8 +46,8 @@ def test_list():
 def test_core_names_no_option():
     """What options declare, and their files, shall be named by what reads them alone."""
     wrong = []
-    for name in [*MODULES, *PACKAGE]:
-        own = reads(name) if name.endswith(".edp") else {option_of(name)}
+    for name in [*MODULES, *SCRIPTS.values()]:
+        own = pages.reads(name) if name.endswith(".edp") else {option_of(name)}
         own |= {other for option in own if option for other in beside(option)} | {""}
         for word in uses(name):
             if not own & set(map(option_of, owners()[word])):
@@ -143,7 +128,7 @@ def test_side_by_side(tmp_path, options):
     folder.mkdir(parents=True)
     (folder / "second.idp").write_text(SECOND)
     (folder / "springs.idp").write_text(SPRINGS)
-    text = EACH.sub(f"macro eachOption(do, what) {options} //", (EDP / "main.edp").read_text())
+    text = pages.EACH.sub(f"macro eachOption(do, what) {options} //", (EDP / "main.edp").read_text())
     words = ["-h", 5, "-second", 3, "-law", "springs", "-out", tmp_path / "out"]
     path = ["-path", "1 2", "-steps", 1] if "attraction" in options else []
     snippet(tmp_path, text, *words, *path)

@@ -63,14 +63,12 @@ def test_width():
 
 
 def included(name, space=None):
-    """The text of a script and of the scripts and bodies that it includes, as it is read in the plane or in space."""
+    """The text of a script and of the scripts and blocks that it includes, as it is read in the plane or in space."""
     text = (ROOT / "edp" / name).read_text()
     space = "macro threeDimensional()" in text if space is None else space
     other = "!threeDimensional" if space else "threeDimensional"
     text = re.sub(rf"^ *IFMACRO\({other}\)\n.*?^ *ENDIFMACRO\n", "", text, flags=re.M | re.S)
-    inner = re.findall(
-        r'^include "(main\.edp|scenes/\S+|blocks/\S+|bodies/(?!gmsh|curve|element|shapes)\S+)"', text, re.M
-    )
+    inner = re.findall(r'^include "(main\.edp|scenes/\S+|blocks/\S+)"', text, re.M)
     return text + "".join(included(file, space) for file in inner)
 
 
