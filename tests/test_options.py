@@ -135,3 +135,10 @@ def test_side_by_side(tmp_path, options):
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     assert summary["second"] == 30 and summary["parameters"]["law"] == "springs"
     assert ("pullOff" in summary) == bool(path)
+
+
+def test_meshes_want_estimates(tmp_path):
+    """A scene that reads new meshes without estimates before them shall be refused in one line."""
+    text = pages.EACH.sub("macro eachOption(do, what) do(meshes, what) //", (EDP / "main.edp").read_text())
+    said = snippet(tmp_path, text, expect=10)
+    assert said.startswith("eachOption: meshes: ") and len(said.splitlines()) == 1

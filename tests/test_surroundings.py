@@ -640,6 +640,15 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
 
 
 @pytest.mark.long
+
+
+def test_contact_lost_in_rounding(tmp_path):
+    """A gap and a motion beside which the layer is nothing shall not pass for bodies that do not touch."""
+    out = tmp_path / "out"
+    lost = run_in(ROOT, "edp/main.edp", "-h", 2, "-gap", 1e16, "-u0", 1e16, "-vtu", 0, out=out, expect=20)
+    assert "lost in the rounding of -gap" in lost.message
+
+
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
 def test_dockerfile(tmp_path):
     """In a bare Debian the Dockerfile's commands shall set all up, and `make run` run, on two processes too."""
