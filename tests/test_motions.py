@@ -6,9 +6,6 @@ from freefem import short_of, snippet, told
 
 BEGIN = """
 string scene = "synthetic";
-string geometry = "strain";
-bool forceControl = false;
-real prescribedForce = 0;
 macro lawsByContact() 1 //
 macro eachOption(do, what) do(floating, what) //
 macro deformableMaster() 1 //
