@@ -640,8 +640,6 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
 
 
 @pytest.mark.long
-
-
 def test_contact_lost_in_rounding(tmp_path):
     """A gap and a motion beside which the layer is nothing shall not pass for bodies that do not touch."""
     out = tmp_path / "out"
