@@ -14,7 +14,11 @@ export LC_ALL := C
 # What is made: in this folder, or in the cache if there is one (CONTACT_CACHE, or this folder cannot be written); results where
 # make RESULTS=folder says. The runs are told of both by the environment.
 RESULTS ?= $(or $(CONTACT_RESULTS),results)
-CACHE   := $(abspath $(shell sh edp/case/cache.sh 0 .))
+CACHE   := $(shell sh edp/case/cache.sh 0 .)
+ifneq ($(word 2,$(CACHE)),)
+$(error the cache $(CACHE): make knows no folder with a blank in its name; allowed: CONTACT_CACHE=folder without blanks)
+endif
+CACHE   := $(abspath $(CACHE))
 VENV    := $(if $(CACHE),$(CACHE)/venv,.venv)
 BUILD   := $(if $(CACHE),$(CACHE)/build,build)
 PYTHON  := $(VENV)/bin/python
@@ -39,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -393,9 +397,12 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff format --check postprocess tests
 	@$(PYTHON) tests/lint_edp.py edp
 
+pages: $(VENV)/run.stamp ## write the tables of edp/README.md from the heads of the sources
+	@$(PYTHON) tests/pages.py
+
 clean: ## remove results and generated meshes
-	rm -rf results meshes/generated $(CACHE:%=%/meshes)
+	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))
 
 distclean: clean ## remove the virtual environment and caches as well
-	rm -rf $(VENV) $(VENV)-peers $(BUILD) .pytest_cache .ruff_cache
+	rm -rf $(dir $(wildcard $(VENV)/run.stamp $(VENV)-peers/run.stamp $(BUILD)/multigrid.log)) .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -32,7 +32,9 @@ fi
 for script in "$1" "$edp/$1" "$edp/$1.edp" "$edp/scenes/$1.edp" none; do test ! -f "$script" || break; done
 test "$1" != disc-on-block || test -f "$1" || script=$edp/main.edp
 test "$script" != none || {
-    echo "${1:-no script}: no such script here or in $edp; allowed: sh freefem.sh SCRIPT FLAGS..."
+    starter=${CONTACT_STARTER:-sh freefem.sh}
+    echo "${1:-no script}: no such script here or in $edp; allowed: $starter SCRIPT FLAGS..., SCRIPT a path or one of:" \
+        disc-on-block parts parts-3d $(cd "$edp/scenes" && for f in *.edp; do echo "${f%.edp}"; done)
     exit 10
 }
 shift

@@ -18,6 +18,7 @@ E, NU, R, GAP = 100, 0.3, 10, 1e-3  # the scene's defaults, GAP the gap at rest
 MODULUS = E / (1 - NU**2)
 SPHERE = "adhesive-sphere"
 LJ = ["-law", "lennard-jones"]
+OPTION = {"options": "macro eachOption(do, what) do(attraction, what) //\n"}
 
 # sphere on a half-space, by Tabor's number: an independent boundary element code, 0.1 %
 PULL_OFF = {0.05: -1.9883, 0.3: -1.8698, 1: -1.6702, 2: -1.5834}  # over pi w R
@@ -67,7 +68,7 @@ def test_lennard_jones(tmp_path):
     gaps = rest * np.array([0.3, 0.7, 0.999999, 1.0, 1.1, 3 ** (1 / 6), 7.5 ** (1 / 6), 2.0, 10, 1e4])
     step = 1e-6 * gaps
     s = np.concatenate([-gaps, -gaps - step, -gaps + step])
-    law = evaluate(tmp_path, LAW_ROWS, s, "-method", "newton", *LJ, "-w", work, "-eps0", rest)
+    law = evaluate(tmp_path, LAW_ROWS, s, "-method", "newton", *LJ, "-w", work, "-eps0", rest, **OPTION)
     pressure, slope, energy = lennard_jones(gaps, work, rest)
     scale = work / rest
     np.testing.assert_allclose(law["pressure"][:10], pressure, rtol=1e-12, atol=1e-14 * scale)
@@ -85,7 +86,7 @@ def test_lennard_jones(tmp_path):
 
 def test_infinite_where_the_surfaces_meet(tmp_path):
     """At no gap pressure, slope and energy shall be infinite, not numbers that are none."""
-    law = evaluate(tmp_path, LAW_ROWS, [0.0, 0.1, 1e9], "-method", "newton", *LJ)
+    law = evaluate(tmp_path, LAW_ROWS, [0.0, 0.1, 1e9], "-method", "newton", *LJ, **OPTION)
     for name in ("pressure", "slope", "potential"):
         assert (law[name] == np.inf).all()
 
@@ -95,7 +96,7 @@ def test_graph_point_of_a_law_that_falls(tmp_path):
     work, rest = 0.37, 0.02
     k = 3 * 1.25276 * work / rest**2
     rows = [(s, p, k, 0.0) for s in (-0.1, -0.03, -0.02, 0.0, 0.05) for p in (-60.0, 0.0, 3.0, 1e4)]
-    found = evaluate(tmp_path, GRAPH_ROWS, rows, "-method", "newton", *LJ, "-w", work, "-eps0", rest)
+    found = evaluate(tmp_path, GRAPH_ROWS, rows, "-method", "newton", *LJ, "-w", work, "-eps0", rest, **OPTION)
     for (s, p, *_), at, pressure in zip(rows, found["s"], found["p"], strict=True):
         low, high = -10.0, -1e-6
         for _ in range(200):
@@ -177,7 +178,7 @@ def test_in_space():
 def test_two_bodies():
     """Two cylinders shall be stable in one step; the forces on both shall be the same."""
     given = ["-R1", 20, "-R2", 20, "-E1", 200, "-E2", 200, "-force", 0, *LJ, "-w", 0.0011, "-gap", GAP, "-u0", -0.0005]
-    done = run("two-cylinders", *given, "-reach", 0.5, "-h", 0.02, "-grading", 100)
+    done = run("attraction/two-cylinders", *given, "-reach", 0.5, "-h", 0.02, "-grading", 100)
     assert done.stability > 0
     assert done.force < 0
     assert done.masterForceY == pytest.approx(done.force, rel=1e-9)
@@ -303,7 +304,7 @@ def test_unstable_branch():
 
 def test_monotone_path():
     """A law that only pushes shall be loaded and unloaded along the same curve, without jumps."""
-    done = run("disc-on-block", "-h", 0.5, "-path", "0.5 2.5 1.5", "-steps", 2)
+    done = run("attraction/disc-on-block", "-h", 0.5, "-path", "0.5 2.5 1.5", "-steps", 2)
     rows = table(done.folder / "path.csv")
     np.testing.assert_allclose(rows["approach"], [0.5, 1.5, 2.5, 2.0, 1.5])
     assert rows["force"][4] == pytest.approx(rows["force"][1], rel=1e-5)

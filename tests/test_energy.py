@@ -67,7 +67,7 @@ def test_work_is_force_for_every_law(tmp_path_factory, law):
         pairs.write_text("".join(f"{s / 20},{1e3 * (s / 20) ** 3!r}\n" for s in range(11)))
         flags += ["-table", pairs]
     ends = f"{2.5 - STEP!r} {2.5 + STEP!r}"
-    done = run("flat-punch", "-h", 1, *flags, "-tol", 1e-12, "-path", ends, "-steps", 1)
+    done = run("attraction/flat-punch", "-h", 1, *flags, "-tol", 1e-12, "-path", ends, "-steps", 1)
     states = table(done.folder / "path.csv")
     assert states["force"].min() > 0
     assert np.diff(states["energy"]) / np.diff(states["approach"]) == pytest.approx(states["force"].mean(), rel=1e-5)

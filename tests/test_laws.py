@@ -16,7 +16,7 @@ include "case/flags.idp"
 include "case/output.idp"
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 flagsDone("unit");
 int rows;
 ifstream in("rows.txt");
@@ -54,11 +54,11 @@ BETWEEN = [pair for pair in product((1e-2, 1e3, 1e12, 1e30), (1.05, 3, 10, 30)) 
 RANGE += [pytest.param(*pair, marks=pytest.mark.long) for pair in BETWEEN]
 
 
-def evaluate(folder, code, rows, *flags):
+def evaluate(folder, code, rows, *flags, options=""):
     rows = np.array(rows, float)
     lines = [str(len(rows))] + [" ".join(map(repr, map(float, np.atleast_1d(row)))) for row in rows]
     (folder / "rows.txt").write_text("\n".join(lines) + "\n")
-    return told(snippet(folder, PRELUDE + code, *flags))
+    return told(snippet(folder, options + PRELUDE + code, *flags))
 
 
 def law_of(folder, overlaps, kappa, m):

@@ -5,7 +5,7 @@ from freefem import run, run_in, scene_text, script, snippet, told, tree
 
 PRODUCTS = """
 topNodes = 100;                               // three grids of few points
-setUpKernel();
+setUpContact();
 {
     int[int] all(points);
     for (int i = 0; i < points; i++) all[i] = i;
@@ -38,7 +38,7 @@ setUpKernel();
     [
         ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
         pytest.param("rough", ["-order", 2, "-h", 0.2, "-modes", 32], marks=pytest.mark.long),
-        ("disc-on-block", ["-order", 4, "-h", 0.2]),
+        ("rough", ["-order", 4, "-h", 0.4, "-modes", 32]),
         ("sphere-on-block", ["-order", 1, "-h", 0.5]),
         pytest.param("sphere-on-block", ["-order", 2, "-h", 0.8], marks=pytest.mark.long),
         ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
@@ -70,6 +70,7 @@ grown(immobile)
 grown(paired)
 paired = 1;
 normalZ = 1;
+verticalGaps = true;
 mirrorX = true;
 mirrorY = true;
 copies = 4;
@@ -90,9 +91,7 @@ for (int i = 0; i < points; i++)
 localCompliance = (1 - nu * nu) / (pi * youngModulus);
 wholeApproach = u0;
 tell("hertz", 4. / 3 * youngModulus / (1 - nu * nu) * sqrt(radius) * (u0 - d0)^1.5);
-setUpKernel();
-setUpMotions();
-setUpProblem();
+setUpContact();
 setUpPreconditioner();
 kernelUsed = true;
 kernelC = 0;
@@ -132,7 +131,7 @@ def test_start(side, tmp_path):
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
-    name = package / "edp" / "kernel" / "levels.idp"
+    name = package / "edp" / "options" / "many" / "levels.idp"
     text = name.read_text()
     assert text.count("int manyOnLevels = 1500;") == 1
     usual = run(scene, *flags).summary
@@ -141,3 +140,18 @@ def test_runs(scene, flags, tmp_path):
     assert other["force"] == pytest.approx(usual["force"], rel=1e-5) and other["force"] != usual["force"]
     assert other["newton"] <= usual["newton"] + 1
     assert other["backsolves"] <= usual["backsolves"] + 5
+
+
+def test_no_matrix(tmp_path):
+    """Without the hierarchy, and with too many points for a matrix, the diagonal shall take its place, and be named."""
+    package = tree(tmp_path / "package")
+    name = package / "edp" / "kernel" / "preconditioner.idp"
+    text = name.read_text()
+    assert text.count("int densePointsMost = 6000;") == 1
+    usual = run("disc-on-block", "-kappa", 1e6).summary
+    name.write_text(text.replace("int densePointsMost = 6000;", "int densePointsMost = 20;"))
+    flags = ["-kappa", 1e6, "-order", 1, "-estimate", 0, "-vtu", 0]
+    other = run_in(package, script("disc-on-block"), *flags, out=tmp_path / "diagonal")
+    assert other.summary["force"] == pytest.approx(usual["force"], rel=1e-5)
+    assert other.summary["backsolves"] > usual["backsolves"]
+    assert other.stdout.count("too many for a matrix of the kernel") == 1

@@ -120,10 +120,10 @@ SYSTEM = """
 include "case/flags.idp"
 string scene = "disc-on-block";
 include "case/output.idp"
-include "bodies/block-flags.idp"
+include "blocks/block-flags.idp"
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 include "solve/solver.idp"
 tell("groups", groupsLeft("fake"));
 tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));

@@ -1,4 +1,4 @@
-"""solve/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
+"""problem/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
 
 import numpy as np
 import pytest
@@ -6,10 +6,8 @@ from freefem import short_of, snippet, told
 
 BEGIN = """
 string scene = "synthetic";
-string geometry = "strain";
-bool forceControl = false;
-real prescribedForce = 0;
 macro lawsByContact() 1 //
+macro eachOption(do, what) do(floating, what) //
 macro deformableMaster() 1 //
 include "case/flags.idp"
 include "case/output.idp"
@@ -17,7 +15,7 @@ preset("-law", "signorini");
 preset("-d0", "0");
 include "laws/all.idp"
 include "solve/methods/all.idp"
-include "case/options.idp"
+include "case/scheme.idp"
 include "solve/solver.idp"
 flagsDone("A contact problem of given matrices.");
 localCompliance = 1;

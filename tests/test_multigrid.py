@@ -111,7 +111,7 @@ def test_load_series(tmp_path):
 
 REFUSED = [
     (1, "sphere-on-block", ["-solver", "multigrid", "-method", "paper"], "-method paper"),
-    (1, "sphere-on-block", ["-solver", "multigrid", "-path", "0 1"], "-solver multigrid"),
+    (1, "adhesive-sphere-3d", ["-solver", "multigrid", "-path", "0 1"], "-solver multigrid"),
     (1, "adhesive-sphere-3d", ["-solver", "multigrid"], "law that falls"),
     (1, "sphere-on-block", ["-solver", "multigrid", "-accuracy", 0.01], "-accuracy"),
     (1, "sphere-on-block", ["-solver", "multigrid", "-order", 4], "-order"),

@@ -285,18 +285,8 @@ def solve(folder, mesh, case, *flags, expect=0, script="parts.edp"):
 # ---------------------------------------------------------------- supports and loads, on the bodies alone
 
 BODIES = """
-include "case/case-file.idp"
-include "bodies/parts.idp"
-include "bodies/spaces.idp"
-IFMACRO(!threeDimensional)
-include "bodies/curved.idp"
-ENDIFMACRO
-{
-    macro ofElement() include "bodies/stiffness.idp" //
-    include "bodies/elements.idp"
-}
-checkTouched();
-findMotions();
+include "options/parts/case-file.idp"
+include "discretisation/discretise.idp"
 elasticSolve(bodyLoad, displacement);
 real[int] none(ndof);
 real[int] R(ndof);
@@ -305,9 +295,9 @@ tell("balance", supportForces(none, R));
 internalForces(displacement, none);
 real[int] energy(parts + 1);
 energy = 0;
-for (int i = 0; i < caseNodes; i++)
+for (int i = 0; i < nodes; i++)
     for (int c = 0; c < components; c++)
-        energy[nodeParts[i]] += 0.5 * none[nodeDofs(i, c)] * displacement[nodeDofs(i, c)];
+        energy[nodeParts[i]] += 0.5 * none[nodeDof(i, c)] * displacement[nodeDof(i, c)];
 for (int p = 1; p <= parts; p++) tell("energy-" + partName[p], energy[p]);
 real[int] six(6);
 partForces(0, R, six);
@@ -317,10 +307,10 @@ tell("load", six);
 tell("target", motionTarget);
 for (int m = 0; m < motions; m++) tell("stiffness" + m, motionStiffness(m, m));
 real[int] place(3);
-for (int i = 0; i < caseNodes; i++)
+for (int i = 0; i < nodes; i++)
 {
     place = 0;
-    for (int c = 0; c < components; c++) place[c] = displacement[nodeDofs(i, c)];
+    for (int c = 0; c < components; c++) place[c] = displacement[nodeDof(i, c)];
     tell("node-" + partName[nodeParts[i]] + "-" + i, place);
 }
 for (int m = 0; m < motions; m++) cout << "free: " << motionName[m] << endl;
@@ -331,7 +321,7 @@ def bodies(folder, mesh, case, *flags, space=False):
     """What the bodies alone do under a case's supports and loads, without contact: {name: numbers} and the output."""
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
-    script = (ROOT / "edp/parts.edp").read_text().split('include "case/case-file.idp"')[0]
+    script = (ROOT / "edp/parts.edp").read_text().split('include "options/parts/case-file.idp"')[0]
     head = 'macro threeDimensional() 1 //\nstring scene = "parts-3d";\n' if space else ""
     stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)
     return told(stdout), stdout

@@ -187,3 +187,15 @@ def test_python_of_the_system(tmp_path, version, code):
     env = {**BARE, "PYTHONPATH": str(tmp_path)}
     assert execute([base, "postprocess/doctor.py", "--can", "own"], env=env)[0] == code
     assert execute([base, "postprocess/doctor.py", "--can", "none"], env=env)[0] == 1
+
+
+def test_cleaning_leaves_what_is_not_ours(tmp_path):
+    """A cache with a blank in its name shall be refused, a folder `meshes` that was there before shall stay."""
+    package = tree(tmp_path / "package")
+    cache = tmp_path / "My cache"
+    code, said = execute(["make", "distclean"], package, environment(CONTACT_CACHE=str(cache)))
+    assert code == 2 and "blank in its name; allowed: CONTACT_CACHE=" in said
+    (tmp_path / "home/meshes").mkdir(parents=True)
+    (tmp_path / "home/venv").mkdir()
+    code, _ = execute(["make", "distclean"], package, environment(CONTACT_CACHE=str(tmp_path / "home")))
+    assert code == 0 and listing(tmp_path / "home") == ["meshes", "venv"]

@@ -55,7 +55,7 @@ def pairs(folder, mesh, case, *flags, more="", order=2):
     """The contact points of a case: {name: numbers}; the gap is positive where there is one."""
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
-    text = (ROOT / "edp/parts.edp").read_text().split("checkTouched();")[0] + POINTS + more
+    text = (ROOT / "edp/parts.edp").read_text().split("sayCase();")[0] + POINTS + more
     values = told(snippet(folder, text, "-mesh", "a.msh", "-case", "a.case", "-order", order, *flags))
     return {**values, "gap": -values["gap"]}
 
@@ -106,20 +106,26 @@ def test_gap_of_circles(tmp_path):
 
 CURVED = """
 real[int] unit(ndof);
-real[int] reaction(ndof);
+real[int] resisted(ndof);
 real[int] worst(3);
+placeNodes();
 for (int k = 0; k < 3; k++)
 {
-    for (int d = 0; d < ndof; d++)
-        unit[d] = k == 0 ? ofComponent(d, 0) : (k == 1 ? ofComponent(d, 1) : ofComponent(d, 1) * dofPlaces(d, 0)
-            - ofComponent(d, 0) * dofPlaces(d, 1));
-    reaction = elasticStiffness * unit;
-    worst[k] = reaction.linfty;
+    unit = 0;
+    for (int n = 0; n < nodes; n++)
+    {
+        if (k < 2) unit[nodeDof(n, k)] = 1;
+        if (k == 2) unit[nodeDof(n, 0)] = -nodeAt(n, 1);
+        if (k == 2) unit[nodeDof(n, 1)] = nodeAt(n, 0);
+    }
+    resisted = elasticStiffness * unit;
+    worst[k] = resisted.linfty;
 }
 tell("rigid", worst);
-for (int d = 0; d < ndof; d++) unit[d] = dofPlaces(d, 0) * ofComponent(d, 0) + dofPlaces(d, 1) * ofComponent(d, 1);
+for (int n = 0; n < nodes; n++) for (int c = 0; c < 2; c++) unit[nodeDof(n, c)] = nodeAt(n, c);
 tell("swelling", wholeLoad' * unit);
-for (int d = 0; d < ndof; d++) unit[d] = ofComponent(d, 1);
+unit = 0;
+for (int n = 0; n < nodes; n++) unit[nodeDof(n, 1)] = 1;
 tell("weighs", wholeLoad' * unit);
 tell("curved", curvedElements);
 tell("stretch", leastStretch);

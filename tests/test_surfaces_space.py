@@ -208,8 +208,8 @@ def general(text):
     """The scene two-spheres with a statement of contact instead of its formula for the gap."""
     start, end = text.index("macro separation"), text.index("macro atRim")
     text = text[:start] + text[end:]
-    statement = 'addContact("balls", slaveLabel, masterLabel, -1);\ninclude "bodies/discretise.idp"'
-    return text.replace('include "bodies/discretise.idp"', statement)
+    statement = 'addContact("balls", slaveLabel, masterLabel, -1);\ninclude "discretisation/discretise.idp"'
+    return text.replace('include "discretisation/discretise.idp"', statement)
 
 
 @pytest.mark.parametrize("surface, points", [("smooth", "segment"), ("smooth", "nodal"), ("facets", "nodal")])

@@ -380,9 +380,8 @@ def test_name_of_a_case(tmp_path):
         "a.b/pin": "pin",
         "..": "case",
     }
-    text = (
-        'string scene = "parts";\ninclude "case/flags.idp"\ninclude "case/output.idp"\ninclude "case/case-flags.idp"\n'
-    )
+    text = 'string scene = "parts";\ninclude "case/flags.idp"\n'
+    text += 'include "case/output.idp"\ninclude "options/parts/case-flags.idp"\n'
     text += "".join(f'cout << "name " << nameOfFile("{name}") << endl;\n' for name in names)
     lines = snippet(tmp_path, text).splitlines()
     assert [line[5:] for line in lines if line.startswith("name ")] == list(names.values())
@@ -641,6 +640,13 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
 
 
 @pytest.mark.long
+def test_contact_lost_in_rounding(tmp_path):
+    """A gap and a motion beside which the layer is nothing shall not pass for bodies that do not touch."""
+    out = tmp_path / "out"
+    lost = run_in(ROOT, "edp/main.edp", "-h", 2, "-gap", 1e16, "-u0", 1e16, "-vtu", 0, out=out, expect=20)
+    assert "lost in the rounding of -gap" in lost.message
+
+
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
 def test_dockerfile(tmp_path):
     """In a bare Debian the Dockerfile's commands shall set all up, and `make run` run, on two processes too."""

@@ -12,8 +12,7 @@ from freefem import ROOT, run, scene_text, snippet, told
 THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 DISC, SPHERE = "disc-on-block", "sphere-on-block"
 COMPLIANCE = """
-setUpKernel();
-setUpProblem();
+setUpContact();
 int[int] all(points);
 for (int i = 0; i < points; i++) all[i] = i;
 real[int,int] half(0, 0);

@@ -214,13 +214,12 @@ def test_load_series_goes_on(tmp_path):
     assert (np.diff(rows["force"]) >= 0).all()
     # as if it had been interrupted after the third step
     state = (tmp_path / "whole" / "series.state").read_text().splitlines()
-    again = tmp_path / "again"
-    again.mkdir()
     points = whole.summary["points"]
     short = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 3, "-vtu", 0]
     shorter = run_in(".", script("disc-on-block"), *short, out=tmp_path / "half")
     assert shorter.summary["points"] == points
-    half = (tmp_path / "half" / "series.state").read_text().splitlines()
+    again = tmp_path / "half"
+    half = (again / "series.state").read_text().splitlines()
     # only the form of that state is borrowed: its identity, and the rows, are those of the whole run
     body = half[1:]
     forces = body[-points:]

@@ -20,6 +20,8 @@ if test -z "$cache"; then
     done
     test -n "$cache" || exit 0
 fi
-mkdir -p "$cache/meshes" 2> /dev/null && test -e "$cache/meshes/.shared" || (: > "$cache/meshes/.shared") 2> /dev/null
+# a folder of that name that was there before is not ours to be cleaned
+mkdir -p "$cache" 2> /dev/null
+mkdir "$cache/meshes" 2> /dev/null && (: > "$cache/meshes/.shared") 2> /dev/null
 printf '%s\n' "$cache"
 exit $code

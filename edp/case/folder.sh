@@ -85,7 +85,7 @@ check)
     new=${folder#"$there"}
     case /$new/ in */../*) new=;; esac
     try=$there/.try-$(uname -n)-$run
-    rm -rf "$try"
+    rm -rf "$try" 2> /dev/null
     mkdir "$try" 2> /dev/null || exit 4
     mkdir -p "$try/$new" 2> /dev/null
     code=$?

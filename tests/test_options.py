@@ -1,0 +1,144 @@
+"""edp/options/: what a scene reads on request, what the others say of it, and that the core names none of it."""
+
+import json
+import re
+
+import pages
+import pytest
+from freefem import ROOT, run, run_in, snippet
+from test_contracts import EDP, MODULES, owners, part, uses
+
+LIST = (EDP / "case/hooks.idp").read_text()
+OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
+OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
+SCRIPTS = pages.scripts()
+
+
+def option_of(name):
+    """The option that a module belongs to; the list of them belongs to the core."""
+    return name.split("/")[1] if re.match(r"options/\w+/", name) else ""
+
+
+def flags_of(name):
+    """The flags that a source declares."""
+    return set(re.findall(r'\b(?:number|count|word|text)Flag\("(-[\w-]+)"', (EDP / name).read_text()))
+
+
+def beside(option):
+    """The options whose names an option may use: those in the Needs of its files."""
+    needs = " ".join(part(name, "Needs") for name in MODULES if option_of(name) == option)
+    return set(re.findall(r"\boptions/(\w+)/", needs)) - {option}
+
+
+def test_list():
+    """The list shall have each option that has flags, and the scenes that read it if not all do."""
+    entries = {name: scenes for name, _, scenes in OFFERS}
+    assert entries.keys() <= set(OPTIONS)
+    for name, scenes in entries.items():
+        found = {scene for scene, path in SCRIPTS.items() if name in pages.reads(path)}
+        assert set(scenes.split(", ")) == found or scenes == f"scenes that read the option {name}"
+    elsewhere = {flag for name in [*MODULES, *SCRIPTS.values()] for flag in flags_of(name) if not option_of(name)}
+    for name in filter(option_of, MODULES):
+        offered = {word for option, words, _ in OFFERS if option == option_of(name) for word in words.split(", ")}
+        assert flags_of(name) <= offered | elsewhere, name
+
+
+def test_core_names_no_option():
+    """What options declare, and their files, shall be named by what reads them alone."""
+    wrong = []
+    for name in [*MODULES, *SCRIPTS.values()]:
+        own = pages.reads(name) if name.endswith(".edp") else {option_of(name)}
+        own |= {other for option in own if option for other in beside(option)} | {""}
+        for word in uses(name):
+            if not own & set(map(option_of, owners()[word])):
+                wrong.append(f"{name}: {word} of {', '.join(owners()[word])}")
+        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "case/hooks.idp" else []
+        wrong += [f"{name}: options/{option}/" for option in texts if option not in own | {option_of(name)}]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_no_option_needs_itself():
+    """Options that use each other's names shall do so in one direction."""
+    reached = {option: beside(option) for option in OPTIONS}
+    for _ in OPTIONS:
+        reached = {option: near.union(*(reached[other] for other in near)) for option, near in reached.items()}
+    assert not [option for option in OPTIONS if option in reached[option]]
+
+
+def test_hooks():
+    """The macros of options shall be hooks that there are; each hook is in the list."""
+    texts = [(EDP / name).read_text() for name in MODULES]
+    hooks = {"Laws"}.union(*(re.findall(r"^\s*optionHook\((\w+)\)", text, flags=re.M) for text in texts))
+    listed = set(re.findall(r"\b[A-Z]\w+\b", "".join(re.findall(r"^//   .*\n", LIST, flags=re.M))))
+    wrong = [f"case/hooks.idp: {hook} is not in the list" for hook in sorted(hooks - listed)]
+    for option in OPTIONS:
+        text = (EDP / f"options/{option}/{option}.idp").read_text()
+        own = set(re.findall(rf"^macro {option}([A-Z]\w*)\(", text, flags=re.M))
+        wrong += [f"{option}{hook}: there is no such hook" for hook in sorted(own - hooks)]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_not_read(tmp_path):
+    """A scene without an option shall load nothing of it, and refuse its words, naming the scenes that read it."""
+    assert not any(module.startswith("options/attraction") for module in run("disc-on-block").modules)
+    table = tmp_path / "falls.csv"
+    table.write_text("0,0\n1,-2\n2,1\n3,4\n")
+    scenes = dict((name, scenes) for name, _, scenes in OFFERS)["attraction"]
+    for flags, said in (
+        (["-path", "0 1"], "-path 0 1"),
+        (["-law", "lennard-jones"], "-law lennard-jones"),
+        (["-law", "table", "-table", table], f"-table {table}, whose pressures fall"),
+    ):
+        done = run_in(ROOT, "edp/main.edp", *flags, out=tmp_path / "out", expect=10)
+        assert done.stdout == f"{said}: not read by this scene; allowed in: {scenes}\n"
+    assert not (tmp_path / "out").exists()
+
+
+SECOND = """
+macro secondLaws(do) do(springs) //
+macro secondLawFiles() include "options/second/springs.idp" //
+macro secondSolver() real second = numberFlag("-second", 2, "", "of the second option", 0, 9); //
+macro secondBeforeSolving() second *= 10; //
+macro secondSummary() put("second", second) //
+"""
+SPRINGS = """
+func int springsPressure(real[int] & s, real[int] & p, real[int] & slope)
+{
+    for (int i = 0; i < s.n; i++) p[i] = max(100 * s[i], 0.);
+    for (int i = 0; i < s.n; i++) slope[i] = s[i] > 0 ? 100. : 0.;
+    return 0;
+}
+func int springsInverse(real[int] & p, real[int] & s)
+{
+    for (int i = 0; i < s.n; i++) s[i] = 0.01 * p[i];
+    return 0;
+}
+func int springsPotential(real[int] & s, real[int] & W)
+{
+    for (int i = 0; i < s.n; i++) W[i] = 50 * max(s[i], 0.)^2;
+    return 0;
+}
+"""
+
+
+@pytest.mark.parametrize("options", ["do(second, what)", "do(attraction, what) do(second, what)"])
+def test_side_by_side(tmp_path, options):
+    """An option shall need no more than its folder and the scene's line, alone and beside another one."""
+    folder = tmp_path / "options/second"
+    folder.mkdir(parents=True)
+    (folder / "second.idp").write_text(SECOND)
+    (folder / "springs.idp").write_text(SPRINGS)
+    text = pages.EACH.sub(f"macro eachOption(do, what) {options} //", (EDP / "main.edp").read_text())
+    words = ["-h", 5, "-second", 3, "-law", "springs", "-out", tmp_path / "out"]
+    path = ["-path", "1 2", "-steps", 1] if "attraction" in options else []
+    snippet(tmp_path, text, *words, *path)
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    assert summary["second"] == 30 and summary["parameters"]["law"] == "springs"
+    assert ("pullOff" in summary) == bool(path)
+
+
+def test_meshes_want_estimates(tmp_path):
+    """A scene that reads new meshes without estimates before them shall be refused in one line."""
+    text = pages.EACH.sub("macro eachOption(do, what) do(meshes, what) //", (EDP / "main.edp").read_text())
+    said = snippet(tmp_path, text, expect=10)
+    assert said.startswith("eachOption: meshes: ") and len(said.splitlines()) == 1
