@@ -67,15 +67,16 @@ class Bodies:
 
     @property
     def greatest(self) -> float:
-        """The greatest pressure; ResultsError without contact."""
-        greatest = self.table["pressure"].max()
+        """The greatest pressure or pull; ResultsError without contact."""
+        greatest = np.abs(self.table["pressure"]).max()
         if not greatest > 0:
             raise ResultsError(self.run.path / "contact.csv", "no point is in contact")
         return greatest
 
     def touching(self, contact: int | None = None) -> np.ndarray:
-        """Which points carry a pressure (p,) bool, of one contact or of all."""
-        carries = self.table["pressure"] > TOUCHING * self.table["pressure"].max()
+        """Which points press or pull (p,) bool, of one contact or of all."""
+        strength = np.abs(self.table["pressure"])
+        carries = strength > TOUCHING * strength.max()
         return carries if contact is None else carries & (self.table["contact"] == contact)
 
 
@@ -224,8 +225,8 @@ def stand_pressure(axes, bodies: Bodies, height: float) -> None:
     """The pressure on the contacts' surfaces: as high as `height` (length) where it is greatest; rigid obstacles."""
     scale = height / bodies.greatest
     for chain in chains(bodies):
-        foot, top = chain.place, chain.place + scale * np.maximum(chain.pressure, 0)[:, None] * chain.normal
-        carries = (chain.pressure[:-1] > 0) | (chain.pressure[1:] > 0)
+        foot, top = chain.place, chain.place + scale * chain.pressure[:, None] * chain.normal
+        carries = (chain.pressure[:-1] != 0) | (chain.pressure[1:] != 0)
         near = np.hypot(*np.diff(foot, axis=0).T) < 10 * np.median(np.hypot(*np.diff(foot, axis=0).T))
         walls = np.stack([foot[:-1], foot[1:], top[1:], top[:-1]], axis=1)[carries & near]
         axes.add_collection(PolyCollection(walls, facecolor=style.VERMILION, alpha=0.3, linewidth=0, zorder=4))
@@ -241,9 +242,9 @@ def stand_pressure(axes, bodies: Bodies, height: float) -> None:
 
 def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
     """The pressure over the arc length, a curve a contact, as far as they touch."""
-    seen, shown = set(), []
+    seen, shown, pulls = set(), [], False
     for chain in chains(bodies):
-        touched = chain.pressure > TOUCHING * bodies.greatest
+        touched = np.abs(chain.pressure) > TOUCHING * bodies.greatest
         if not touched.any():
             continue
         first = chain.contact not in seen
@@ -251,9 +252,13 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
         look = style.curve(chain.contact) | {"markersize": 2.2, "markeredgewidth": 0, "linewidth": 0.9}
         axes.plot(chain.along, chain.pressure, label=style.plain(chain.name) if first else None, **look)
         shown += [chain.along[touched].min(), chain.along[touched].max()]
+        pulls = pulls or chain.pressure[touched].min() < 0
     margin = 0.15 * (max(shown) - min(shown)) or 1.0
     axes.set_xlim(min(shown) - margin, max(shown) + margin)
-    axes.set_ylim(0, None)
+    if pulls:
+        axes.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
+    else:
+        axes.set_ylim(0, None)
     arc = "along" in bodies.table and not np.array_equal(bodies.table["along"], bodies.table["x"])
     words = "arc length" if arc else "$x$"
     axes.set_xlabel(f"{words} [{units.length}]")
@@ -327,15 +332,17 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units, top: fl
     """The pressure on one contact's surface, seen along the mean of the normals where it presses."""
     surface, count = bodies.surface, len(bodies.points)
     touched = bodies.touching(contact)
-    loads = bodies.table["weight"] * bodies.table["pressure"] * touched
+    loads = bodies.table["weight"] * np.abs(bodies.table["pressure"]) * touched
     view, words = facing(loads @ bodies.normals)
     cells = surface.cells[surface.contact == contact]
     seen = (surface.points + bodies.scale * surface.move) @ view.T
     centre = loads @ seen[:count] / loads.sum()
     half = 1.25 * np.abs(seen[:count][touched] - centre)[:, :2].max(axis=0).max()
     mesh = Triangulation(seen[:, 0], seen[:, 1], cells)
-    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "vmax": top, "rasterized": True}
-    colours = axes.tripcolor(mesh, np.maximum(surface.pressure, 0), **look)
+    scale = {"cmap": "viridis", "vmin": 0, "vmax": top}
+    if bodies.table["pressure"][touched].min() < 0:
+        scale = {"cmap": "RdBu_r", "vmin": -top, "vmax": top}
+    colours = axes.tripcolor(mesh, surface.pressure, shading="gouraud", rasterized=True, **scale)
     axes.set_aspect("equal")
     for limits, middle, low, high in (
         (axes.set_xlim, centre[0], seen[cells, 0].min(), seen[cells, 0].max()),

@@ -88,6 +88,15 @@ def test_pressure_of_a_case(case):
     assert len(run.summary["units"]) == 2
 
 
+def test_pull_is_drawn(tmp_path):
+    """Attraction shall be drawn as a pull: the curve goes down to the least pressure, on the axes."""
+    adhesive = run_in(ROOT, script("adhesive-sphere"), "-order", 1, out=tmp_path / "run")
+    least = adhesive.contact["pressure"].min()
+    assert adhesive.force < 0 and least < 0
+    axes = figure(state, adhesive.folder).axes[-1]
+    assert min(np.min(line.get_ydata()) for line in axes.lines) == least > axes.get_ylim()[0]
+
+
 def test_displacements_are_drawn_larger(case):
     """--scale shall draw the displacements larger."""
     once, twice = (bodies.read_bodies(read_run(case), scale) for scale in (1.0, 2.0))
