@@ -23,6 +23,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
 STORE = None  # the session's folder of runs: conftest.py
+PLUGIN_SAYS = " load : P4 "  # 4.13's plugin, before anything else, whatever the verbosity
 
 OPEN, LAW, WALL = 0, 1, 2
 SUMMARY_KEYS = set(
@@ -138,8 +139,7 @@ def execute(command, cwd=ROOT, env=None):
         stdin=subprocess.DEVNULL,
         timeout=TIMEOUT,
     )
-    # 4.13's plugin says its name before anything else, and no verbosity keeps it from it
-    return done.returncode, done.stdout.decode(errors="replace").replace(" load : P4 ", "", 1)
+    return done.returncode, done.stdout.decode(errors="replace").replace(PLUGIN_SAYS, "", 1)
 
 
 @functools.cache
