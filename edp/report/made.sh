@@ -1,7 +1,7 @@
 # made.sh: when a run was made and by what: sh made.sh RUN VERSION
 # Needs: RUN, the number of the run's process; VERSION, the file with the package's version.
-# Gives: three lines on standard output: the date, UTC (SOURCE_DATE_EPOCH if that is a number of seconds); the package's version; FreeFEM's as Debian's
-#        package has it, if FreeFem++ is that one: what it says itself may be another.
+# Gives: three lines on standard output: the date, UTC (SOURCE_DATE_EPOCH if that is a number of seconds); the package's version;
+#        FreeFEM's as Debian's package has it, if FreeFem++ is that one: what it says itself may be another.
 # Exit code: 0.
 form=+%Y-%m-%dT%H:%M:%SZ
 { test -n "$SOURCE_DATE_EPOCH" && date -u -d "@$SOURCE_DATE_EPOCH" "$form" 2> /dev/null; } || date -u "$form"
