@@ -146,8 +146,8 @@ def covered(scenes):
 
     while gain(best := max(groups(), key=gain)) > 1:
         out = groups()[best] - scenes
-        rest = next((group for group in groups() if groups()[group] == out), named(out))
-        said.append(f"*{best}*" + (f" but {rest}" if out else ""))
+        rest = next((f"*{group}*" for group in groups() if groups()[group] == out), named(out))
+        said.append(f"*{best}*" + (f" (but {rest})" if out else ""))
         left -= groups()[best]
     return ", ".join([*said, named(left)] if left else said)
 
