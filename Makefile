@@ -397,7 +397,7 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff format --check postprocess tests
 	@$(PYTHON) tests/lint_edp.py edp
 
-pages: $(VENV)/run.stamp | system ## write the tables of edp/README.md and edp/MANUAL.md from heads, -help and a few short runs
+pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
 	@$(PYTHON) tests/pages.py
 
 clean: ## remove results and generated meshes

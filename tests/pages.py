@@ -1,8 +1,8 @@
 """Writes what the pages say of the programs: `make pages`.
 
 The lines between `<!-- NAME: make pages -->` and `<!-- end -->` are tables: of the sources' first lines, of what -help
-prints, of what a few short runs leave in their files. Of keys and files a row's words are kept, and what they are of is
-written anew; a key that is in no row gets one without words.
+prints, of what a few short runs leave in their files, of a case file's grammar. What keys, columns and statements mean
+is kept, and what they are is written anew; one that is in no row gets one without meaning.
 """
 
 import json
@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
+PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
 
@@ -278,8 +279,8 @@ def where(key):
 
 
 def of_table(name):
-    """The rows of a table of the manual as it is: lists of cells."""
-    (text,) = [block[0] for block in BLOCK.finditer((EDP / "MANUAL.md").read_text()) if block[2] == name]
+    """The rows of a table as it is: lists of cells."""
+    (text,) = [block[0] for page in PAGES for block in BLOCK.finditer(page.read_text()) if block[2] == name]
     lines = [line for line in text.splitlines() if line.startswith("| ")]
     return [[cell.strip() for cell in line[1:-1].split("|")] for line in lines[1:]]
 
@@ -321,6 +322,25 @@ def columns():
     return "\n".join(rows) + "\n"
 
 
+def statements():
+    """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
+    reader = (EDP / "case/case-file.awk").read_text() + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
+
+    def usages(space):
+        environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}
+        command = ["awk", reader, "/dev/null", "/dev/null"]
+        said = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True).stdout
+        return dict(re.findall(r"^usage (\w+): (.*)$", said, re.M))
+
+    plane, space = usages("0"), usages("1")
+    meanings = {re.findall(r"\w+", row[0])[0]: row[1] for row in of_table("statements")}
+    rows = ["| statement | meaning |", "|---|---|"]
+    for word in [*(word for word in meanings if word in plane), *sorted(plane.keys() - meanings.keys())]:
+        other = f"; in space `{space[word]}`" if space[word] != plane[word] else ""
+        rows.append(f"| `{plane[word]}`{other} | {meanings.get(word, '')} |")
+    return "\n".join(rows) + "\n"
+
+
 TABLES = {
     "modules": lambda: table("module", sources(".idp")),
     "options": options,
@@ -328,6 +348,7 @@ TABLES = {
     "flags": flags,
     "summary": keys_of_summary,
     "columns": columns,
+    "statements": statements,
 }
 
 
@@ -338,7 +359,7 @@ def written(text):
 
 def stale():
     """The pages whose tables are not those of the sources: their new texts."""
-    texts = {page: page.read_text() for page in EDP.glob("*.md")}
+    texts = {page: page.read_text() for page in PAGES}
     return {page: new for page, text in texts.items() if (new := written(text)) != text}
 
 

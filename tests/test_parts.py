@@ -798,16 +798,6 @@ def test_space_in_the_plane(tmp_path):
     assert (code, why) == (0, "")
 
 
-def test_reference():
-    """The statements' page shall name every statement and law that the reader knows."""
-    page = (ROOT / "edp/case/README.md").read_text()
-    reader = (ROOT / "edp/case/case-file.awk").read_text()
-    for word in reader.split('statementNames = "')[1].split('"')[0].split(", "):
-        assert f"`{word} " in page, word
-    for word in reader.split('lawWords = "')[1].split('"')[0].split("|"):
-        assert word in page
-
-
 @pytest.mark.parametrize("load", ["move 0 -{}", "force 0 -{}"])
 def test_work_of_an_obstacle(tmp_path, load):
     """The energy's slope is the force on an obstacle that is moved, and minus the approach of one that is pushed."""
