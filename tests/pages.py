@@ -168,12 +168,19 @@ def several(values):
     return usual + (f" ({'; '.join(rest)})" if rest else "")
 
 
+@cache
+def declared():
+    """{flag: the folders of the files that declare it}."""
+    found = {}
+    for path in sorted(path for kind in ("idp", "edp") for path in EDP.rglob(f"*.{kind}") if "labs" not in path.parts):
+        for flag in FLAG.findall(path.read_text()):
+            found.setdefault(flag, []).append(path.relative_to(EDP).parts)
+    return found
+
+
 def section_of(flag):
     """Where the flag is declared, in words."""
-    paths = [path.relative_to(EDP) for kind in ("idp", "edp") for path in EDP.rglob(f"*.{kind}")]
-    places = [
-        path.parts for path in paths if flag in FLAG.findall((EDP / path).read_text()) and "labs" not in path.parts
-    ]
+    places = declared()[flag]
     found = [SECTIONS.get(parts[0], BODIES) for parts in places if parts[0] != "options"]
     return BODIES if BODIES in found else found[0] if found else f"option `{places[0][1]}`"
 
@@ -211,8 +218,8 @@ def flags():
             cells[0] += "".join(own) if "disc-on-block" in having else ""
             by = covered(set(having)) + (f"; `-method {', '.join(owners()[flag])}`" if flag in owners() else "")
             rows.append(f"| `{flag}` | " + " | ".join(cell.replace("|", "\\|") for cell in [*cells, by]) + " |")
-    words = [f"*{group}*: {named(inside)}" for group, inside in groups().items()]
-    return "\n".join(rows) + "\n\n" + "; ".join(line for line in words if not line.startswith("*all")) + ".\n"
+    words = [f"- *{group}*: {named(inside)}" for group, inside in groups().items() if not group.startswith("all")]
+    return "\n".join([*rows, "", *words]) + "\n"
 
 
 # ---------------------------------------------------------------- files
