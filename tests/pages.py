@@ -128,7 +128,7 @@ def groups():
     found["case"] = {"parts", "parts-3d"}
     found["in the plane"] = set(texts) - found["in space"]
     found["all"], found["all scenes"] = set(texts), set(texts) - found["case"]
-    return found
+    return {words: scenes for words, scenes in found.items() if scenes}
 
 
 def includes(script):

@@ -47,7 +47,7 @@ def sources():
 def modules():
     """{path: code without comments and macros} of the modules."""
     return {
-        path: re.sub(r"//.*", "", MACRO.sub(lambda m: "\n" * m[0].count("\n"), text))
+        path: re.sub(r"//.*|readTwin\(.*\)", "", MACRO.sub(lambda m: "\n" * m[0].count("\n"), text))
         for path, text in sources().items()
         if path.endswith(".idp")
     }
