@@ -76,7 +76,7 @@ contactLength = pointX.max - pointX.min;
 """
 
 MOTIONS = """
-addMotions(MOTIONS);
+for (int k = 0; k < MOTIONS; k++) addMotion("motion " + k);
 readAll("field");
 for (int k = 0; k < motions; k++) for (int i = 0; i < ndof; i++) motionField(i, k) = read[i * motions + k];
 readInto(motionTarget)

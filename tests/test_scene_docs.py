@@ -69,6 +69,8 @@ def included(name, space=None):
     other = "!threeDimensional" if space else "threeDimensional"
     text = re.sub(rf"^ *IFMACRO\({other}\)\n.*?^ *ENDIFMACRO\n", "", text, flags=re.M | re.S)
     inner = re.findall(r'^include "(main\.edp|scenes/\S+|blocks/\S+)"', text, re.M)
+    twin = "space" if space else "plane"
+    inner += [f"{name}-{twin}.idp" for name in re.findall(r"^readTwin\((blocks/\S+)\)", text, re.M)]
     return text + "".join(included(file, space) for file in inner)
 
 
@@ -77,7 +79,7 @@ def boundaries(scene):
     text = included(script(scene.removesuffix("-ipopt")).removeprefix("edp/"))
     geos = re.findall(r'gmshMesh\("([\w-]+)"', text)
     if not geos:
-        mesh = text.partition("runStart = clock();")[2]
+        mesh = text.partition("startClock();")[2]
         return set(re.findall(r"^int (\w+) = \d+; *(?://.*)?$", mesh, re.M)) - {"block", "lower", "upper"}
     space = "macro threeDimensional()" in text
     far = re.search(r"^macro fineContact\b", text, re.M) is not None
