@@ -340,6 +340,7 @@ stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffnes
 
 coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
+	@$(PYTHON) tests/campaigns/foreign.py
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
