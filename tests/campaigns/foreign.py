@@ -274,7 +274,8 @@ def statistics(rows: list[dict]) -> list[str]:
     either = [row for row in rows if row["covered"] or row["warned"]]
     silent = [row for row in rows if not row["covered"] and not row["warnings"]]
     finite = [row for row in rows if np.isfinite(row["error"])]
-    ratio = [row["said"] / max(row["error"], row["doubt"], 1e-300) for row in finite]
+    apart = [(row["said"], max(row["error"], row["doubt"]), abs(row["value"])) for row in finite]
+    ratio = [said / error for said, error, value in apart if error > 1e-12 * value]
     marked = [row for row in covered if row["warnings"]]
 
     def share(part, whole):

@@ -584,9 +584,8 @@ def two_bodies(name: str, random: Random) -> Part:
             ]
         else:
             knots = [sketch.point(x, 0, sizes[0] if x == 0 else max(sizes[0], 0.5)) for x in (wide, 0, -wide)]
-        middle = len(knots) // 2
-        kind = "Spline" if wavy else "Line"
-        floor = [sketch.curve(kind, *knots[: middle + 1]), sketch.curve(kind, *knots[middle:])]
+        loops = [knots] if wavy else [knots[:2], knots[1:]]
+        floor = [sketch.curve("Spline" if wavy else "Line", *loop) for loop in loops]
         rest = [
             sketch.curve("Line", low[0], low[1]),
             sketch.curve("Line", low[1], knots[0]),
@@ -780,7 +779,9 @@ def punch(name: str, random: Random) -> Part:
 
     mirror = "" if state == "axisymmetric" else "symmetry axis\nsymmetry tool-axis\n"
     case = f"state {state}\n{body('block', E1, nu1)}{body('tool', E2, nu2)}clamp base\n{mirror}contact top end\n"
-    return Part(name, geo, f"{case}force cap 0 {-force:.9g}\n", {"contacts.0.pressureMax": INFINITE}, ("singular",))
+    return Part(
+        name, geo, f"{case}force cap 0 {-force:.9g}\n", {"contacts.0.pressureMax": INFINITE}, ("singular", "gap")
+    )
 
 
 # ---------------------------------------------------------------- space
