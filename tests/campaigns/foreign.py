@@ -88,14 +88,18 @@ def jobs_of(part: Part, seed: int) -> list[Job]:
 
 
 def truths_of(part: Part) -> dict[str, Job]:
-    """fine and middle; linear: as middle with the gaps and the rotation of the engineer's run."""
+    """fine and middle; linear: as middle with the gaps and the rotation of the engineer's run; smooth: as that itself.
+
+    The last two say what a false number is false by.
+    """
+    found = {} if part.space else {"smooth": Job(part, Draw(order=2, named=True, smooth=True))}
     if not part.fine:
-        return {}
+        return found
     degree = ("-order", "2" if part.space else "4", "-tol", "1e-8")
     draw = Draw(part.fine, 2, not part.space, smooth=True, turned=True)
     middle = replace(draw, factor=part.fine * COARSER)
     exact = (*degree, "-distance", "exact")
-    found = {"fine": Job(part, draw, exact, turned=True), "middle": Job(part, middle, exact, turned=True)}
+    found |= {"fine": Job(part, draw, exact, turned=True), "middle": Job(part, middle, exact, turned=True)}
     if {"gap", "rotation"} & set(part.causes):
         found["linear"] = Job(part, replace(middle, turned=False), degree)
     return found
@@ -229,7 +233,7 @@ def warned(name: str, value: float, error: float, record: dict) -> tuple[bool, l
 def judged(part: Part, record: dict, known: dict[str, dict]) -> list[dict]:
     """A row a number that has a ± and a truth."""
     found = []
-    truth, middle, linear = truth_of(part, known), known.get("middle", {}), known.get("linear", {})
+    truth = truth_of(part, known)
     for name, (value, said) in record["numbers"].items():
         if said is None or name not in truth:
             continue
@@ -244,15 +248,15 @@ def judged(part: Part, record: dict, known: dict[str, dict]) -> list[dict]:
         row["covered"] = (error <= said) if sure else None
         row["cause"] = ""
         if row["covered"] is False:
-            both = [each.get("numbers", {}).get(name) for each in (middle, linear)]
-            model = abs(both[0][0] - both[1][0]) if all(both) else np.nan
-            row["cause"] = cause(part, row, model)
+            other = [known.get(which, {}).get("numbers", {}).get(name) for which in ("middle", "linear", "smooth")]
+            middle, linear, smooth = (each[0] if each else np.nan for each in other)
+            row["cause"] = cause(part, row, abs(middle - linear), abs(value - smooth))
         found.append(row)
     return found
 
 
-def cause(part: Part, row: dict, model: float) -> str:
-    """What a false number is false by: measured for gap and rotation, for the others what the part is made to show."""
+def cause(part: Part, row: dict, model: float, shape: float) -> str:
+    """What a false number is false by: where that is measured by half of it at least, else what the part shall show."""
     most = 0.5 * row["error"]
     if np.isinf(row["error"]) or "tip" in part.causes:
         return "singular"
@@ -260,12 +264,14 @@ def cause(part: Part, row: dict, model: float) -> str:
         return "rotation"
     if "exact" not in row["flags"] and model > most:
         return "gap"
+    if "shape" in part.causes and (np.isnan(shape) or shape > most):
+        return "shape"
     local = row["number"].endswith(("pressureMax", "contactLength"))
     if local and "singular" in part.causes:
         return "singular"
-    if local and "master" in part.causes:
-        return "master's mesh"
-    return "shape" if "shape" in part.causes else "other"
+    if local and "axis" in part.causes:
+        return "node on the axis"
+    return "master's mesh" if local and "master" in part.causes else "other"
 
 
 def statistics(rows: list[dict]) -> list[str]:

@@ -606,6 +606,8 @@ def two_bodies(name: str, random: Random) -> Part:
 
     pair = random.permutation(["floor", "nose"])
     load = 10 ** random.uniform(-3, -1.7)
+    if name.startswith("coarse master"):  # and gaps small enough to be linear
+        pair, ratio, load, E2 = ["nose", "floor"], 1 / random.uniform(4, 12), 0.01 * random.uniform(0.3, 1), E1
     grip = f"move grip 0 {-load * b:.9g}" if random.random() < 0.5 else f"force grip 0 {-load * min(E1, E2) * b:.9g}"
     case = f"{body('block', E1, nu1)}{body('head', E2, nu2)}clamp base\n"
     return Part(
@@ -950,6 +952,7 @@ FAMILIES: dict[str, tuple[Callable[[str, Random], Part], int]] = {
     "hole": (hole, 3),
     "head": (two_bodies, 4),
     "wavy": (two_bodies, 2),
+    "coarse master": (two_bodies, 2),
     "squeezed": (squeezed, 2),
     "o-ring": (squeezed, 2),
     "polygon": (polygon, 3),
