@@ -162,15 +162,16 @@ def solve(job: Job, sources: Path, processes: campaign.Processes) -> dict:
 
 
 class Store:
-    """Records by key, in a file; those of `keys` alone are kept, if given."""
+    """Records by key, in a file: those of other sources are forgotten."""
 
-    def __init__(self, path: Path):
-        self.path, self.lock = path, threading.Lock()
-        self.records = json.loads(path.read_text()) if path.exists() else {}
+    def __init__(self, path: Path, sources: str = ""):
+        self.path, self.lock, self.sources = path, threading.Lock(), sources
+        old = json.loads(path.read_text()) if path.exists() else {}
+        self.records = {key: record for key, record in old.items() if record.get("sources", "") == sources}
 
     def keep(self, key: str, record: dict) -> None:
         with self.lock:
-            self.records[key] = record
+            self.records[key] = record | {"sources": self.sources}
             self.path.parent.mkdir(parents=True, exist_ok=True)
             part = self.path.with_suffix(".part")
             part.write_text(json.dumps(self.records, indent=0))
@@ -356,7 +357,7 @@ def measured(chosen: list[Part], seed: int, jobs: int = 1, folder: Path = FOLDER
     """Rows of all numbers, and the records of all runs."""
     with campaign.frozen_sources(campaign.ROOT) as sources:
         digest = campaign.sources_digest(sources)
-        runs, truths = Store(folder / "foreign.json"), Store(folder / "truths.json")
+        runs, truths = Store(folder / "foreign.json", digest), Store(folder / "truths.json")
         wanted = {part.name: [(job.key(digest), job) for job in jobs_of(part, seed)] for part in chosen}
         exact = {part.name: {which: (job.key(), job) for which, job in truths_of(part).items()} for part in chosen}
         if anew:
