@@ -338,8 +338,9 @@ stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffnes
 	@$(PYTHON) tests/campaigns/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
 
-coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
+coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
+	@$(PYTHON) tests/campaigns/foreign.py
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
