@@ -23,7 +23,7 @@ def code(text):
     """The text without comments, strings and the bodies of macros."""
     text = re.sub(r'"(\\.|[^"\\\n])*"', '""', text)
     text = re.sub(r"^[ \t]*macro [\s\S]*?//.*$", "", text, flags=re.M)
-    return re.sub(r"//.*", "", text)
+    return re.sub(r"//.*|readTwin\(.*\)", "", text)
 
 
 @cache
