@@ -165,7 +165,10 @@ def uses(name):
 
 def includes(name):
     """The sources that a source includes, or has a macro include; what `make mpi` writes is not there."""
-    found = re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', (EDP / name).read_text(), flags=re.M)
+    text = (EDP / name).read_text()
+    found = re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', text, flags=re.M)
+    twins = re.findall(r"^twin\((.+)\)$", text, flags=re.M)
+    found += [f"{twin}-{end}.idp" for twin in twins for end in ("plane", "space")]
     return [inner for inner in found if (EDP / inner).exists()]
 
 
