@@ -1,8 +1,7 @@
-"""A case of two bodies on meshes that are not what they should be: refused in one line or solved rightly, never a crash."""
+"""A case on meshes that are not what they should be: refused in one line or solved rightly, never a crash."""
 
 import os
 import resource
-import shutil
 import subprocess
 import time
 from pathlib import Path
@@ -270,7 +269,8 @@ def joined(mesh):
         groups[:] = ["lower"]
 
 
-# what is done to the mesh, or (edited, line) to its text; SAME: the untouched mesh's force, or another one; or words of the refusal
+# what is done to the mesh, or (edited, line) to its text; SAME: the untouched mesh's force, or another one; or words of
+# the refusal
 SAME, SOLVED = "the same force", "a force"
 MESHES = {
     # elements
@@ -337,7 +337,10 @@ MESHES = {
     "comma decimals": (lambda mesh: mesh.text(coordinate=lambda v: repr(v).replace(".", ",")), ["is no number"]),
     "coordinate missing": (line(3, "3 0.5 0"), ["node 3", "2 coordinates"]),
     "off the plane": (lambda mesh: mesh.nodes.update({5: (*mesh.nodes[5][:2], 0.1)}), ["z goes from 0 to 0.1"]),
-    "plane z = 1": (lambda mesh: mesh.nodes.update({i: (x, y, 1.0) for i, (x, y, _) in mesh.nodes.items()}), ["z = 0 everywhere"]),
+    "plane z = 1": (
+        lambda mesh: mesh.nodes.update({i: (x, y, 1.0) for i, (x, y, _) in mesh.nodes.items()}),
+        ["z = 0 everywhere"],
+    ),
     "z of rounding": (lambda mesh: mesh.nodes.update({5: (*mesh.nodes[5][:2], 1e-13)}), SAME),
     "huge": (moved(1e12), 0.0),
     "tiny": (moved(1e-12), ["too small"]),
@@ -491,7 +494,7 @@ def test_hostile(name, tmp_path, untouched):
         return  # FreeFEM reads the same
     run = attempt(file, tmp_path)
     assert run.code == 0, run.stdout[-2000:]
-    assert run.summary["outOfBalance"] < 1e-9
+    assert run.summary["outOfBalance"] < (1e-9 if run.force else 1e-6)  # of the rounding of no force
     if expected == SOLVED:
         assert run.force > 0
     else:
