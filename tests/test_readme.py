@@ -128,7 +128,7 @@ def test_flags():
     known = set().union(*(help_table(scene) for scene in here))
     assert table.keys() <= known
     mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README + MANUAL + RESULTS)}
-    assert mentioned <= known | {"-help", "-nw", "-kapa", "-spring", "-damping", "-check"}
+    assert mentioned <= known | {"-help", "-nw", "-kapa", "-spring", "-damping", "-check", "-mesh"}
     laws = [quoted(name)[0] for name, *_ in rows(section(MANUAL, "Laws"))]
     for scene in here:
         methods = [name for name in METHODS if name != "ipopt" or scene == "disc-on-block-ipopt"]
