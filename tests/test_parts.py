@@ -796,6 +796,14 @@ def test_gap_is_refused(tmp_path, text, words):
     assert words in solve(tmp_path, stack(), case, expect=10).stdout
 
 
+def test_states_change_nothing(tmp_path):
+    """The pictures of the steps shall leave the steps as they are."""
+    plain, drawn = (
+        punch(tmp_path / f"{states}", "-method", "linesearch", "-order", 1, "-states", states) for states in (0, 1)
+    )
+    assert drawn.force == plain.force and drawn.newton == plain.newton
+
+
 def test_methods(tmp_path):
     """Every method of a scene's shall find the same pressures; with -steps some load only grazes."""
     for law, methods in (
