@@ -230,7 +230,8 @@ def flags():
 
 CASE = "edp/examples/{0}/{0}"
 RUNS = {  # a run of each kind
-    "plane": "scenes/hertz-line.edp -law power -d0 -0.25 -force 0 -u0 1 -method paper -order 1 -h 2 -steps 2 -states 1 -axis 1 -history 1",
+    "plane": "scenes/hertz-line.edp -law power -d0 -0.25 -force 0 -u0 1 -method paper -order 1 -h 2 -steps 2 -states 1"
+    " -axis 1 -history 1",
     "space": "scenes/sphere-on-block.edp -order 1 -h 2 -states 1",
     "two": "scenes/patch-test.edp",
     "two in space": "scenes/patch-test-3d.edp -lower 2 -upper 3",

@@ -27,7 +27,7 @@ from campaign import FREEFEM, ROOT, script_of, sources_digest
 TOLERANCE = 1e-9
 ESTIMATED = 1e-4  # of the estimates' own numbers: their dual is solved to a tolerance
 LEFT_OUT = {"seconds", "modules", "plugins", "costRatio", "out", "version", "freefem", "gmsh", "date", "given"}
-LEFT_OUT |= {"path", "branch", "control", "w", "eps0", "axis"}  # flags of an option: scenes that do not read it have none
+LEFT_OUT |= {"path", "branch", "control", "w", "eps0", "axis"}  # flags of options: of scenes that read them
 BELOW_TOL = {"residual", "algebra", "modelError"}
 MOMENTS = {"contactMoment", "reactionMoment", "masterMoment"}
 JOBS = 2
