@@ -31,18 +31,20 @@ test -d "$file" && no "a folder, no mesh"
 test -r "$file" || no "may not be read"
 how=
 : > "$folder/gmsh"
+order=
+every=
 case $file in *.geo)
     how=-$((2 + ${space:-0}))
-    # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name
-    every=
+    # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
     test "$space" != 0 || every=${0%/*}/every-curve.geo
+    order=${every:+-order 2}
     # kept as the package's own meshes are, if it stands for itself: what it includes may change unseen
     generated=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
     generated=${generated:+$generated/meshes}
     generated=${generated:-$meshes/generated}
     kept=$generated/own-$(cksum < "$file" | tr ' ' -)$how${every:+-curves}.msh
     if ! grep -qiE 'merge|include|shapefromfile' "$file" && mkdir -p "$generated" 2> /dev/null \
-        && AFTER=$every sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" -format msh22; then
+        && AFTER=$every sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22; then
         file=$kept
         sed -n '/^\$Comments/{n;s/^Gmsh //p;q;}' "$kept" > "$folder/gmsh"
         how=
@@ -52,7 +54,7 @@ esac
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
 if test -n "$how"; then
     command -v gmsh > /dev/null || no "not gmsh's version 2 text format, and gmsh, which would convert it, is not on the PATH"
-    gmsh "$how" -v 4 -format msh22 "$file" ${every:+"$every"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
+    gmsh "$how" $order -v 4 -format msh22 "$file" ${every:+"$every"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
     grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(sed -n 's/^Error *: *//p' "$folder/log" | head -n 1)"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
