@@ -8,7 +8,8 @@
 #        several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
 #        order, the place of its middle node, in space of three, each opposite a corner. In the plane the boundary is all of it:
 #        what no group of the table names is numbered one more than the groups, and CURVES has for each element of the boundary
-#        the number of the geometry's curve that it lies on, 0: the file has none. Exit code 0. Or one line that says what is
+#        the number of the geometry's curve that it lies on, 0: the file has none; with STRAIGHT no middles where all sides are
+#        straight. Exit code 0. Or one line that says what is
 #        wrong, and exit code 1.
 function measure(a, b, c, d) {
   # twice the area, six times the volume; reach: the square of its longest side from a
@@ -197,15 +198,21 @@ function addSide(p, q) {
 function addSides(   i) {
   for (i = 1; i <= elements; i++) { addSide(c1[i], c2[i]); addSide(c2[i], c3[i]); addSide(c3[i], c1[i]) }
 }
-# of all of the boundary, in the plane the triangles' own
-function knowMiddles(   j, where) {
+function bulges(p, q, m,   ax, ay, mx, my) {
+  ax = x[q] - x[p]; ay = y[q] - y[p]
+  mx = x[m] - (x[p] + x[q]) / 2; my = y[m] - (y[p] + y[q]) / 2
+  return mx * mx + my * my > 1e-16 * (ax * ax + ay * ay)
+}
+# of all of the boundary, in the plane the triangles' own; STRAIGHT: not of straight bodies
+function knowMiddles(   j, where, bent) {
   if (space) return curved == sides ? keptSides : 0
   for (j = 1; j <= keptSides; j++) {
     where = edgeKey(side[kept[j], 1], side[kept[j], 2])
     if (where in between) middle[kept[j], 1] = between[where]
     else if (!((kept[j], 1) in middle)) return 0
+    if (bulges(side[kept[j], 1], side[kept[j], 2], middle[kept[j], 1])) bent = 1
   }
-  return keptSides
+  return bent || !ENVIRON["STRAIGHT"] ? keptSides : 0
 }
 # two sides of one body in the same place, and no contact there: what is meant as one body would open
 function checkCracks(   s, n, w, where) {

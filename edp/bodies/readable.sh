@@ -70,7 +70,7 @@ if test -n "$case_"; then
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
     test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
     CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
-        awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
+        STRAIGHT=$every awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
     code=$?
     cat "$folder/regions" >> "$folder/case" 2> /dev/null
 else
