@@ -190,7 +190,7 @@ def test_unknown_group_is_refused(tmp_path):
     assert 'no physical group "contac"' in first
 
 
-# ---------------------------------------------------------------- discretisation/stiffness.idp
+# ---------------------------------------------------------------- discretisation/of-element.idp
 
 # the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
 BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]
@@ -506,7 +506,7 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     snippet(tmp_path, text, "-h", 5, "-vtu", 0, "-out", tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     loaded = {name for name in summary["modules"] if name.startswith(("laws/", "solve/methods", "kernel/"))}
-    assert loaded == {"laws/laws", "laws/one-law", "laws/power", "laws/signorini"} | {
+    assert loaded == {"laws/laws", "laws/power", "laws/signorini"} | {
         "solve/methods",
         "solve/methods/newton",
         "kernel/half-plane",
