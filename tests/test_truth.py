@@ -93,26 +93,19 @@ def rings_run(tmp_path_factory):
     return Told(tmp_path_factory.mktemp("rings"), rings(), RINGS)
 
 
-@false("circles of 8 sides are taken for 8 corners")
 def test_few_sides(rings_run):
     """Free circles of 8 sides."""
     rings_run.holds("contacts.0.force", LAME)
 
 
-@pytest.mark.parametrize(
-    "flags",
-    [
-        false("circles of 8 sides are taken for 8 corners", ["-order", 4], long=True),
-        false("new meshes rest on the first one's sides", ["-accuracy", 1e-3], long=True),
-    ],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("flags", [["-order", 4], ["-accuracy", 1e-3]])
 def test_few_sides_otherwise(go, flags):
     """The same with P4, and with new meshes."""
     go(rings(), RINGS, *flags).holds("contacts.0.force", LAME)
 
 
 @pytest.mark.long
-@false("quadratic sides that a case names are taken for exact")
 def test_quadratic_sides(go):
     """Sides through true middles are not the circle either."""
     go(rings(2), RINGS + "pressure rest 0\n", "-accuracy", 1e-3).holds("contacts.0.force", LAME)
@@ -121,7 +114,6 @@ def test_quadratic_sides(go):
 DISC_ON_PLANE = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
 
 
-@false("what the balance tells is thought known to rounding")
 def test_weight(go):
     """A polygon weighs less than the disc."""
     sketch = Sketch(Draw())
@@ -174,7 +166,6 @@ def tooth(z, cy, direction, root):
 
 
 @pytest.mark.long
-@false("the first mesh has one vertex in a fillet, and the new ones rest on it")
 def test_gear(go):
     """1884.5 by an independent code on the true outline."""
     lines = [*tooth(20, -50, np.pi / 2 - np.pi / 40, 1000), *tooth(30, 75, -np.pi / 2 - np.pi / 60, 2000)]
@@ -192,7 +183,6 @@ def test_gear(go):
 # ---------------------------------------------------------------- the warning of polygons
 
 
-@false("a boundary with a name that no statement has stays a polygon")
 def test_named_boundaries(go):
     """The cure that the warning words: a second-order mesh with these boundaries named."""
     told = go(rings(2, sides=24), RINGS)
@@ -200,7 +190,6 @@ def test_named_boundaries(go):
     told.holds("contacts.0.force", LAME)
 
 
-@false("a true kink is taken for a smooth boundary's side")
 def test_true_kinks(go):
     """A true polygon of 11 sides: nothing is cut off."""
     part = drawn("polygon 2")
