@@ -439,7 +439,6 @@ def test_cup(hip_run):
     hip_run.holds("contacts.0.contactLength", 11.8)
 
 
-@false("a coarse conforming contact alternates without a word")
 @pytest.mark.parametrize("name, truth", [("contactLength", 20.94), ("pressureMax", 8.72)])
 def test_conforming(ring_run, name, truth):
     """Two pieces of rings that touch all over: P2 with 5 elements on 8."""
