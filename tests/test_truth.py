@@ -430,7 +430,7 @@ def test_ball(go):
     told = go(sketch.text(), f"{case}weight ball 0 {-density:.15g}\n")
     radius = (3 * 50 * 10 * (1 - 0.09) / (4 * 1000)) ** (1 / 3)
     told.holds("contacts.0.contactLength", radius)
-    told.holds("contacts.0.pressureMax", 48.79)  # of a mesh 2.5 times as fine, P4; Hertz without the ball's depth: 48.89
+    told.holds("contacts.0.pressureMax", 48.79)  # P4, 2.5 times as fine; Hertz, of a half-space: 48.89
     assert told.summary["contacts"][0]["halfWidthMoment"] == pytest.approx(radius, rel=2e-3)
 
 
@@ -530,7 +530,7 @@ def test_pie(go):
 
 @pytest.mark.parametrize("sides", [60, 8])
 def test_coincident_nodes(go, sides):
-    """Many nodes in one place, and a kernel that is indefinite on few points: a press fit of 1e-7 between coarse circles."""
+    """Many nodes in one place; on few points an indefinite kernel: a press fit of 1e-7 between coarse circles."""
     sketch = Sketch(Draw())
     shaft, bore = sketch.oval(0, 0, 20 + 1e-7, 20 + 1e-7, 2, sides), sketch.oval(0, 0, 10, 10, 8, 7)
     hub, outside = sketch.oval(0, 0, 20, 20, 2, sides), sketch.oval(0, 0, 30, 30, 24, 5)
