@@ -9,7 +9,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, execute, flag_text
+from freefem import FREEFEM, ROOT, execute, flag_text
 
 # an ellipse, finer near (0, 5), turned by `turn` about its centre
 CAM = """
@@ -62,7 +62,8 @@ SetFactory("OpenCASCADE");
 Point(1) = {0, 0, 0}; Point(2) = {14, 0, 0}; Point(3) = {0, -14, 0};
 Circle(1) = {2, 1, 3}; Line(2) = {3, 1}; Line(3) = {1, 2}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
 Point(10) = {0, 0.1, 0}; Point(11) = {14.1, 0.1, 0}; Point(12) = {0, -14, 0}; Point(13) = {24, 0.1, 0};
-Point(14) = {0, -23.9, 0}; Circle(10) = {11, 10, 12}; Circle(11) = {13, 10, 14}; Line(12) = {12, 14}; Line(13) = {11, 13};
+Point(14) = {0, -23.9, 0}; Circle(10) = {11, 10, 12}; Circle(11) = {13, 10, 14};
+Line(12) = {12, 14}; Line(13) = {11, 13};
 Curve Loop(2) = {10, 12, -11, -13}; Plane Surface(2) = {2};
 Physical Surface("head") = {1}; Physical Surface("cup") = {2}; Physical Curve("head-surface") = {1};
 Physical Curve("grip") = {3}; Physical Curve("cup-bore") = {10}; Physical Curve("shell") = {11};
@@ -239,6 +240,14 @@ def test_motion_of_the_whole(said):
     assert np.hypot(*motion[:2]) < 0.001 and motion[2] == pytest.approx(0.02, rel=0.01)
 
 
+def test_rounds_leave_errors(said):
+    """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
+    folder = ROOT / "edp/examples/press-fit"
+    geo, case = (folder / "press-fit.geo").read_text(), (folder / "press-fit.case").read_text()
+    linear, exact = said(geo, case), said(geo, case, "-distance", "exact")
+    assert exact.known("force")[1] == pytest.approx(linear.known("force")[1], rel=0.1)
+
+
 @pytest.mark.long
 def test_turned_in_space(said):
     """A disc in space, turned about its axis."""
@@ -249,3 +258,6 @@ def test_turned_in_space(said):
         assert turned.holds("force", true) and not turned.warnings
         moved = true - turned.known("force")[0]
         assert turned.linear["changes"]["rim plane"] == pytest.approx(moved, rel=0.15)
+    # points that face nothing are no example for their neighbours
+    exact = said(WHEEL, case.format("clamp shaft"), "-distance", "exact", space=True)
+    assert exact.holds("force", true) and exact.known("force")[1] < 0.05 * true
