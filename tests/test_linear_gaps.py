@@ -240,6 +240,21 @@ def test_motion_of_the_whole(said):
     assert np.hypot(*motion[:2]) < 0.001 and motion[2] == pytest.approx(0.02, rel=0.01)
 
 
+def test_shaft_in_hub(said):
+    """A shaft that turns in its hub changes nothing: right when linear, and the true distance of a shaft that grows is not."""
+    geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()
+    geo += 'Physical Curve("bore") = {11:14}; Physical Curve("outside") = {41:44};\n'
+    case = "body inner E 210e3 nu 0.3\nbody outer E 210e3 nu 0.3\ncontact hub shaft\nclamp outside\n"
+    true = said(geo, case + "clamp bore\n").known("force")[0]
+    linear = said(geo, case + "rotate bore 0 0 0.02\n")
+    assert linear.holds("force", true) and linear.known("force")[1] < 0.003 * true and not linear.warnings
+    exact = said(geo, case + "rotate bore 0 0 0.02\n", "-distance", "exact")
+    value = exact.known("force")[0]
+    assert value > 2.5 * true and exact.holds("force", true)
+    assert exact.linear["changes"]["hub shaft"] == pytest.approx(true - value, rel=0.01)
+    assert "rotations are linearised" in exact.warnings[0]
+
+
 def test_rounds_leave_errors(said):
     """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
     folder = ROOT / "edp/examples/press-fit"
