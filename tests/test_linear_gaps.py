@@ -241,7 +241,7 @@ def test_motion_of_the_whole(said):
 
 
 def test_shaft_in_hub(said):
-    """A shaft that turns in its hub changes nothing: right when linear, and the true distance of a shaft that grows is not."""
+    """A shaft that turns in its hub changes nothing; with the true distance it grows by half the angle squared."""
     geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()
     geo += 'Physical Curve("bore") = {11:14}; Physical Curve("outside") = {41:44};\n'
     case = "body inner E 210e3 nu 0.3\nbody outer E 210e3 nu 0.3\ncontact hub shaft\nclamp outside\n"
