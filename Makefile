@@ -32,7 +32,7 @@ export CONTACT_CACHE := $(CACHE)
 export CONTACT_POSTPROCESS := $(PYTHON) -m postprocess
 endif
 
-SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
+SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(filter-out %/two-bodies.edp,$(wildcard edp/scenes/*.edp))))
 SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
 
@@ -338,8 +338,9 @@ stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffnes
 	@$(PYTHON) tests/campaigns/stability.py; code=$$?; \
 	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
 
-coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over all scenes of the plane, into results/coverage/
+coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
+	@$(PYTHON) tests/campaigns/foreign.py
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
@@ -397,7 +398,7 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff format --check postprocess tests
 	@$(PYTHON) tests/lint_edp.py edp
 
-pages: $(VENV)/run.stamp ## write the tables of edp/README.md from the heads of the sources
+pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
 	@$(PYTHON) tests/pages.py
 
 clean: ## remove results and generated meshes

@@ -1,16 +1,26 @@
-"""Writes what the pages say of the sources: `make pages`.
+"""Writes what the pages say of the programs: `make pages`.
 
-The lines between `<!-- NAME: make pages -->` and `<!-- end -->` are tables made from the first lines of the sources.
+The lines between `<!-- NAME: make pages -->` and `<!-- end -->` are tables: of the sources' first lines, of what -help
+prints, of what a few short runs leave in their files, of a case file's grammar. What keys, columns and statements mean
+is kept, and what they are is written anew; one that is in no row gets one without meaning.
 """
 
+import json
+import os
 import re
+import subprocess
 import sys
+import tempfile
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
+PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
 
@@ -46,6 +56,7 @@ def reads(script):
 def scripts():
     """{scene: its script}."""
     found = {path.stem: str(path.relative_to(EDP)) for path in sorted(EDP.glob("scenes/*.edp"))}
+    del found["two-bodies"]  # a script that says what became of it
     found["disc-on-block-ipopt"] = "scenes/ipopt/disc-on-block.edp"
     return {"disc-on-block": "main.edp", **found, "parts": "parts.edp", "parts-3d": "parts-3d.edp"}
 
@@ -62,10 +73,290 @@ def options():
     return "\n".join(rows) + "\n"
 
 
+# ---------------------------------------------------------------- flags
+
+BODIES, SCHEME = "bodies and load", "method, discretisation, results"
+SECTIONS = {"scenes": BODIES, "blocks": BODIES, "surface": BODIES, "laws": "law"}
+SECTIONS |= dict.fromkeys(("case", "solve", "operator"), SCHEME)
+FLAG = re.compile(r'(?:number|count|word|text)Flag\("(-[\w-]+)"')
+
+
+def freefem(script, *flags):
+    """What a script of edp/ prints."""
+    command = ["FreeFem++", "-nw", "-v", "0", f"edp/{script}", *flags]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(command)}: {done.stdout}")
+    return done.stdout
+
+
+def told(script, *flags):
+    """{flag: (default, unit, meaning, allowed)} as -help prints them beside other flags."""
+    found = {}
+    for line in freefem(script, *flags, "-help").splitlines():
+        if line.startswith("-"):
+            name, default = line.split()[:2]
+            late = max(len(default) - 14, 0)
+            meaning = line[54 + late :]
+            depth, opens = 0, len(meaning)  # what is allowed stands in the last parentheses, with others in them
+            while depth or opens == len(meaning):
+                opens -= 1
+                depth += (meaning[opens] == ")") - (meaning[opens] == "(")
+            default = "results/SCENE/METHOD" if name == "-out" else default
+            found[name] = default, line[32 + late : 54 + late].strip(), meaning[:opens].strip(), meaning[opens + 1 : -1]
+    return found
+
+
+@cache
+def helps():
+    """{scene: what -help prints}, {method: the same of the paper's test}; IPOPT's scene wants a plugin."""
+    scenes = {scene: script for scene, script in scripts().items() if "ipopt" not in scene}
+    methods = told("main.edp")["-method"][3].removeprefix("one of: ").split()
+    with ThreadPoolExecutor(2) as pool:
+        of_scenes = pool.map(told, scenes.values())
+        of_methods = pool.map(lambda method: told("main.edp", "-method", method), methods)
+        return dict(zip(scenes, of_scenes, strict=True)), dict(zip(methods, of_methods, strict=True))
+
+
+@cache
+def groups():
+    """{words: scenes that have them in common}."""
+    texts = {scene: includes(script) for scene, script in scripts().items() if "ipopt" not in scene}
+    marks = {"in space": "macro threeDimensional()", "two bodies": "macro deformableMaster()"}
+    marks |= {"block": "blocks/block-flags.idp", "attracting": "do(attraction, what)"}
+    found = {words: {scene for scene in texts if mark in texts[scene]} for words, mark in marks.items()}
+    found["case"] = {"parts", "parts-3d"}
+    found["in the plane"] = set(texts) - found["in space"]
+    found["all"], found["all scenes"] = set(texts), set(texts) - found["case"]
+    return {words: scenes for words, scenes in found.items() if scenes}
+
+
+def includes(script):
+    """The text of a script and of those that it includes."""
+    text = (EDP / script).read_text()
+    inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
+    return text + "".join(map(includes, inner))
+
+
+def covered(scenes):
+    """The scenes in words: groups, also without some of theirs, that lie among them, then those that are left."""
+    left, said = set(scenes), []
+
+    def gain(group):
+        return len(groups()[group] & left) - len(groups()[group] - scenes)
+
+    while gain(best := max(groups(), key=gain)) > 1:
+        out = groups()[best] - scenes
+        rest = next((f"*{group}*" for group in groups() if groups()[group] == out), named(out))
+        said.append(f"*{best}*" + (f" (but {rest})" if out else ""))
+        left -= groups()[best]
+    return ", ".join([*said, named(left)] if left else said)
+
+
+def named(scenes):
+    return ", ".join(f"`{scene}`" for scene in helps()[0] if scene in scenes)
+
+
+def several(values):
+    """What most scenes have, the paper's test first, and behind it what the others have."""
+    usual = values.get("disc-on-block", Counter(values.values()).most_common(1)[0][0])
+    others = {}
+    for scene, value in values.items():
+        if value != usual:
+            others.setdefault(value, set()).add(scene)
+    rest = [f"{value or 'none'}: {covered(scenes)}" for value, scenes in others.items()]
+    return usual + (f" ({'; '.join(rest)})" if rest else "")
+
+
+@cache
+def declared():
+    """{flag: the folders of the files that declare it}."""
+    found = {}
+    for path in sorted(path for kind in ("idp", "edp") for path in EDP.rglob(f"*.{kind}") if "labs" not in path.parts):
+        for flag in FLAG.findall(path.read_text()):
+            found.setdefault(flag, []).append(path.relative_to(EDP).parts)
+    return found
+
+
+def section_of(flag):
+    """Where the flag is declared, in words."""
+    places = declared()[flag]
+    found = [SECTIONS.get(parts[0], BODIES) for parts in places if parts[0] != "options"]
+    return BODIES if BODIES in found else found[0] if found else f"option `{places[0][1]}`"
+
+
+def owners():
+    """{flag: the methods that have it}, of flags that not all methods have."""
+    methods = helps()[1]
+    flags = dict.fromkeys(flag for method in methods for flag in methods[method])
+    found = {flag: [method for method in methods if flag in methods[method]] for flag in flags}
+    return {flag: having for flag, having in found.items() if len(having) < len(methods)}
+
+
+def flags():
+    """A row a flag: default, unit, meaning, what is allowed, the scenes that read it; sections as declared."""
+    scenes, methods = helps()
+    every = list(dict.fromkeys(flag for told in (*scenes.values(), *methods.values()) for flag in told))
+    sections = {}
+    for flag in every:
+        sections.setdefault(section_of(flag), []).append(flag)
+    order = [BODIES, "law", SCHEME]
+    rows = ["| flag | default | unit | meaning | allowed | read by |", "|---|---|---|---|---|---|"]
+    for section in [*order, *sorted(sections.keys() - set(order))]:
+        rows.append(f"| **{section}** | | | | | |")
+        for flag in sections[section]:
+            having = {scene: told[flag] for scene, told in scenes.items() if flag in told}
+            if not having:
+                having = {"disc-on-block": next(told[flag] for told in methods.values() if flag in told)}
+            cells = [several({scene: told[column] for scene, told in having.items()}) for column in range(4)]
+            usual = having.get("disc-on-block", [""])[0]
+            own = [
+                f"; `-method {name}`: {told[flag][0]}"
+                for name, told in methods.items()
+                if flag in told and told[flag][0] != usual
+            ]
+            cells[0] += "".join(own) if "disc-on-block" in having else ""
+            by = covered(set(having)) + (f"; `-method {', '.join(owners()[flag])}`" if flag in owners() else "")
+            rows.append(f"| `{flag}` | " + " | ".join(cell.replace("|", "\\|") for cell in [*cells, by]) + " |")
+    words = [f"- *{group}*: {named(inside)}" for group, inside in groups().items() if not group.startswith("all")]
+    return "\n".join([*rows, "", *words]) + "\n"
+
+
+# ---------------------------------------------------------------- files
+
+CASE = "edp/examples/{0}/{0}"
+RUNS = {  # a run of each kind
+    "plane": "main.edp -method paper -order 1 -h 2 -steps 2 -states 1 -axis 1 -history 1",
+    "space": "scenes/sphere-on-block.edp -order 1 -h 2 -states 1",
+    "two": "scenes/patch-test.edp",
+    "two in space": "scenes/patch-test-3d.edp -lower 2 -upper 3",
+    "case": f"parts.edp -order 1 -mesh {CASE}.geo -case {CASE}.case".format("pin-in-hole"),
+    "case in space": f"parts-3d.edp -order 1 -mesh {CASE}.geo -case {CASE}.case".format("crossed-cylinders"),
+}
+KINDS = {  # in words
+    "plane, two, case": "in the plane",
+    "space, two in space, case in space": "in space",
+    "plane, space, two, two in space": "of a scene",
+    "two, two in space, case, case in space": "with two bodies",
+    "two, case": "with two bodies in the plane",
+    "two in space, case in space": "with two bodies in space",
+    "case, case in space": "of a case",
+    "case": "of a case in the plane",
+}
+
+
+@cache
+def results():
+    """{kind: (keys of summary.json, flags, {file: its first line})} of a run of each kind."""
+
+    def made(words):
+        with tempfile.TemporaryDirectory() as out:
+            freefem(*words.split(), "-out", out)
+            summary = json.loads(Path(out, "summary.json").read_text())
+            heads = {path.name: path.read_text().split("\n")[0] for path in Path(out).glob("*.csv")}
+        return keys(summary), summary["parameters"].keys(), heads
+
+    with ThreadPoolExecutor(2) as pool:
+        return dict(zip(RUNS, pool.map(made, RUNS.values()), strict=True))
+
+
+def keys(entry):
+    """The keys of an entry, nested ones as "seconds.mesh", of entries of lists "contacts[].name"; values are none."""
+    found = []
+    for key, value in entry.items():
+        inner = [value] if isinstance(value, dict) else value
+        nested = isinstance(inner, list) and inner and isinstance(inner[0], dict) and inner[0]
+        if not nested or key == "parameters" or nested.keys() == {"value", "error"} or all(map(str.isdigit, nested)):
+            found.append(key)
+        else:
+            found += [key + ("[]." if isinstance(value, list) else ".") + each for part in inner for each in keys(part)]
+    return list(dict.fromkeys(found))
+
+
+def where(key):
+    """In which runs the key is, in words."""
+    kinds = [kind for kind, (having, *_) in results().items() if key in having]
+    if kinds == list(RUNS):
+        return ""
+    if ", ".join(kinds) in KINDS:
+        return KINDS[", ".join(kinds)]
+    given = {kind: flags for kind, (_, flags, _) in results().items()}
+    with_flag = [flag for flag in given[kinds[0]] if [kind for kind in RUNS if flag in given[kind]] == kinds]
+    return f"with the flag `-{with_flag[0]}`" if with_flag else "in some scenes"
+
+
+def of_table(name):
+    """The rows of a table as it is: lists of cells."""
+    (text,) = [block[0] for page in PAGES for block in BLOCK.finditer(page.read_text()) if block[2] == name]
+    lines = [line for line in text.splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in line[1:-1].split("|")] for line in lines[1:]]
+
+
+def keys_of_summary():
+    """A row some keys of one meaning, and the runs that have them; unit and meaning stay as they are."""
+    every = dict.fromkeys(key for having, *_ in results().values() for key in having)
+    rows, listed = ["| key | unit | meaning |", "|---|---|---|"], set()
+    table = of_table("summary")
+    known = [[key for key in re.findall(r"`([^`]+)`", row[0]) if key in every] for row in table]
+    fresh = [[key] for key in every if not any(key in row for row in known)]
+    words = [row[1:] for row in table] + [["", ""]] * len(fresh)
+    for group, cells in zip([*known, *fresh], words, strict=True):
+        places = {}
+        for key in group:
+            if key not in listed:
+                places.setdefault(where(key), []).append(f"`{key}`")
+        listed.update(group)
+        said = "; ".join((f"{place} " if place else "") + ", ".join(names) for place, names in places.items())
+        if said:
+            rows.append(f"| {said} | {' | '.join(cells)} |")
+    return "\n".join(rows) + "\n"
+
+
+def columns():
+    """A row a table of results: its columns, and those that it has in space; what a row is stays as it is."""
+    rows = ["| file | a row is | columns |", "|---|---|---|"]
+    heads = {kind: heads for kind, (*_, heads) in results().items()}
+    known = {re.findall(r"`([^`]+)`", row[0])[0]: row for row in of_table("columns")}
+    for name in [*(name for name in known if name in heads["plane"]), *(heads["plane"].keys() - known.keys())]:
+        cells = known.get(name, [f"`{name}`", "", ""])
+        in_space = heads["space"].get(name, heads["plane"][name])
+        more = [column for column in in_space.split(",") if column not in heads["plane"][name].split(",")]
+        said = f"`{heads['plane'][name]}`" + (
+            f"; in space also {', '.join(f'`{column}`' for column in more)}" if more else ""
+        )
+        note = re.search(r" \(.*\)$", cells[2])
+        rows.append(f"| {cells[0]} | {cells[1]} | {said}{note[0] if note else ''} |")
+    return "\n".join(rows) + "\n"
+
+
+def statements():
+    """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
+    reader = (EDP / "case/case-file.awk").read_text() + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
+
+    def usages(space):
+        environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}
+        command = ["awk", reader, "/dev/null", "/dev/null"]
+        said = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True).stdout
+        return dict(re.findall(r"^usage (\w+): (.*)$", said, re.M))
+
+    plane, space = usages("0"), usages("1")
+    meanings = {re.findall(r"\w+", row[0])[0]: row[1] for row in of_table("statements")}
+    rows = ["| statement | meaning |", "|---|---|"]
+    for word in [*(word for word in meanings if word in plane), *sorted(plane.keys() - meanings.keys())]:
+        other = f"; in space `{space[word]}`" if space[word] != plane[word] else ""
+        rows.append(f"| `{plane[word]}`{other} | {meanings.get(word, '')} |")
+    return "\n".join(rows) + "\n"
+
+
 TABLES = {
     "modules": lambda: table("module", sources(".idp")),
     "options": options,
     "programs": lambda: table("program", sources(".sh")),
+    "flags": flags,
+    "summary": keys_of_summary,
+    "columns": columns,
+    "statements": statements,
 }
 
 
@@ -76,7 +367,7 @@ def written(text):
 
 def stale():
     """The pages whose tables are not those of the sources: their new texts."""
-    texts = {page: page.read_text() for page in EDP.glob("*.md")}
+    texts = {page: page.read_text() for page in PAGES}
     return {page: new for page, text in texts.items() if (new := written(text)) != text}
 
 

@@ -89,11 +89,11 @@ for (int i = 0; i < points; i++)
     overlapBefore[i] = -(pointX[i]^2 + pointY[i]^2) / (2 * radius);
 }
 localCompliance = (1 - nu * nu) / (pi * youngModulus);
-wholeApproach = u0;
+pressBy(u0);
 tell("hertz", 4. / 3 * youngModulus / (1 - nu * nu) * sqrt(radius) * (u0 - d0)^1.5);
 setUpContact();
 setUpPreconditioner();
-kernelUsed = true;
+noteKernel(true);
 kernelC = 0;
 preconditionerInUse = "kernel";
 applyLoad(1.);

@@ -52,6 +52,8 @@ paired = 1;
 along.resize(points);
 along = pointX;
 contactOf.resize(points);
+immobile.resize(points);
+immobile = 0;
 chainOf.resize(points);
 readAll("contactOf");
 for (int i = 0; i < points; i++) contactOf[i] = lrint(read[i]);
@@ -72,11 +74,12 @@ contactLength = pointX.max - pointX.min;
     one = 1;
     overlapMap = [one];
     overlapMap.resize(points, ndof);
+    selection = false;
 }
 """
 
 MOTIONS = """
-addMotions(MOTIONS);
+for (int k = 0; k < MOTIONS; k++) addMotion("motion " + k);
 readAll("field");
 for (int k = 0; k < motions; k++) for (int i = 0; i < ndof; i++) motionField(i, k) = read[i * motions + k];
 readInto(motionTarget)

@@ -1,6 +1,5 @@
 """The pages against the package: flags, files, commands, links, examples, counts, the paper in the code."""
 
-import functools
 import json
 import os
 import re
@@ -13,7 +12,7 @@ import time
 import numpy as np
 import pages
 import pytest
-from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, has_ipopt, interruptible, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, scenes, script, tree
 from PIL import Image
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
@@ -29,7 +28,8 @@ def in_markdown(folder):
 README = (ROOT / "README.md").read_text()
 MANUAL = (ROOT / "edp" / "MANUAL.md").read_text()
 RESULTS = (ROOT / "tests" / "RESULTS.md").read_text()
-THEORY = (ROOT / "edp" / "README.md").read_text()
+MAP = (ROOT / "edp" / "README.md").read_text()
+THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 PAGES = sorted(str(path.relative_to(ROOT)) for path in in_markdown(ROOT))
 PLUGIN = ROOT / "build/multigrid-plugin.idp"
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]  # set-up counts as done
@@ -49,7 +49,7 @@ def section(text, title):
 def rows(text):
     """The rows of the tables in the text as lists of cells, without heads and rules."""
     lines = [line for line in text.splitlines() if line.startswith("|")]
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
     return [row for row, after in zip(cells, [*cells[1:], []], strict=True) if not (is_rule(row) or is_rule(after))]
 
 
@@ -72,73 +72,51 @@ SCENES = [quoted(name)[0] for name, *_ in rows(section(README, "Scenes"))]
 # ---------------------------------------------------------------- scenes and flags
 
 
-@functools.cache
-def help_table(scene, *flags):
-    """{flag: (default, words of the rest)} as -help prints them, beside other flags."""
-    lines = run_in(ROOT, script(scene), *flags, "-help").stdout.splitlines()
-    return {line.split()[0]: line[18:].split() for line in lines if line.startswith("-")}
+FLAGS = {quoted(row[0])[0]: row for row in rows(section(MANUAL, "Flags")) if row[0].startswith("`")}
 
 
-def documented():
-    """{flag: (default's cell, unit)} of the README's table."""
-    table = [row for row in rows(section(MANUAL, "Flags")) if row[0].startswith("`")]
-    return {quoted(flag)[0]: (default, unit) for flag, default, unit, _ in table}
-
-
-def default_for(name, cell):
-    """The default for a scene or a method of a cell such as "40 (`confined-block`: 20)"."""
-    own = re.search(rf"`{name}`: ([^;)]+)", cell)
-    return own[1].strip() if own else cell.split(" (")[0]
+def default_for(method, flag):
+    """The default of a flag that a method has, of a cell such as "auto; `-method paper`: 0"."""
+    own = re.search(rf"`-method {method}`: ([^;)]+)", FLAGS[flag][1])
+    return own[1].strip() if own else re.split(r"[;(]", FLAGS[flag][1])[0].strip()
 
 
 def test_every_scene_is_documented():
     """The README shall name every scene with its script, and no other."""
-    assert sorted(SCENES) == sorted(["disc-on-block", *(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))])
+    assert sorted(SCENES) == scenes()
     for name, path, _ in rows(section(README, "Scenes")):
         assert quoted(path) == [script(quoted(name)[0])]
 
 
+def test_tables_from_the_programs():
+    """Tables that are made from heads, -help and runs shall be up to date, and every key of theirs have its meaning."""
+    assert not pages.stale(), "make pages"
+    meanings = [row[2] for row in pages.of_table("summary")]
+    meanings += [row[1] for name in ("columns", "statements") for row in pages.of_table(name)]
+    assert all(meanings) and len(meanings) > 40
+
+
 def test_flags():
-    """The pages shall name each scene's flags, their defaults and units, methods and laws as -help does, no others."""
-    table = documented()
-    here = [scene for scene in SCENES if scene != "disc-on-block-ipopt" or has_ipopt()]
-    for scene in here:
-        for flag, words in help_table(scene).items():
-            assert flag in table, f"{flag} of {scene} is not documented"
-            default, unit = table[flag]
-            if flag == "-out":
-                results = "disc-on-block" if scene == "disc-on-block-ipopt" else scene
-                assert re.search(rf"results/{results}/\w+$", words[0])
-                continue
-            assert words[0] == default_for(scene, default), (scene, flag)
-            assert not unit or words[1] == default_for(scene, unit), (scene, flag)
-    known = set().union(*(help_table(scene) for scene in here))
-    assert table.keys() <= known
+    """Flags that the pages name shall exist, and methods and laws that they list be those that -help offers."""
     mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README + MANUAL + RESULTS)}
-    assert mentioned <= known | {"-help", "-nw", "-kapa", "-spring", "-damping", "-check"}
-    laws = [quoted(name)[0] for name, *_ in rows(section(MANUAL, "Laws"))]
-    for scene in here:
-        methods = [name for name in METHODS if name != "ipopt" or scene == "disc-on-block-ipopt"]
-        assert sorted(words_of(scene, "-method")) == sorted(methods)
-        assert sorted(words_of(scene, "-law")) == sorted(laws if "adhesive" in scene else set(laws) - {"lennard-jones"})
-
-
-def words_of(scene, flag):
-    """The words that a flag of a scene may be."""
-    return re.search(r"one of: ([^)]*)", " ".join(help_table(scene)[flag]))[1].split()
+    assert mentioned <= FLAGS.keys() | {"-help", "-nw", "-kapa", "-spring", "-damping"}
+    (methods, *_), (laws, *more) = (re.findall(r"one of: ([\w -]+)", FLAGS[flag][4]) for flag in ("-method", "-law"))
+    assert sorted([*methods.split(), "ipopt"]) == sorted(METHODS)
+    listed = [quoted(name)[0] for name, *_ in rows(section(MANUAL, "Laws"))]
+    assert [sorted(laws.split())] == [sorted(set(listed) - {"lennard-jones"})]
+    assert sorted(more[0].split()) == sorted(listed) and FLAGS["-law"][4].endswith(": *attracting*)")
 
 
 METHODS = [quoted(name)[0] for name, *_ in rows(section(README, "Methods"))]
 
 
 def owners():
-    """{flag: methods that have it} of the flags that the README says to be a method's own."""
-    table = {quoted(row[0])[0]: row[3] for row in rows(section(MANUAL, "Flags")) if row[0].startswith("`")}
-    named = {flag: re.search(r"only with ((?:`\w+`(?:, )?)+)", meaning) for flag, meaning in table.items()}
-    return {flag: set(quoted(found[1])) for flag, found in named.items() if found}
+    """{flag: methods that have it} of the flags that are some methods' own."""
+    named = {flag: re.search(r"`-method ([\w, ]+)`", row[5]) for flag, row in FLAGS.items()}
+    return {flag: set(found[1].split(", ")) for flag, found in named.items() if found}
 
 
-REFUSED = {str(methods): flag for flag, methods in owners().items()}.values()  # a flag of each set of methods
+REFUSED = {str(sorted(methods)): flag for flag, methods in owners().items()}.values()  # a flag of each set of methods
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -150,30 +128,15 @@ def test_flags_of_a_method(method, tmp_path):
     assert {flag for flag in owners() if flag[1:] in used} == {flag for flag in owners() if method in owners()[flag]}
     for flag, methods in owners().items():
         if method in methods:
-            assert str(used[flag[1:]]) == default_for(method, documented()[flag][0])
+            assert str(used[flag[1:]]) == default_for(method, flag)
         elif method == next(name for name in METHODS if name not in methods) and flag in REFUSED:
-            words = ["-method", method, flag, documented()[flag][0].split(" (")[0]]
+            words = ["-method", method, flag, default_for("", flag)]
             stdout = run_in(ROOT, script(scene), *words, out=tmp_path / "out", expect=10).stdout
             said = re.fullmatch(rf"{flag}: not a flag of this method; allowed: only with -method ([\w ]+)\n", stdout)
             assert said and set(said[1].split()) == methods
 
 
-@pytest.mark.parametrize("method", METHODS[:3])
-def test_help_of_a_method(method):
-    """-help shall list the flags of the method that stands beside it."""
-    own = {flag for flag in help_table("disc-on-block", "-method", method) if flag in owners()}
-    assert own == {flag for flag in owners() if method in owners()[flag]}
-
-
 # ---------------------------------------------------------------- files
-
-
-def flat(summary):
-    """The keys of summary.json, nested ones as "seconds.mesh"; parameters are the flags."""
-    keys = set()
-    for key, value in summary.items():
-        keys |= {f"{key}.{inner}" for inner in value} if isinstance(value, dict) and key != "parameters" else {key}
-    return keys
 
 
 @pytest.fixture(scope="module")
@@ -184,54 +147,6 @@ def paper_run(tmp_path_factory):
     switches = {tuple(name.split()) for cell in cells for name in quoted(cell) if name.startswith("-")}
     flags = [word for switch in sorted(switches) for word in switch]
     return run_in(ROOT, script("disc-on-block"), "-method", "paper", "-h", 2, "-steps", 2, *flags, out=out)
-
-
-def test_summary_keys(paper_run):
-    """summary.json shall have the keys that the README lists, and no other."""
-    listed = [key for keys, *_ in rows(section(MANUAL, "Files of a run")) for key in quoted(keys)]
-    cells = [row[0] for row in rows(section(MANUAL, "Files of a run"))]
-    others = {
-        key
-        for cell in cells
-        for words in ("in space", "with two", "of a case")
-        for key in quoted(cell.partition(words)[2])
-    }
-    files = {path.name for path in paper_run.folder.iterdir()}
-    names = {key for key in listed if not key.endswith(".csv") and not key.startswith("-")}
-    assert names - others == flat(paper_run.summary)
-    assert {key for key in listed if key.endswith(".csv")} == {name for name in files if name.endswith(".csv")}
-    listed = help_table("disc-on-block", "-method", "paper")
-    assert paper_run.summary["parameters"].keys() == {flag[1:] for flag in listed}
-
-
-def test_summary_keys_in_space():
-    """The README shall list what a run in space adds."""
-    cells = [row[0].partition("in space")[2] for row in rows(section(MANUAL, "Files of a run"))]
-    result = run("sphere-on-block", "-h", 2, "-estimate", 1)
-    one = {key for cell in cells for key in quoted(cell) if "master" not in key}
-    assert one <= result.summary.keys()
-    listed = [key for keys, *_ in rows(section(MANUAL, "Files of a run")) for key in quoted(keys)]
-    assert flat(result.summary) <= set(listed)
-    assert result.contact.dtype.names[:3] == ("x", "y", "z")
-
-
-@pytest.mark.parametrize("scene, flags", [("patch-test", []), ("patch-test-3d", ["-lower", 2, "-upper", 3])])
-def test_summary_keys_with_two_bodies(scene, flags):
-    """The README shall list what a run with two meshed bodies adds, in the plane and in space."""
-    (cell,) = [row[0] for row in rows(section(MANUAL, "Files of a run")) if "with two" in row[0]]
-    plane, _, space = cell.partition("in space")
-    result = run(scene, *flags)
-    added = {key for key in result.summary if key.startswith("master")}
-    assert added == set(quoted(space if "3d" in scene else plane))
-
-
-def test_columns(paper_run):
-    """Each table shall have the columns that the README lists, in that order."""
-    tables = [row for row in rows(section(MANUAL, "Files of a run")) if ".csv" in row[0]]
-    assert len(tables) > 4
-    for name, _, columns in tables:
-        head = (paper_run.folder / quoted(name)[0]).read_text().splitlines()[0]
-        assert [head] == quoted(columns), name
 
 
 def test_paraview(paper_run):
@@ -600,17 +515,12 @@ def test_reference_values():
 
 def test_from_the_paper_to_the_code():
     """Each text of the table shall stand in the file that it names; no equation and no line shall be missing."""
-    table = rows(section(THEORY, "From the paper to the code"))
+    table = rows(section(MAP, "From the paper to the code"))
     for what, file, text in table:
         assert quoted(text)[0] in (ROOT / "edp" / quoted(file)[0]).read_text(), what
     names = " ".join(row[0] for row in table)
     assert {*map(str, range(1, 9))} <= set(re.findall(r"\((\d)\)", names))
     assert {*map(str, range(1, 11))} == set(re.findall(r"line (\d+)", names))
-
-
-def test_tables_from_the_sources():
-    """The tables that are made from the sources shall be up to date."""
-    assert not pages.stale(), "make pages"
 
 
 def test_dual_mean_of_a_gap():
@@ -624,7 +534,7 @@ def test_dual_mean_of_a_gap():
 def test_notation():
     """Every name that the notation table gives shall exist in the code."""
     code = " ".join(path.read_text() for path in (ROOT / "edp").rglob("*.idp"))
-    for row in rows(section(THEORY, "Notation")):
+    for row in rows(section(MAP, "Notation")):
         for name in quoted(row[1]):
             assert re.search(rf"\b{name}\b", code), name
 
@@ -671,7 +581,7 @@ def test_contents(page):
 
 def test_the_readme_is_short():
     """The README shall be read in one sitting."""
-    assert len(README.splitlines()) <= 200
+    assert len(README.splitlines()) <= 170
 
 
 def test_parameters_are_what_was_used(paper_run):

@@ -1,0 +1,583 @@
+"""The truth is within what a run says, or a warning names the cause and its size: small parts whose truth is known.
+
+Covered and warned of mean what they mean in campaigns/foreign.py. Marks of xfail are what is not so yet.
+"""
+
+import json
+import re
+
+import foreign
+import numpy as np
+import pytest
+from foreign_parts import Draw, Sketch, parts
+from freefem import FREEFEM, execute
+from test_parts import Mesh, block, turn
+
+MEMORY = 3_000_000  # kB: a run that wants more shall end, not the machine
+
+
+class Told:
+    """What a run printed and wrote."""
+
+    def __init__(self, folder, geo, case, *flags, space=False, expect=0):
+        mesh, case_file, out = folder / "part.geo", folder / "part.case", folder / "out"
+        mesh = mesh if "Point" in geo or "OpenCASCADE" in geo else mesh.with_suffix(".msh")
+        mesh.write_text(geo)
+        case_file.write_text(case)
+        script = f"edp/parts{'-3d' * space}.edp"
+        command = [*FREEFEM, script, "-mesh", mesh, "-case", case_file, "-out", out, "-vtu", 0, *flags]
+        code, self.stdout = execute(["sh", "-c", f'ulimit -v {MEMORY}; exec "$@"', "sh", *command])
+        assert code == expect, f"exit code {code}:\n{self.stdout[-2000:]}"
+        self.summary = json.loads((out / "summary.json").read_text()) if code == 0 else {}
+        self.record = foreign.record_of(self.summary)
+        self.numbers = self.record["numbers"]
+        self.warnings = " | ".join(self.record["warnings"])
+
+    def holds(self, name, truth):
+        """The truth is covered, or warned of."""
+        value, said = self.numbers[name]
+        assert said is not None, f"{name}: no error"
+        error = abs(value - truth)
+        assert error <= said or foreign.warned(name, value, error, self.record)[0], (
+            f"{name}: {value:.9g} ± {said:.2g}, truth {truth:.9g}; {self.warnings}"
+        )
+
+
+@pytest.fixture
+def go(tmp_path):
+    """go(geo, case, *flags) runs a part."""
+
+    def start(*words, **options):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        folder.mkdir()
+        return Told(folder, *words, **options)
+
+    return start
+
+
+def false(reason, *arguments, long=False):
+    """A test, or one of its cases, that fails: what a run says there is false."""
+    mark = pytest.mark.xfail(strict=True, reason=reason)
+    marks = [mark, pytest.mark.long] if long else [mark]
+    return pytest.param(*arguments, marks=marks) if arguments else mark
+
+
+def drawn(name):
+    """A part of the campaign's."""
+    return next(part for part in parts() if part.name == name)
+
+
+# ---------------------------------------------------------------- shape in the plane
+
+STEEL = "E 210e3 nu 0.3"
+RINGS = f"body inner {STEEL}\nbody outer {STEEL}\ncontact hub shaft\n"
+LAME = 679.671  # of rings of 10, 20.002 and 20, 30: integral of the pressure
+
+
+def rings(order=1, sides=8):
+    """A press fit: 64 edges in contact, 8 elsewhere."""
+    sketch = Sketch(Draw(order=order, named=True))
+    sketch.turn(0.02)
+    shaft, bore = sketch.oval(0, 0, 20.002, 20.002, 2, 80), sketch.oval(0, 0, 10, 10, 8, sides)
+    sketch.turn(0)
+    hub, outside = sketch.oval(0, 0, 20, 20, 2, 64), sketch.oval(0, 0, 30, 30, 24, sides)
+    sketch.body("inner", shaft, bore)
+    sketch.body("outer", outside, hub)
+    sketch.group("shaft", shaft)
+    sketch.group("hub", hub)
+    return sketch.text()
+
+
+@pytest.fixture(scope="module")
+def rings_run(tmp_path_factory):
+    return Told(tmp_path_factory.mktemp("rings"), rings(), RINGS)
+
+
+@false("circles of 8 sides are taken for 8 corners")
+def test_few_sides(rings_run):
+    """Free circles of 8 sides."""
+    rings_run.holds("contacts.0.force", LAME)
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [
+        false("circles of 8 sides are taken for 8 corners", ["-order", 4], long=True),
+        false("new meshes rest on the first one's sides", ["-accuracy", 1e-3], long=True),
+    ],
+)
+def test_few_sides_otherwise(go, flags):
+    """The same with P4, and with new meshes."""
+    go(rings(), RINGS, *flags).holds("contacts.0.force", LAME)
+
+
+@pytest.mark.long
+@false("quadratic sides that a case names are taken for exact")
+def test_quadratic_sides(go):
+    """Sides through true middles are not the circle either."""
+    go(rings(2), RINGS + "pressure rest 0\n", "-accuracy", 1e-3).holds("contacts.0.force", LAME)
+
+
+DISC_ON_PLANE = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
+
+
+@false("what the balance tells is thought known to rounding")
+def test_weight(go):
+    """A polygon weighs less than the disc."""
+    sketch = Sketch(Draw())
+    rim = sketch.oval(0, 0, 1, 1, 0.5, bottom=0.12)
+    sketch.body("disc", rim)
+    sketch.group("rim", [rim[0], rim[3]])
+    go(sketch.text(), DISC_ON_PLANE).holds("contacts.0.force", np.pi)
+
+
+def tooth(z, cy, direction, root):
+    """.geo lines: an involute tooth of module 5 with root fillets on a piece of rim, its centre at (0, cy)."""
+    m, slope = 5.0, np.radians(20)
+    pitch, word = m * z / 2, "wheel" if cy > 0 else "pinion"
+    base, tip, foot, rim = pitch * np.cos(slope), pitch + m, pitch - 1.25 * m, pitch - 3.5 * m
+    start, half = max(base + 0.02, foot + 0.3 * m), np.pi / (2 * z) + np.tan(slope) - slope
+    lines = [f"Point({root}) = {{0, {cy}, 0, 1}};"]
+
+    def point(k, radius, angle):
+        x, y = radius * np.cos(angle), cy + radius * np.sin(angle)
+        lines.append(f"Point({root + k}) = {{{x:.15g}, {y:.15g}, 0, 1}};")
+
+    def involute(radius):
+        phi = np.arccos(base / radius)
+        return np.tan(phi) - phi
+
+    for s, side in ((0, 1), (1, -1)):
+        for k in range(15):
+            radius = start + (tip - start) * k / 14
+            point(100 * s + k + 1, radius, direction + side * (half - involute(radius)))
+        low = half - involute(start)
+        point(100 * s + 50, foot, direction + side * (low + 0.27 * m / start))
+        point(100 * s + 51, foot, direction + side * np.pi / z)
+        point(100 * s + 52, rim, direction + side * np.pi / z)
+        point(100 * s + 53, foot + 0.07 * m, direction + side * (low + 0.075 * m / start))
+        a, c = root + 100 * s, root + 20 * s
+        lines += [
+            f"Spline({c}) = {{{a + 1}:{a + 15}}}; Spline({c + 1}) = {{{a + 1}, {a + 53}, {a + 50}}};",
+            f"Circle({c + 2}) = {{{a + 50}, {root}, {a + 51}}}; Line({c + 3}) = {{{a + 51}, {a + 52}}};",
+        ]
+    c = root
+    lines += [
+        f"Circle({c + 4}) = {{{c + 15}, {c}, {c + 115}}}; Circle({c + 5}) = {{{c + 52}, {c}, {c + 152}}};",
+        f"Curve Loop({c}) = {{{c}, {c + 4}, -{c + 20}, {c + 21}, {c + 22}, {c + 23}, "
+        f"-{c + 5}, -{c + 3}, -{c + 2}, -{c + 1}}};",
+        f'Plane Surface({c}) = {{{c}}}; Physical Surface("{word}") = {{{c}}};',
+        f'Physical Curve("{word}-flank") = {{{c}}}; Physical Curve("{word}-rim") = {{{c + 3}, {c + 23}, {c + 5}}};',
+        f'Physical Curve("{word}-rest") = {{{c + 20}, {c + 4}, {c + 1}, {c + 21}, {c + 2}, {c + 22}}};',
+    ]
+    return lines
+
+
+@pytest.mark.long
+@false("the first mesh has one vertex in a fillet, and the new ones rest on it")
+def test_gear(go):
+    """1884.5 by an independent code on the true outline."""
+    lines = [*tooth(20, -50, np.pi / 2 - np.pi / 40, 1000), *tooth(30, 75, -np.pi / 2 - np.pi / 60, 2000)]
+    lines += [
+        'Field[1] = MathEval; Field[1].F = "0.08*(1 + 0.25*Max(0, Sqrt(x*x + y*y) - 0.8)/0.08)"; Background Field = 1;',
+        "Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 2;",
+    ]
+    case = (
+        "body pinion E 206e3 nu 0.3\nbody wheel E 206e3 nu 0.3\ncontact wheel-flank pinion-flank\nclamp wheel-rim\n"
+        "rotate pinion-rim 0 -50 0.002\npressure pinion-rest 0\npressure wheel-rest 0\n"
+    )
+    go("\n".join(lines), case, "-accuracy", 1e-3).holds("contacts.0.force", 1884.5)
+
+
+# ---------------------------------------------------------------- the warning of polygons
+
+
+@false("a boundary with a name that no statement has stays a polygon")
+def test_named_boundaries(go):
+    """The cure that the warning words: a second-order mesh with these boundaries named."""
+    told = go(rings(2, sides=24), RINGS)
+    assert "polygon" not in told.warnings
+    told.holds("contacts.0.force", LAME)
+
+
+@false("a true kink is taken for a smooth boundary's side")
+def test_true_kinks(go):
+    """A true polygon of 11 sides: nothing is cut off."""
+    part = drawn("polygon 2")
+    assert "polygon" not in go(part.geo(Draw(1.3)), part.case).warnings
+
+
+# ---------------------------------------------------------------- shape in space
+
+COLUMN = "body column E 1000 nu 0\nobstacle sole plane 0 0 0 0 0 1\nmove head 0 0 -0.01\n"
+
+
+def column(order, sides=12):
+    sketch = Sketch(Draw(order=order))
+    sketch.body("flat", sketch.oval(0, 0, 1, 1, 1, sides))
+    sketch.names.clear()
+    return sketch.text(
+        'e[] = Extrude{0, 0, 2} {Surface{1}; Layers{2};}; Physical Volume("column") = {e[1]};\n'
+        'Physical Surface("sole") = {1}; Physical Surface("head") = {e[0]};'
+    )
+
+
+@pytest.mark.parametrize(
+    "order, flags",
+    [
+        false("shape in space is in nothing", 1, []),
+        false("shape in space is in nothing", 2, [], long=True),
+        false("shape in space is in nothing", 1, ["-accuracy", 1e-3], long=True),
+    ],
+)
+def test_column(go, order, flags):
+    """12 sides, nu = 0: E strain times the circle's area."""
+    go(column(order), COLUMN, *flags, space=True).holds("contacts.0.force", 5 * np.pi)
+
+
+@pytest.mark.long
+@false("shape in space is in nothing")
+def test_press_fit_in_space(go):
+    part = drawn("press fit in space 1")
+    told = go(part.geo(Draw(order=2)), part.case, space=True)
+    told.holds("contacts.0.force", part.known["contacts.0.force"][0])
+
+
+# ---------------------------------------------------------------- rotation
+
+
+def cam(a, b, angle):
+    """An ellipse with a shaft, drawn turned."""
+    sketch = Sketch(Draw(order=2))
+    sketch.turn(angle)
+    centre = sketch.point(0, 0, 1)
+    ends = [sketch.point(a * x, b * y, 0.05 if y > 0 else 0.6) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    rim = [sketch.curve("Ellipse", ends[k], centre, ends[0], ends[(k + 1) % 4]) for k in range(4)]
+    shaft = sketch.oval(0, 0, 2, 2, 0.6)
+    sketch.body("cam", rim, shaft)
+    sketch.group("rim", rim)
+    sketch.group("shaft", shaft)
+    return sketch.text()
+
+
+@pytest.mark.parametrize(
+    "a, angle",
+    [
+        false("rotations are linearised", 5, 0.02),
+        false("rotations are linearised", 5, 0.09, long=True),
+        false("rotations are linearised", 6, 0.05, long=True),
+    ],
+)
+def test_turned(go, a, angle):
+    """Turned by the case, with the true distance: as drawn turned; a disc as not turned at all."""
+    case = "body cam E 1e5 nu 0.3\nobstacle rim plane 0 4.99 0 -1\n"
+    turned = go(cam(a, 5, angle), f"{case}clamp shaft\n", "-estimate", 0)
+    truth = np.hypot(*turned.summary["contacts"][0]["force"])
+    told = go(cam(a, 5, 0), f"{case}rotate shaft 0 0 {angle}\n", "-distance", "exact")
+    told.holds("contacts.0.force", truth)
+
+
+@false("levers are those at rest")
+def test_plank(go):
+    """A plank on two round feet, one floor lower than the other: its lever tells."""
+    part = drawn("plank 2")
+    told = go(part.geo(Draw()), part.case)
+    for name, (truth, _) in part.known.items():
+        told.holds(name, truth)
+
+
+# ---------------------------------------------------------------- the linearised gap
+
+HIP = (
+    "state axisymmetric\nbody head E 230e3 nu 0.3\nbody cup E 800 nu 0.46\ncontact cup-bore head-surface\n"
+    "clamp shell\nforce grip 0 -2500\npressure rest 0\n"
+)
+
+
+def hip(size=0.5):
+    """A ball of 14 in a cup, 0.1 of clearance; second order."""
+    sketch = Sketch(Draw(order=2, named=True))
+    centre = [sketch.point(0, y, 2) for y in (0, 0.1)]
+    arcs, ends = [], []
+    for radius, c, h in ((14, 0, size), (14.1, 1, size), (24, 1, 2)):
+        ends.append([sketch.point(0, 0.1 * c - radius, h), sketch.point(radius, 0.1 * c, h)])
+        arcs.append(sketch.curve("Circle", ends[-1][0], centre[c], ends[-1][1]))
+    axis, top = sketch.curve("Line", centre[0], ends[0][0]), sketch.curve("Line", ends[0][1], centre[0])
+    low, side = sketch.curve("Line", ends[2][0], ends[1][0]), sketch.curve("Line", ends[1][1], ends[2][1])
+    sketch.body("head", [axis, arcs[0], top])
+    sketch.body("cup", [low, arcs[1], side, -arcs[2]])
+    for name, curve in (("head-surface", arcs[0]), ("grip", top), ("cup-bore", arcs[1]), ("shell", arcs[2])):
+        sketch.group(name, [curve])
+    return sketch.text()
+
+
+@pytest.fixture(scope="module")
+def hip_run(tmp_path_factory):
+    """The hip joint with the linear gap."""
+    return Told(tmp_path_factory.mktemp("hip"), hip(), HIP)
+
+
+@false("the linearised gap is in no error")
+def test_linear_gap(go, hip_run):
+    """Against the same mesh with the true distance."""
+    exact = go(hip(), HIP, "-distance", "exact")
+    hip_run.holds("loads.0.way", exact.numbers["loads.0.way"][0])
+
+
+def nose(slave, master, load=0.08):
+    """A round nose, sizes of elements on it and on the floor below."""
+    sketch = Sketch(Draw())
+    low, _ = sketch.outline([(-6, -5, 1), (6, -5, 1), (6, 0, 1.5 * master), (0, 0, master), (-6, 0, 1.5 * master)])
+    top, x = sketch.point(0, 5, 1), 1.4
+    places = [(-4, 2, 0.8), (-x, 5 - np.sqrt(25 - x * x), slave), (0, 0, slave), (x, 5 - np.sqrt(25 - x * x), slave)]
+    knots = [sketch.point(*place) for place in (*places, (4, 2, 0.8))]
+    arcs = [sketch.curve("Circle", knots[k], top, knots[k + 1]) for k in range(4)]
+    head = sketch.curve("Line", knots[4], knots[0])
+    sketch.body("low", low)
+    sketch.body("up", [*arcs, head])
+    for name, curves in (("base", [low[0]]), ("floor", [low[2], low[3]]), ("nose", arcs), ("head", [head])):
+        sketch.group(name, curves)
+    return sketch.text()
+
+
+def nose_case(pair, stiff=1.0):
+    return f"body low E {stiff} nu 0.3\nbody up E 1 nu 0.3\ncontact {pair}\nclamp base\nmove head 0 -0.08\n"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "pair", [false("the linearised gap is in no error", "nose floor"), false("the same", "floor nose")]
+)
+def test_exchanged(go, pair):
+    """Either body as slave: 0.0754 with the true distance."""
+    go(nose(0.02, 0.03), nose_case(pair, 1e6), "-order", 4).holds("contacts.0.force", 0.0754)
+
+
+# ---------------------------------------------------------------- the master's mesh
+
+
+@false("the trace of a coarse master is in no error")
+@pytest.mark.parametrize("name, truth", [("pressureMax", 0.032226), ("contactLength", 1.1319)])
+def test_coarse_master(nose_run, name, truth):
+    """A fine slave on a coarse master of its stiffness; P4 on fine meshes."""
+    nose_run.holds(f"contacts.0.{name}", truth)
+
+
+@pytest.fixture(scope="module")
+def nose_run(tmp_path_factory):
+    return Told(tmp_path_factory.mktemp("nose"), nose(0.05, 0.8), nose_case("nose floor"))
+
+
+# ---------------------------------------------------------------- singular places
+
+
+@false("a shared node at a crack's tip carries no pressure, but has a weight")
+def test_crack(go):
+    part = drawn("crack 2")
+    told = go(part.geo(Draw()), part.case)
+    for name, (truth, _) in part.known.items():
+        told.holds(name, truth)
+
+
+@false("a singular edge is not named")
+def test_edge(go):
+    """A greatest pressure that grows without bound has no error, and its place is named."""
+    part = drawn("punch 1")
+    told = go(part.geo(Draw(1.5)), part.case)
+    assert told.numbers["contacts.0.pressureMax"][1] is None
+    assert foreign.SINGULAR.search(told.warnings)
+
+
+@pytest.mark.long
+@false("an edge in space is not seen")
+def test_edge_in_space(go):
+    """A cube on a block, quarters, nu near 0.5."""
+    geo = (
+        'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 0.5, 0.5, 1}; Box(2) = {-1, -1, -1, 1.5, 1.5, 1}; e = 1e-6;\n'
+        "a() = Curve In BoundingBox{-e, -e, -e, 0.5 + e, e, e};\n"
+        "b() = Curve In BoundingBox{-e, -e, -e, e, 0.5 + e, e};\n"
+        "Field[1] = Distance; Field[1].CurvesList = {a(), b()}; Field[1].NumPointsPerCurve = 200;\n"
+        'Field[2] = MathEval; Field[2].F = "0.06 + 0.35*F1"; Background Field = 2;\n'
+        "Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;\n"
+        'Physical Volume("up") = {1}; Physical Volume("low") = {2};\n'
+    )
+    names = {"sole": 5, "head": 6, "floor": 12, "base": 11, "ux": 2, "uy": 4, "lx": 8, "ly": 10}
+    geo += "".join(f'Physical Surface("{name}") = {{{tag}}};\n' for name, tag in names.items())
+    case = "body up E 1000 nu 0.4999\nbody low E 1000 nu 0.4999\ncontact sole floor\nclamp base\n"
+    case += "".join(f"symmetry {name}\n" for name in ("ux", "uy", "lx", "ly")) + "move head 0 0 -0.01\n"
+    told = go(geo, case, space=True)
+    assert told.numbers["contacts.0.pressureMax"][1] is None
+    assert foreign.SINGULAR.search(told.warnings)
+
+
+# ---------------------------------------------------------------- about an axis
+
+
+@false("the node on the axis is no point of the contact")
+def test_ball(go):
+    """Hertz: a ball of 10 under its weight."""
+    sketch = Sketch(Draw(order=2))
+    centre = sketch.point(0, 10, 2)
+    angle, near = 0.12, 0.05
+    places = [(0, 0, near), (10 * np.sin(angle), 10 - 10 * np.cos(angle), near), (10, 10, 2), (0, 20, 2)]
+    points = [sketch.point(*place) for place in places]
+    arcs = [sketch.curve("Circle", points[k], centre, points[k + 1]) for k in range(3)]
+    axis = [sketch.curve("Line", points[3], centre), sketch.curve("Line", centre, points[0])]
+    sketch.body("ball", [*arcs, *axis])
+    sketch.group("low", arcs[:1])
+    sketch.group("rest", arcs[1:])
+    density = 50 / (4 / 3 * np.pi * 1000)
+    case = "state axisymmetric\nbody ball E 1000 nu 0.3\nobstacle low plane 0 0 0 1\npressure rest 1e-9\n"
+    told = go(sketch.text(), f"{case}weight ball 0 {-density:.15g}\n")
+    radius = (3 * 50 * 10 * (1 - 0.09) / (4 * 1000)) ** (1 / 3)
+    told.holds("contacts.0.contactLength", radius)
+
+
+@false("a coarse conforming contact alternates without a word")
+@pytest.mark.parametrize("name, truth", [("contactLength", 20.94), ("pressureMax", 8.72)])
+def test_conforming(ring_run, name, truth):
+    """Two pieces of rings that touch all over: P2 with 5 elements on 8."""
+    ring_run.holds(f"contacts.0.{name}", truth)
+
+
+@pytest.fixture(scope="module")
+def ring_run(tmp_path_factory):
+    lines = ["Point(1) = {0, 0, 0};"]
+    for k, (a, b, first, last, count) in enumerate(
+        ((10, 20.00232, 0.3, 1.3472, 5), (19.99984, 30, 0.3, 1.3472, 8)), start=1
+    ):
+        p = 10 * k
+        for j, (radius, angle) in enumerate(((a, first), (b, first), (b, last), (a, last))):
+            lines.append(f"Point({p + j}) = {{{radius * np.cos(angle):.15g}, {radius * np.sin(angle):.15g}, 0}};")
+        lines.append(f"Line({p}) = {{{p}, {p + 1}}}; Circle({p + 1}) = {{{p + 1}, 1, {p + 2}}};")
+        lines.append(f"Line({p + 2}) = {{{p + 2}, {p + 3}}}; Circle({p + 3}) = {{{p + 3}, 1, {p}}};")
+        lines.append(f"Transfinite Curve {{{p + 1}, {p + 3}}} = {count + 1}; Transfinite Curve {{{p}, {p + 2}}} = 5;")
+        lines.append(f"Curve Loop({p}) = {{{p}:{p + 3}}}; Plane Surface({p}) = {{{p}}};")
+        lines.append(f'Physical Surface("{("inner", "outer")[k - 1]}") = {{{p}}};')
+        names = (("s1", "shaft", "s2", "bore"), ("s3", "outside", "s4", "hub"))[k - 1]
+        lines += [f'Physical Curve("{name}") = {{{p + j}}};' for j, name in enumerate(names)]
+    lines.append("Mesh.ElementOrder = 2;")
+    case = RINGS.replace("contact", "symmetry s1\nsymmetry s2\nsymmetry s3\nsymmetry s4\ncontact")
+    case += "pressure bore 5\npressure outside 3\n"
+    return Told(tmp_path_factory.mktemp("ring"), "\n".join(lines), case)
+
+
+# ---------------------------------------------------------------- what the numbers are
+
+
+@false("pressures across the axis are added as if they were a force")
+def test_force_about_an_axis(hip_run):
+    """The force that is applied is the one that is printed."""
+    assert hip_run.summary["force"] == pytest.approx(2500, rel=1e-6)
+    assert re.search(r"within  force 2500\b", hip_run.stdout)
+
+
+@false("the force of a run and the error beside it are two numbers")
+def test_one_meaning(rings_run):
+    """The resultant of a press fit is 0: its integral's error is not the resultant's."""
+    told = rings_run.summary["estimates"]["force"]
+    value, said = rings_run.numbers["contacts.0.force"]
+    assert told is None or told["value"] == pytest.approx(value) or told["error"] < said / 100
+
+
+@false("the way of all loads is divided by a resultant that may vanish")
+def test_ways(go):
+    """A block pressed from three sides, two of which balance: nothing moves by 0.02, however it is turned."""
+    mesh = block(Mesh(), size=(2, 1), cells=(8, 4))
+    case = "body block E 1000 nu 0\nobstacle bottom plane 0 0 {} {}\n"
+    case += "pressure top 0.02\npressure left 10\npressure right 10\n"
+    ways = []
+    for angle in (0, np.pi / 4):
+        told = go(mesh.text(turn(angle)), case.format(-np.sin(angle), np.cos(angle)))
+        ways.append(told.numbers["loads.0.way"][0] if "loads.0.way" in told.numbers else 0)
+    assert max(np.abs(ways)) < 0.02
+    assert ways[0] == pytest.approx(ways[1], rel=1e-6)
+
+
+@false("forces of opposite planes are added")
+def test_opposite_planes(go):
+    """A disc between two planes: what squeezes it is one plane's force."""
+    sketch = Sketch(Draw())
+    rim = sketch.oval(0, 0, 2, 2, 0.2)
+    sketch.body("disc", rim)
+    sketch.group("rim", rim)
+    case = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -2 0 1\nobstacle rim plane 0 2 0 -1 move 0 -0.05\n"
+    told = go(sketch.text(), case)
+    assert told.summary["force"] == pytest.approx(abs(told.summary["contacts"][1]["force"][1]), rel=1e-6)
+
+
+# ---------------------------------------------------------------- robustness
+
+
+def pie(slices=12):
+    """A disc of triangles round one node."""
+    mesh = Mesh()
+    t = 2 * np.pi * np.arange(slices) / slices
+    nodes = [(0, 0, 0), *zip(np.cos(t), np.sin(t), 0 * t, strict=True)]
+    ring = [(k + 1, (k + 1) % slices + 1) for k in range(slices)]
+    mesh.add(nodes, [("rim", pair) for pair in ring], [("disc", (0, *pair)) for pair in ring])
+    return mesh.text()
+
+
+@pytest.mark.long
+@false("the strip of elements has vertices in one place, and takes all memory")
+def test_pie(go):
+    go(pie(), "body disc E 1000 nu 0.3\nobstacle rim circle 0 0 R 1.001 inside\nweight disc 0 -1\n")
+
+
+@pytest.mark.long
+@false("what rounds leave is measured by the last residual's tolerance")
+def test_rounds_of_the_true_distance(go, rings_run):
+    """The true distance moves the forces by 1e-4: its error is no larger than without."""
+    exact = go(rings(), RINGS, "-distance", "exact").numbers["contacts.0.force"]
+    assert exact[1] < 2 * rings_run.numbers["contacts.0.force"][1]
+
+
+def blocks(size):
+    sketch = Sketch(Draw())
+    low, _ = sketch.outline([(-3, -2, size), (3, -2, size), (3, 0, size), (-3, 0, size)])
+    up, _ = sketch.outline([(-1, 0, size), (1, 0, size), (1, 1, size), (-1, 1, size)])
+    sketch.body("low", low)
+    sketch.body("up", up)
+    for name, curve in (("base", low[0]), ("floor", low[2]), ("sole", up[0]), ("head", up[2])):
+        sketch.group(name, [curve])
+    return sketch.text()
+
+
+@pytest.mark.long
+@false("P4's error by interpolation grows like 1/(1 - 2 nu)")
+def test_nearly_incompressible(go):
+    case = "body low E 1000 nu {0}\nbody up E 1000 nu {0}\ncontact sole floor\nclamp base\nmove head 0 -0.01\n"
+    far, near = (go(blocks(0.25), case.format(nu), "-order", 4).numbers["contacts.0.force"] for nu in (0.49, 0.4999))
+    assert near[1] / near[0] < 3 * far[1] / far[0]
+
+
+@pytest.mark.long
+@false("a cycle of Newton's steps is not seen")
+def test_cycle(go):
+    """A block between five obstacles: a cycle of four without a better start."""
+    case = (
+        "body block E 1000 nu 0.3\nobstacle bottom plane 0 0 0 1\nobstacle bottom circle 1 -3 R 3.001\n"
+        "obstacle top circle 1 1.5 R 0.5 force 0 -20\nobstacle right plane 2 0 -1 0 move -0.001 0\n"
+        "obstacle left plane 0 0 1 0\n"
+    )
+    sketch = Sketch(Draw())
+    sides, _ = sketch.outline([(0, 0, 0.25), (2, 0, 0.25), (2, 1, 0.25), (0, 1, 0.25)])
+    sketch.body("block", sides)
+    for name, side in zip(("bottom", "right", "top", "left"), sides, strict=True):
+        sketch.group(name, [side])
+    go(sketch.text(), case, "-order", 1)
+
+
+APART = DISC_ON_PLANE.replace("plane 0 -1 0 1", "plane 0 -2 0 1").replace("weight disc 0 -1", "clamp hub")
+
+
+@false("the accuracy of a force 0 is said not to be reached")
+def test_accuracy_where_nothing_touches(go):
+    sketch = Sketch(Draw())
+    rim, hub = sketch.oval(0, 0, 1, 1, 0.3), sketch.oval(0, 0, 0.4, 0.4, 0.3)
+    sketch.body("disc", rim, hub)
+    sketch.group("rim", rim)
+    sketch.group("hub", hub)
+    told = go(sketch.text(), APART, "-accuracy", 1e-3)
+    assert told.summary["force"] == 0
