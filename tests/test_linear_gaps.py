@@ -97,6 +97,8 @@ class Said:
     def __init__(self, summary, stdout):
         self.summary, self.stdout = summary, stdout
         self.linear = summary["linearised"]
+        if self.linear:
+            self.linear["changes"] = {entry["name"]: entry["change"] for entry in self.linear["changes"]}
         self.warnings = [text for text in summary["warnings"] if "linearised" in text or "use -distance" in text]
 
     def known(self, what, number=0):
