@@ -429,8 +429,10 @@ def test_ball(go):
     told.holds("contacts.0.contactLength", radius)
 
 
-@false("a coarse conforming contact alternates without a word")
-@pytest.mark.parametrize("name, truth", [("contactLength", 20.94), ("pressureMax", 8.72)])
+@pytest.mark.parametrize(
+    "name, truth",
+    [false("a coarse conforming contact alternates without a word", "contactLength", 20.94), ("pressureMax", 8.72)],
+)
 def test_conforming(ring_run, name, truth):
     """Two pieces of rings that touch all over: P2 with 5 elements on 8."""
     ring_run.holds(f"contacts.0.{name}", truth)
