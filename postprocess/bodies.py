@@ -73,6 +73,19 @@ class Bodies:
             raise ResultsError(self.run.path / "contact.csv", "no point is in contact")
         return greatest
 
+    @property
+    def coloured(self) -> float:
+        """A scale's end: of pressures without bound what a fiftieth of the contact's force lies above."""
+        table, tops = self.table, []
+        told = (self.run.summary.get("estimates") or {}).get("contacts") or []
+        for contact in set(table["contact"].tolist()):
+            strength = np.sort(np.abs(table["pressure"][table["contact"] == contact]))
+            order = np.argsort(np.abs(table["pressure"][table["contact"] == contact]))
+            force = np.cumsum(strength * table["weight"][table["contact"] == contact][order])
+            bound = contact >= len(told) or told[contact].get("pressureMax") is not None or not force[-1] > 0
+            tops.append(strength[-1] if bound else strength[np.searchsorted(force, 0.98 * force[-1])])
+        return max(tops) if max(tops) > 0 else self.greatest
+
     def touching(self, contact: int | None = None) -> np.ndarray:
         """Which points press or pull (p,) bool, of one contact or of all."""
         strength = np.abs(self.table["pressure"])

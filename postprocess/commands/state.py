@@ -75,7 +75,7 @@ def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     drawn.draw_shell(panels[0], bodies, view, None, 1.0)
     figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
     for index, (contact, axes) in enumerate(zip(pressed, panels[1:], strict=True), start=1):
-        colours = drawn.map_pressure(axes, bodies, contact, units, bodies.greatest)
+        colours = drawn.map_pressure(axes, bodies, contact, units, bodies.coloured)
         figure.colorbar(colours, ax=axes, label=f"pressure [{units.stress}]")
         drawn.title(axes, index, style.plain(bodies.names[contact]))
     return figure

@@ -44,7 +44,7 @@ def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
     drawn.draw_shell(panels[0], bodies, view, bodies.grid.stress, top)
     colours = draw_section(panels[1], bodies, units)
     figure.colorbar(colours, ax=panels[:2], label=f"von Mises [{units.stress}]", pad=0.01, shrink=0.7)
-    pressed = drawn.map_pressure(panels[2], bodies, most, units, bodies.greatest)
+    pressed = drawn.map_pressure(panels[2], bodies, most, units, bodies.coloured)
     figure.colorbar(pressed, ax=panels[2], label=f"pressure [{units.stress}]")
     figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
     for index, words in enumerate(["section", style.plain(bodies.names[most])], start=1):
