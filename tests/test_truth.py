@@ -225,11 +225,9 @@ def column(order, sides=12):
     return sketch.text(LIFTED)
 
 
-@pytest.mark.parametrize(
-    "order, sides", [(1, 5), (1, 12), pytest.param(2, 12, marks=pytest.mark.long), (2, 40)]
-)
+@pytest.mark.parametrize("order, sides", [(1, 5), (1, 12), pytest.param(2, 12, marks=pytest.mark.long), (2, 40)])
 def test_column(go, order, sides):
-    """nu = 0: E strain times the circle's area; its geometry, or its mesh, tells a circle of five sides from a pentagon."""
+    """nu = 0: E strain times the circle's area; the geometry or the mesh tells five sides from a pentagon."""
     told = go(column(order, sides), COLUMN, space=True)
     told.holds("contacts.0.force", 5 * np.pi)
     value, said = told.numbers["contacts.0.force"]
