@@ -7,7 +7,7 @@
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
 #        "regions", how many, then of each the number of its body in the table and of its part: a part is what hangs together, also
 #        several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
-#        order, the place of its middle node, in space of three, each opposite a corner;  RISES, in space: a line for each edge of
+#        order, the place of its middle node, in space of three, each opposite a corner;  RISES, in space: how many, then a line for each edge of
 #        all bodies' boundary whose middle is known: its ends, nodes of MESH from 0 on, and the way from its middle to the surface's:
 #        by a mesh of second order, or by SURFACE, if there is one: gmsh's mesh of the same surfaces, of second order. Exit code 0.
 #        Or one line that says what is wrong, and exit code 1.
@@ -204,8 +204,7 @@ function rise(p, q, mx, my, mz,   where) {
   if (where in rises) return
   rises[where] = sprintf("%d %d %.17g %.17g %.17g", now[p] - 1, now[q] - 1, (mx - (x[p] + x[q]) / 2) * 1000000,
     (my - (y[p] + y[q]) / 2) * 1000000, (mz - (z[p] + z[q]) / 2) * 1000000)
-  print rises[where] > ENVIRON["RISES"]
-  risen++
+  riseAt[++risen] = rises[where]
 }
 function place(px, py, pz) { return sprintf("%.17g %.17g %.17g", px, py, pz) }
 function risesOfElements(   s, w, v, i, k, n, on, ends) {
@@ -281,7 +280,9 @@ function write(   i, j, k, n, m, line, mesh, middles) {
   for (k = 1; k <= regions; k++) print region[k] > ENVIRON["REGIONS"]
   if (space) risesOfElements()
   if (ENVIRON["SURFACE"] != "") risesOfSurface()
-  print "parts " parts "\nmiddles " (curved == sides ? keptSides : 0) "\nrises " risen + 0 > ENVIRON["REGIONS"]
+  if (space) print risen + 0 > ENVIRON["RISES"]
+  for (k = 1; k <= risen; k++) print riseAt[k] > ENVIRON["RISES"]
+  print "parts " parts "\nmiddles " (curved == sides ? keptSides : 0) > ENVIRON["REGIONS"]
 }
 END {
   complete()
