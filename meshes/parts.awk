@@ -1,4 +1,5 @@
 # parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE CURVES=FILE
+#        RISES=FILE SURFACE=FILE
 #        LC_ALL=C awk -f msh.awk -f parts.awk < FILE.msh
 # Needs: msh.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
@@ -9,8 +10,10 @@
 #        order, the place of its middle node, in space of three, each opposite a corner. In the plane the boundary is all of it:
 #        what no group of the table names is numbered one more than the groups, and CURVES has for each element of the boundary
 #        the number of the geometry's curve that it lies on, 0: the file has none; with STRAIGHT no middles where all sides are
-#        straight. Exit code 0. Or one line that says what is
-#        wrong, and exit code 1.
+#        straight. RISES, in space: how many, then a line for each edge of all bodies' boundary whose middle is known: its ends,
+#        nodes of MESH from 0 on, and the way from its middle to the surface's: by a mesh of second order, or by SURFACE, if there
+#        is one: gmsh's mesh of the same surfaces, of second order. Exit code 0. Or one line that says what is wrong, and exit
+#        code 1.
 function measure(a, b, c, d) {
   # twice the area, six times the volume; reach: the square of its longest side from a
   bx = x[b] - x[a]; by = y[b] - y[a]; bz = z[b] - z[a]
@@ -86,6 +89,7 @@ section == "Elements" {
     c1[i] = a; c2[i] = size_ < 0 ? c : b; c3[i] = size_ < 0 ? b : c; c4[i] = d
     # gmsh: the middles of sides 1-2, 2-3, 3-1
     if ($2 == 9) for (k = 1; k <= 3; k++) between[edgeKey($(first + k) + 0, $(first + k % 3 + 1) + 0)] = node($(first + 3 + k))
+    if (space && order[$2] == 2) nodesOfElement[i] = $0
     next
   }
   if (!space && $3 > 1) curveOf[edgeKey(node($(first + 1)), node($(first + 2)))] = $5
@@ -227,6 +231,60 @@ function checkCracks(   s, n, w, where) {
     sideAt[where] = owner[s]
   }
 }
+# in space: the way from the middle of an edge of the boundary to the surface's own, once each
+function rise(p, q, mx, my, mz,   where) {
+  where = edgeKey(p, q)
+  if (where in rises) return
+  rises[where] = sprintf("%d %d %.17g %.17g %.17g", now[p] - 1, now[q] - 1, (mx - (x[p] + x[q]) / 2) * 1000000,
+    (my - (y[p] + y[q]) / 2) * 1000000, (mz - (z[p] + z[q]) / 2) * 1000000)
+  riseAt[++risen] = rises[where]
+}
+function place(px, py, pz) { return sprintf("%.17g %.17g %.17g", px, py, pz) }
+function risesOfElements(   s, w, v, i, k, n, on, ends) {
+  # gmsh: its nodes behind the corners, between which corners
+  split("1 2 2 3 3 1 4 1 3 4 2 4", ends, " ")
+  for (s in owner) {
+    if (tip[s] == 0 || !(owner[s] in nodesOfElement)) continue
+    n = split(nodesOfElement[owner[s]], v, " ") - 10
+    split(s, w, " ")
+    split("", on)
+    for (k = 1; k <= 3; k++) on[w[k]] = 1
+    for (k = 1; k <= 6; k++)
+      if ((v[n + ends[2 * k - 1]] in on) && (v[n + ends[2 * k]] in on)) {
+        i = v[n + 4 + k]
+        rise(v[n + ends[2 * k - 1]] + 0, v[n + ends[2 * k]] + 0, x[i], y[i], z[i])
+      }
+  }
+}
+function edgeThere(a, b) { return a < b ? a " " b : b " " a }
+# gmsh may cut extruded quadrangles along the other diagonal: its middle is that of the one that is there
+function risesOfSurface(   line, v, n, part, here, at, facing, across, px, py, pz, s, w, k, e, i) {
+  while ((getline line < ENVIRON["SURFACE"]) > 0) {
+    n = split(line, v, " ")
+    if (substr(line, 1, 1) == "$") part = v[1]
+    else if (part == "$Nodes" && n == 4) { here[v[1]] = place(v[2] + 0, v[3] + 0, v[4] + 0); px[v[1]] = v[2]; py[v[1]] = v[3]; pz[v[1]] = v[4] }
+    else if (part == "$Elements" && v[2] == 9)
+      for (k = 1; k <= 3; k++) {
+        e = edgeThere(here[v[n - 6 + k]], here[v[n - 6 + k % 3 + 1]])
+        i = here[v[n - 6 + (k + 1) % 3 + 1]]
+        at[e] = v[n - 3 + k]
+        # of one surface of the geometry
+        if ((v[5] " " e) in facing) across[edgeThere(facing[v[5] " " e], i)] = at[e]
+        facing[v[5] " " e] = i
+      }
+  }
+  for (s in owner) {
+    if (tip[s] == 0) continue
+    split(s, w, " ")
+    for (k = 1; k <= 3; k++) {
+      e = edgeThere(place(x[w[k]], y[w[k]], z[w[k]]), place(x[w[k % 3 + 1]], y[w[k % 3 + 1]], z[w[k % 3 + 1]]))
+      if (e in at) i = at[e]
+      else if (e in across) i = across[e]
+      else continue
+      rise(w[k] + 0, w[k % 3 + 1] + 0, px[i], py[i], pz[i])
+    }
+  }
+}
 function spot(p) { return sprintf("%.17g %.17g %.17g", x[p] * 1000000, y[p] * 1000000, (space ? z[p] : 0) * 1000000) }
 function write(   i, j, k, n, m, line, mesh, middles, known) {
   mesh = ENVIRON["MESH"]
@@ -255,6 +313,10 @@ function write(   i, j, k, n, m, line, mesh, middles, known) {
   print "$EndElements" > mesh
   print "regions " regions > ENVIRON["REGIONS"]
   for (k = 1; k <= regions; k++) print region[k] > ENVIRON["REGIONS"]
+  if (space) risesOfElements()
+  if (ENVIRON["SURFACE"] != "") risesOfSurface()
+  if (space) print risen + 0 > ENVIRON["RISES"]
+  for (k = 1; k <= risen; k++) print riseAt[k] > ENVIRON["RISES"]
   print "parts " parts "\nmiddles " known > ENVIRON["REGIONS"]
 }
 END {

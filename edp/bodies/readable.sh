@@ -1,8 +1,10 @@
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE [SURFACE]
 # Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text; CASE, a case file;
-#        SPACE, 1 for bodies in space, 0 for the plane.
+#        SPACE, 1 for bodies in space, 0 for the plane; SURFACE: gmsh's mesh of the same surfaces, of second order; of a .geo file in
+#        space it is made here.
 # Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
-#        behind it, and FOLDER/middles, FOLDER/curves; FOLDER/gmsh: gmsh's version, if it meshed FILE. FOLDER is new, and goes when the run has
+#        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/gmsh: gmsh's version, if it meshed FILE. FOLDER
+#        is new, and goes when the run has
 #        ended, however it ended: the run takes it away itself if it can.
 # Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused.
 . "${0%/*}/../case/process.sh"
@@ -13,6 +15,8 @@ folder=$3
 case $folder in /*) ;; *) folder=./$folder ;; esac
 case_=$4
 space=$5
+surface=${6-}
+flat="-2 -order 2 -setnumber Mesh.SaveAll 1"
 meshes=${0%/*}/../../meshes
 (umask 077 && mkdir "$folder") || exit 2
 (
@@ -44,6 +48,8 @@ case $file in *.geo)
     kept=$generated/own-$(cksum < "$file" | tr ' ' -)$how${every:+-curves}.msh
     if ! grep -qiE 'merge|include|shapefromfile' "$file" && mkdir -p "$generated" 2> /dev/null \
         && AFTER=$every sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22; then
+        test "$space" = 0 || ! sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 \
+            || surface=${kept%.msh}-surface.msh
         file=$kept
         sed -n '/^\$Comments/{n;s/^Gmsh //p;q;}' "$kept" > "$folder/gmsh"
         how=
@@ -56,6 +62,8 @@ if test -n "$how"; then
     gmsh "$how" $order -v 4 -format msh22 "$file" ${every:+"$every"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
     grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(sed -n 's/^Error *: *//p' "$folder/log" | head -n 1)"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
+    test "$how" != -3 || gmsh $flat -v 1 -format msh22 "$file" -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
+    test ! -s "$folder/surface.msh" || surface=$folder/surface.msh
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
     file=$folder/converted.msh
 fi
@@ -68,6 +76,7 @@ code=$?
 test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
 test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
 CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
+    RISES=$folder/rises SURFACE=$surface \
     STRAIGHT=$every awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
 code=$?
 cat "$folder/regions" >> "$folder/case" 2> /dev/null
