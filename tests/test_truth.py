@@ -96,7 +96,7 @@ def rings_run(tmp_path_factory):
 @false("circles of 8 sides are taken for 8 corners")
 def test_few_sides(rings_run):
     """Free circles of 8 sides."""
-    rings_run.holds("contacts.0.force", LAME)
+    rings_run.holds("contacts.0.normalForce", LAME)
 
 
 @pytest.mark.parametrize(
@@ -108,14 +108,14 @@ def test_few_sides(rings_run):
 )
 def test_few_sides_otherwise(go, flags):
     """The same with P4, and with new meshes."""
-    go(rings(), RINGS, *flags).holds("contacts.0.force", LAME)
+    go(rings(), RINGS, *flags).holds("contacts.0.normalForce", LAME)
 
 
 @pytest.mark.long
 @false("quadratic sides that a case names are taken for exact")
 def test_quadratic_sides(go):
     """Sides through true middles are not the circle either."""
-    go(rings(2), RINGS + "pressure rest 0\n", "-accuracy", 1e-3).holds("contacts.0.force", LAME)
+    go(rings(2), RINGS + "pressure rest 0\n", "-accuracy", 1e-3).holds("contacts.0.normalForce", LAME)
 
 
 DISC_ON_PLANE = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
@@ -197,7 +197,7 @@ def test_named_boundaries(go):
     """The cure that the warning words: a second-order mesh with these boundaries named."""
     told = go(rings(2, sides=24), RINGS)
     assert "polygon" not in told.warnings
-    told.holds("contacts.0.force", LAME)
+    told.holds("contacts.0.normalForce", LAME)
 
 
 @false("a true kink is taken for a smooth boundary's side")
