@@ -32,7 +32,7 @@ export CONTACT_CACHE := $(CACHE)
 export CONTACT_POSTPROCESS := $(PYTHON) -m postprocess
 endif
 
-SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(wildcard edp/scenes/*.edp)))
+SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(filter-out %/two-bodies.edp,$(wildcard edp/scenes/*.edp))))
 SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
 

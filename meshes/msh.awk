@@ -1,4 +1,4 @@
-# msh.awk: gmsh's version 2 text format, read for check.awk and parts.awk, which come after it: awk -f msh.awk -f ... < FILE.msh
+# msh.awk: gmsh's version 2 text format, read for parts.awk, which comes after it: awk -f msh.awk -f parts.awk < FILE.msh
 # Needs: nothing.
 # Gives: x, y, z of each node, its numbers in the file's order: inOrder (1 ... nodes);  rows[section]: how many lines it says it has;
 #        section, count: where the present line is;  fail(what), element(what): one line that says what is wrong, exit code 1;

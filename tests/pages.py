@@ -56,6 +56,7 @@ def reads(script):
 def scripts():
     """{scene: its script}."""
     found = {path.stem: str(path.relative_to(EDP)) for path in sorted(EDP.glob("scenes/*.edp"))}
+    del found["two-bodies"]  # a script that says what became of it
     found["disc-on-block-ipopt"] = "scenes/ipopt/disc-on-block.edp"
     return {"disc-on-block": "main.edp", **found, "parts": "parts.edp", "parts-3d": "parts-3d.edp"}
 

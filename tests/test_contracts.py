@@ -17,7 +17,7 @@ MODULES = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.idp"))
 ALONE = EDP / "labs/0-algorithm/algorithm1.edp"  # plain FreeFEM: it shares nothing with the modules
 SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp") if path != ALONE)
 TYPES = set("int real string bool complex matrix mesh mesh3 varf fespace func ifstream ofstream ostream".split())
-EVERYWHERE = {"moduleLoaded", "pluginLoaded"}  # every module says that it is there
+EVERYWHERE = {"moduleLoaded", "pluginLoaded", "readTwin"}  # every module says that it is there; includes
 LONGEST_FUNCTION = 60
 
 # a macro ends at //, on whatever line; elsewhere // begins a comment
@@ -42,7 +42,7 @@ def plain(text):
 def source(name):
     """The comment block that opens a source, and its code."""
     text = (EDP / name).read_text()
-    return re.match(r"(?://[^\n]*\n)*", text).group(), plain(text)
+    return re.match(r"(?://[^\n]*\n)*", text).group(), plain(re.sub(r"Stringification\([^)]*\)", "", text))
 
 
 @cache
@@ -164,8 +164,11 @@ def uses(name):
 
 
 def includes(name):
-    """The sources that a source includes, or has a macro include; what `make mpi` writes is not there."""
-    found = re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', (EDP / name).read_text(), flags=re.M)
+    """The sources that a source includes, or has a macro include, twins both; what `make mpi` writes is not there."""
+    text = (EDP / name).read_text()
+    found = re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', text, flags=re.M)
+    twins = re.findall(r"^\s*(?:macro \w+\(\) )?readTwin\(([\w/-]+)\)", text, flags=re.M)
+    found += [f"{twin}-{which}.idp" for twin in twins for which in ("plane", "space")]
     return [inner for inner in found if (EDP / inner).exists()]
 
 

@@ -21,7 +21,6 @@ SCENES = [
     ("wavy", 2.5, ["-h", 0.5, "-geometry", "stress"]),
     ("flat-punch", 2.5, ["-h", 1, "-geometry", "axisymmetric"]),
     ("two-cylinders", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.4]),
-    ("two-bodies", 0.5, ["-law", "power", "-d0", -0.25]),
     ("sphere-on-plane", 0.1, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.6, "-layers", 2]),
     ("two-spheres", 0.5, ["-force", 0, "-law", "power", "-d0", -0.25, "-h", 0.6, "-layers", 2]),
 ]

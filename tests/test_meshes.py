@@ -18,7 +18,6 @@ MESHES = {
     "block": ([], {"block": BLOCK}),
     "block-and-disc": ([], {"block": BLOCK, "disc": HALF_DISC / 16}),
     "two-discs": ([], {"lower": HALF_DISC, "upper": HALF_DISC}),
-    "two-bodies": ([], {"lower": 111.5867, "upper": 44.4231}),
     "block-3d": (["h", 0.03, "patch", 0.09], {"block": BLOCK}),
     "block-3d half": (["h", 0.03, "patch", 0.09, "mirrors", 1], {"block": BLOCK / 2}),
     "block-3d quarter": (["h", 0.03, "patch", 0.09, "mirrors", 2], {"block": BLOCK / 4}),

@@ -52,6 +52,8 @@ paired = 1;
 along.resize(points);
 along = pointX;
 contactOf.resize(points);
+immobile.resize(points);
+immobile = 0;
 chainOf.resize(points);
 readAll("contactOf");
 for (int i = 0; i < points; i++) contactOf[i] = lrint(read[i]);
@@ -72,6 +74,7 @@ contactLength = pointX.max - pointX.min;
     one = 1;
     overlapMap = [one];
     overlapMap.resize(points, ndof);
+    selection = false;
 }
 """
 

@@ -8,7 +8,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, Run, execute, flag_text, snippet, told
+from freefem import FREEFEM, MOVED, ROOT, Run, execute, flag_text, script, snippet, told
 
 from postprocess.closed_forms import pin_angle, pin_pressure, plane_modulus
 
@@ -227,7 +227,7 @@ def test_case_is_read(plane):
         (GOOD + "contact left right law table none.csv d0 -1", "none.csv: no such file, or empty"),
         (
             GOOD + "contact left right kappa 3",
-            "kappa: not allowed here; allowed: contact SLAVE MASTER, then nothing or law",
+            "kappa: not allowed here; allowed: contact SLAVE MASTER [gap vertical] [law",
         ),
         (
             GOOD + "contact bottom right",
@@ -712,6 +712,164 @@ def test_second_order_mesh(tmp_path):
     angle = pin_angle(plane_modulus(210e3, 0.3) * clearance / force)
     found = Run(code, stdout, folder / "out").pressureMax
     assert found == pytest.approx(pin_pressure(0, angle) * force / hole, rel=0.02)
+
+
+# ---------------------------------------------------------------- gaps along the vertical, the methods
+
+PUNCH = ROOT / "edp/examples/punch"
+SOFT = "law power kappa 1e3 m 3 d0 -0.05"
+
+
+def punch(folder, *flags, exchanged=(), expect=0):
+    """The example punch on larger elements, with (old, new) exchanged in its case."""
+    geo, case = ((PUNCH / f"punch.{kind}").read_text() for kind in ("geo", "case"))
+    for old, new in exchanged:
+        assert old in case
+        case = case.replace(old, new)
+    folder.mkdir(exist_ok=True)
+    (folder / "punch.geo").write_text(geo.replace("size = {0.1,", "size = {0.3,"))
+    (folder / "punch.case").write_text(case)
+    code, stdout = run_parts(folder, "punch.geo", "punch.case", *flags)
+    assert code == expect, stdout[-3000:]
+    return Run(code, stdout, folder / "out")
+
+
+@pytest.mark.parametrize("upper", [False, True])
+def test_gap_vertical(tmp_path, upper):
+    """A gap along the vertical is the arcs' difference at the same abscissa, also of a slave that faces down."""
+    exchanged = [("contact contact master", "contact master contact")] if upper else []
+    run = punch(tmp_path, "-check", 1, exchanged=exchanged)
+    assert run.stdout.count("something opposite") == 1
+    found = np.genfromtxt(tmp_path / "out/check/check-points.csv", delimiter=",", names=True)
+    found = found[found["paired"] == 1]
+    found = found[np.abs(found["x"]) < 2.5]  # near their ends splines know less
+    x = found["x"]
+    assert (found["nx"] == 0).all() and (found["ny"] == (-1 if upper else 1)).all()
+    assert found["gap"] == pytest.approx(14.1 - np.sqrt(64 - x**2) - np.sqrt(1600 - x**2) + 34, abs=2e-6)
+
+
+def test_gap_vertical_forces(tmp_path):
+    """Vertical gaps have vertical forces, whose work is the energy; normals give nearly the same."""
+    step = 1e-3
+    runs = [
+        punch(tmp_path / f"{k}", "-tol", 1e-11, exchanged=[("0 -0.5", f"0 {-0.5 - k * step!r}")]) for k in (-1, 0, 1)
+    ]
+    force = runs[1].summary["contacts"][0]["force"]
+    assert abs(force[0]) < 1e-12 and force[1] == pytest.approx(-runs[1].force, rel=1e-12)
+    assert (runs[2].energy - runs[0].energy) / (2 * step) == pytest.approx(runs[1].force, rel=1e-5)
+    along_normals = punch(tmp_path / "normals", exchanged=[(" gap vertical", "")])
+    assert along_normals.force == pytest.approx(runs[1].force, rel=5e-3)
+    assert along_normals.force != pytest.approx(runs[1].force, rel=1e-5)
+
+
+def test_gap_vertical_in_space(tmp_path):
+    """A box on a box: the flat contact's pressure, by gaps along z and by another method."""
+    case = STACK.replace('"upper bottom"', '"upper bottom" gap vertical') + 'clamp bottom\nmove "upper top" 0 0 -0.1\n'
+    mesh = cube(Mesh(), cells=(4, 4, 2))
+    cube(mesh, cells=(3, 5, 2), at=(0, 0, 1), prefix="upper ", name="upper")
+    results = []
+    for flags, text in (([], STACK), ([], case), (["-method", "paper"], case)):
+        text = text if text == case else case.replace(" gap vertical", "")
+        results.append(solve(tmp_path, mesh.text(), text, "-tol", 1e-9, "-order", 1, *flags, script="parts-3d.edp"))
+    forces = [run.summary["contacts"][0]["force"][2] for run in results]
+    assert forces[1:] == pytest.approx([forces[0]] * 2, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ('contact top "upper bottom" gap', "vertical is missing after gap"),
+        (
+            'contact top "upper bottom" gap normal',
+            "normal: not allowed here; allowed: contact SLAVE MASTER [gap vertical]",
+        ),
+        (
+            'contact top "upper bottom" gap vertical\nobstacle top plane 0 9 0 -1',
+            "top: gap along its normals, in line 3",
+        ),
+        ("obstacle top plane 0 9 0 -1 gap vertical", "gap: not allowed here"),
+    ],
+)
+def test_gap_is_refused(tmp_path, text, words):
+    """A gap is vertical or not, one way for a slave; that to an obstacle is along normals."""
+    case = STACK.replace('contact top "upper bottom"\n', text + "\n") + "clamp bottom\n"
+    assert words in solve(tmp_path, stack(), case, expect=10).stdout
+
+
+def test_states_change_nothing(tmp_path):
+    """The pictures of the steps shall leave the steps as they are."""
+    plain, drawn = (
+        punch(tmp_path / f"{states}", "-method", "linesearch", "-order", 1, "-states", states) for states in (0, 1)
+    )
+    assert drawn.force == plain.force and drawn.newton == plain.newton
+
+
+def test_methods(tmp_path):
+    """Every method of a scene's shall find the same pressures; with -steps some load only grazes."""
+    for law, methods in (
+        (SOFT, ("paper", "newton", "linesearch", "incremental")),
+        ("", ("signorini", "paper", "newton")),
+    ):
+        runs = [
+            punch(
+                tmp_path / f"{method}{len(law)}", "-method", method, "-order", 1, "-tol", 1e-9, exchanged=[(SOFT, law)]
+            )
+            for method in ("xnewton", *methods)
+        ]
+        for run in runs[1:]:
+            assert run.force == pytest.approx(runs[0].force, rel=1e-7), run.method
+            assert run.contact["pressure"] == pytest.approx(runs[0].contact["pressure"], abs=1e-6 * run.pressureMax)
+            assert run.summary["outOfBalance"] < 1e-9
+            motions = [body["motion"] for result in (run, runs[0]) for body in result.summary["bodies"]]
+            assert np.ravel(motions[:2]) == pytest.approx(np.ravel(motions[2:]), abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    "method, lines, words",
+    [
+        (
+            "paper",
+            "clamp clamped\nforce pushed 0 -10",
+            "-method paper: free: pushed: along its force; allowed: xnewton",
+        ),
+        (
+            "newton",
+            "clamp clamped\nclamp pushed\nSECOND",
+            "1 of 2 contacts have a law; allowed: a law behind each contact, or",
+        ),
+        (
+            "linesearch",
+            "clamp clamped\nclamp pushed\nHARD",
+            "-method linesearch: 0 of 1 contacts have a law; allowed: a law",
+        ),
+        ("signorini", "clamp clamped\nclamp pushed", "1 of 1 contacts have a law; allowed: hard contact"),
+    ],
+)
+def test_method_is_refused(tmp_path, method, lines, words):
+    """What a method cannot solve is refused in one line, before anything is written."""
+    exchanged = [("clamp clamped\nmove pushed 0 -0.5", lines.replace("\nHARD", "").replace("\nSECOND", ""))]
+    exchanged += [(SOFT, "")] if "HARD" in lines else []
+    exchanged += [(f"gap vertical {SOFT}", f"{SOFT}\nobstacle contact plane 0 20 0 -1")] if "SECOND" in lines else []
+    run = punch(tmp_path, "-method", method, exchanged=exchanged, expect=10)
+    assert words in run.stdout and not run.folder.exists()
+
+
+def test_method_with_turned_dofs(tmp_path):
+    """A symmetry across no axis needs xnewton."""
+    case = f"{STEEL}obstacle top circle {vector((1.5, 5), TURNED)} R 3\nsymmetry left\nsymmetry bottom\n"
+    said = solve(tmp_path, block(Mesh()).text(TURNED), case, "-method", "newton", expect=10).stdout
+    assert "-method newton: a symmetry across no axis turns its nodes' dofs; allowed: xnewton" in said
+
+
+def test_what_was_a_scene(tmp_path):
+    """The script says in one line which case takes its place; that case is one."""
+    code, stdout = execute([*FREEFEM, script(MOVED), "-mesh", "any.msh", "-u0", "0.5"])
+    (line,) = stdout.strip().splitlines()
+    assert code == 10 and "FreeFem++ edp/parts.edp -mesh FILE -case CASE" in line
+    (tmp_path / "a.case").write_text(line.partition("with the lines: ")[2].replace("; ", "\n") + "\n")
+    (tmp_path / "a.geo").write_text((PUNCH / "punch.geo").read_text())
+    code, stdout = run_parts(tmp_path, "a.geo", "a.case", "-check", 1)
+    assert code == 0, stdout
 
 
 # ---------------------------------------------------------------- meshes

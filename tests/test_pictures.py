@@ -15,7 +15,7 @@ from postprocess.results import read_run
 RUNS = {
     "plane": ("disc-on-block", "-h", 2),
     "axis": ("disc-on-block", "-h", 1, "-geometry", "axisymmetric"),
-    "two bodies": ("two-bodies",),
+    "two bodies": ("meshed-disc", "-h", 1),
     "several contacts": ("wavy", "-kappa", 1e6, "-h", 1),
     "space": ("two-spheres", "-h", 0.6, "-layers", 1),
 }

@@ -103,8 +103,9 @@ def test_order_of_caches(places):
 def test_temporary_folder(tmp_path):
     """The checked copy of a user's mesh shall be made where TMPDIR says."""
     env = {**BARE, "TMPDIR": str(tmp_path / "none")}
-    words = ["-mesh", "meshes/two-bodies.geo", "-out", tmp_path / "out"]
-    said = run_in(ROOT, script("two-bodies"), *words, env=env, expect=10).stdout
+    punch = "edp/examples/punch/punch"
+    words = ["-mesh", f"{punch}.geo", "-case", f"{punch}.case", "-out", tmp_path / "out"]
+    said = run_in(ROOT, "edp/parts.edp", *words, env=env, expect=10).stdout
     assert f"cannot be checked: {tmp_path}/none cannot be written" in said
 
 

@@ -12,7 +12,7 @@ import time
 import numpy as np
 import pages
 import pytest
-from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, scenes, script, tree
 from PIL import Image
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
@@ -83,7 +83,7 @@ def default_for(method, flag):
 
 def test_every_scene_is_documented():
     """The README shall name every scene with its script, and no other."""
-    assert sorted(SCENES) == sorted(["disc-on-block", *(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))])
+    assert sorted(SCENES) == scenes()
     for name, path, _ in rows(section(README, "Scenes")):
         assert quoted(path) == [script(quoted(name)[0])]
 

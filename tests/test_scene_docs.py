@@ -5,12 +5,12 @@ import shlex
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, script, skip_without_ipopt, table
+from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, scenes, script, skip_without_ipopt, table
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_readme import README, fences, quoted, rows, section
 
 TEXT = (ROOT / "edp/scenes/README.md").read_text()
-SCENES = sorted(["disc-on-block", *(path.stem for path in (ROOT / "edp/scenes").glob("*.edp"))])
+SCENES = scenes()
 PARTS = ["Strong form", "Boundary", "Reference", "Expected numbers"]
 INDEPENDENT = {"force": FORCE, "pressureMax": PRESSURE_MAX, "halfWidth": HALF_WIDTH}
 
@@ -172,8 +172,6 @@ def apart(scene):
     if scene in ATTRACTING:
         h = ["-h", 0.08] if scene == "adhesive-sphere-3d" else []
         return run(scene, "-u0", -0.01, "-E", 1e6, *h)
-    if scene == "two-bodies":
-        return run(scene, "-points", "nodal")
     return run(scene, "-gap", 0.7, "-u0", 0.1, "-h", 1, *APART.get(scene, []))
 
 
@@ -186,8 +184,7 @@ def test_gap_of_what_attracts(scene):
     assert done.contact["x"].max() == pytest.approx(done.parameters.get("reach", 2.5), rel=1e-9)
 
 
-# of two-bodies the gap is that of the meshes
-@pytest.mark.parametrize("scene", [scene for scene in SCENES if scene != "two-bodies" and scene not in ATTRACTING])
+@pytest.mark.parametrize("scene", [scene for scene in SCENES if scene not in ATTRACTING])
 def test_gap(scene):
     """Short of contact the overlap shall be the section's formula with u = 0, at points up to the section's ends."""
     done = apart(scene)
@@ -354,7 +351,7 @@ REFERENCES = {
     **{"hertz-line": hertz_line, "two-cylinders": two_cylinders, "sphere-on-block": sphere_on_block, "rough": rough},
     **{"patch-test-3d": patch_test_3d, "sphere-on-plane": sphere_on_block, "two-spheres": two_spheres},
 }
-REFERENCES["two-bodies"] = REFERENCES["adhesive-wavy"] = lambda given: {}
+REFERENCES["adhesive-wavy"] = lambda given: {}
 
 
 def sphere_that_attracts(given):

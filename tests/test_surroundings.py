@@ -33,7 +33,8 @@ from systems import NotTried, bootstrap, inside, mounted, tracked
 
 from postprocess.__main__ import main
 
-DISC, BLOCK, BODIES = map(scene_script, ("disc-on-block", "confined-block", "two-bodies"))
+DISC, BLOCK = map(scene_script, ("disc-on-block", "confined-block"))
+BODIES, PUNCH = "edp/parts.edp", "edp/examples/punch/punch"
 TINY = ["-h", "10", "-vtu", "0", "-estimate", "0"]  # a tenth of a second of the confined block
 
 
@@ -93,9 +94,9 @@ def mesh(tmp_path_factory):
 
     @functools.cache
     def make(size):
-        text = (ROOT / "meshes/two-bodies.geo").read_text()
-        assert "\nsize = 0.1;" in text
-        (folder / "bodies.geo").write_text(text.replace("\nsize = 0.1;", f"\nsize = {size};"))
+        text = (ROOT / f"{PUNCH}.geo").read_text()
+        assert "size = {0.1," in text
+        (folder / "bodies.geo").write_text(text.replace("size = {0.1,", f"size = {{{size},"))
         command = ["gmsh", "-2", "-v", "0", "-format", "msh22", folder / "bodies.geo", "-o", folder / f"{size}.msh"]
         assert execute(command)[0] == 0
         return folder / f"{size}.msh"
@@ -129,7 +130,7 @@ def test_comma_locale(mesh, comma, tmp_path, name):
     package = tree(tmp_path / "package")  # its meshes are made in that language
     (tmp_path / "table.csv").write_text("".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6)))
     flags = {
-        BODIES: ["-mesh", mesh(0.5), "-order", 1],
+        BODIES: ["-mesh", mesh(0.5), "-case", f"{PUNCH}.case", "-order", 1],
         DISC: ["-h", 2, "-order", 1, "-law", "table", "-table", tmp_path / "table.csv"],
     }
     for script, own in flags.items():
@@ -408,7 +409,9 @@ def test_odd_mesh(mesh, package, tmp_path, name):
     else:
         assert execute(["gmsh", "-2", "-v", 0, mesh(1), "-save", "-o", tmp_path / "new.msh"])[0] == 0
         (tmp_path / "new.msh").rename(tmp_path / name)
-    assert run_in(tmp_path, BODIES, "-mesh", name, "-order", 1, *TINY[2:], out=tmp_path / "out").converged
+    assert run_in(
+        tmp_path, BODIES, "-mesh", name, "-case", f"{PUNCH}.case", "-order", 1, *TINY[2:], out=tmp_path / "out"
+    ).converged
     assert not (tmp_path / "F").exists()
 
 
@@ -570,7 +573,7 @@ def test_series_of_another_problem(mesh, tmp_path, script):
         }
     else:
         given, finer, coarser = (mesh(size).read_text() for size in (0.6, 0.5, 0.8))
-        flags = ["-mesh", file]
+        flags = ["-mesh", file, "-case", f"{PUNCH}.case", "-order", 1]
         changes = {"finer mesh": (file, finer), "coarser mesh": (file, coarser)}
     flags += ["-history", 1, "-steps", 12, "-vtu", 0, "-estimate", 0]
     file.write_text(given)
@@ -604,13 +607,12 @@ def test_series_that_is_complete(tmp_path):
     [
         "disc-on-block",
         "two-cylinders",
-        *(pytest.param(scene, marks=pytest.mark.long) for scene in ("hertz-line", "meshed-disc", "two-bodies")),
+        *(pytest.param(scene, marks=pytest.mark.long) for scene in ("hertz-line", "meshed-disc")),
     ],
 )
 def test_series_of_the_exact_distance(tmp_path, scene):
     """A load series with the true distance shall end where one step does, its steps in the table."""
-    flags = ["-distance", "exact", "-order", 1, "-estimate", 0, "-vtu", 0]
-    flags += [] if scene == "two-bodies" else ["-h", 2]
+    flags = ["-distance", "exact", "-order", 1, "-estimate", 0, "-vtu", 0, "-h", 2]
     flags += ["-force", 0] if scene in ("hertz-line", "two-cylinders") else []
     series = run_in(ROOT, scene_script(scene), *flags, "-history", 1, "-steps", 4, out=tmp_path / "series")
     alone = run_in(ROOT, scene_script(scene), *flags, out=tmp_path / "alone")

@@ -18,7 +18,6 @@ SENSIBLE = [
     ("meshed-disc", []),
     ("patch-test", []),
     ("rough", []),
-    ("two-bodies", []),
     pytest.param("two-cylinders", [], marks=pytest.mark.long),
     pytest.param("wavy", [], marks=pytest.mark.long),
     ("flat-punch", ["-a", 1, "-force", 20, "-order", 2, "-h", 0.05, "-grading", 160, "-law", "signorini"]),
@@ -114,13 +113,14 @@ def test_overlap_lost_in_rounding():
 
 def test_mean_planes_that_pass_through_each_other():
     """A law so soft that the bodies pass through each other shall be named with -kappa, no other one."""
-    soft = run("two-bodies", "-law", "power", "-d0", -0.05)
+    flags = ["-force", 0, "-law", "power", "-d0", -0.05]
+    soft = run("two-cylinders", *flags)
     text = warned(soft, "mean planes", "-kappa")
     assert soft.overlapMax > 0.1 * 0.4  # gap 0.1, approach 0.5
     assert f"{100 * soft.overlapMax / 0.4:.0f} %" in text
-    assert not run("two-bodies", "-law", "power", "-d0", -0.05, "-kappa", 1e9).warnings
-    assert run("two-bodies").overlapMax < 1e-6
-    exact = run("two-bodies", "-law", "power", "-d0", -0.05, "-distance", "exact")
+    assert not run("two-cylinders", *flags, "-kappa", 1e9).warnings
+    assert run("two-cylinders", "-force", 0).overlapMax < 1e-6
+    exact = run("two-cylinders", *flags, "-distance", "exact")
     warned(exact, "mean planes", "-kappa")
 
 
@@ -276,8 +276,12 @@ TRUE_CIRCLES = 227.1  # greatest pressure, from the true circles' gap, another c
 def test_facets(tmp_path, pin, said):
     """A pressure that facets spoil shall be said; one that they do not is near that of the true circles, and is not."""
     (tmp_path / "pin.geo").write_text(PIN_IN_HOLE.replace("PIN", pin))
-    flags = ["-mesh", tmp_path / "pin.geo", "-E1", 2.1e5, "-E2", 2.1e5, "-force", 2000, "-vtu", 0, "-estimate", 0]
-    done = run_in(ROOT, script("two-bodies"), *flags, "-surface", "facets", out=tmp_path / "out")
+    (tmp_path / "pin.case").write_text(
+        "body lower E 2.1e5 nu 0.3\nbody upper E 2.1e5 nu 0.3\ncontact contact master gap vertical\nclamp clamped\n"
+        "force pushed 0 -2000\n"
+    )
+    flags = ["-mesh", tmp_path / "pin.geo", "-case", tmp_path / "pin.case", "-order", 1, "-vtu", 0, "-estimate", 0]
+    done = run_in(ROOT, "edp/parts.edp", *flags, "-surface", "facets", out=tmp_path / "out")
     if said:
         assert done.pressureMax > 2 * TRUE_CIRCLES
         warned(done, "jumps from point to point", "finer edges")

@@ -1,9 +1,9 @@
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER [CASE SPACE]
-# Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text; with a case file
-#        CASE: SPACE, 1 for bodies in space, 0 for the plane.
-# Gives: FOLDER/mesh.msh, see meshes/check.awk; with a case file, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk,
-#        with the regions of meshes/parts.awk behind it, and FOLDER/middles; FOLDER/gmsh: gmsh's version, if it meshed FILE.
-#        FOLDER is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE
+# Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text; CASE, a case file;
+#        SPACE, 1 for bodies in space, 0 for the plane.
+# Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
+#        behind it, and FOLDER/middles; FOLDER/gmsh: gmsh's version, if it meshed FILE. FOLDER is new, and goes when the run has
+#        ended, however it ended: the run takes it away itself if it can.
 # Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused.
 . "${0%/*}/../case/process.sh"
 run=$1
@@ -31,7 +31,7 @@ test -r "$file" || no "may not be read"
 how=
 : > "$folder/gmsh"
 case $file in *.geo)
-    how=-$((2 + ${space:-0}))
+    how=-$((2 + space))
     # kept as the package's own meshes are, if it stands for itself: what it includes may change unseen
     generated=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
     generated=${generated:+$generated/meshes}
@@ -54,24 +54,18 @@ if test -n "$how"; then
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
     file=$folder/converted.msh
 fi
-if test -n "$case_"; then
-    tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' > "$folder/names"
-    test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
-    # a name with = would be an assignment to awk
-    case $case_ in /*) path=$case_ ;; *) path=./$case_ ;; esac
-    CASE=$case_ SPACE=$space awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
-    code=$?
-    test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
-    test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
-    CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles \
-        awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
-    code=$?
-    cat "$folder/regions" >> "$folder/case" 2> /dev/null
-else
-    awk -f "$meshes/msh.awk" -f "$meshes/check.awk" < "$file" > "$folder/mesh.msh" 2> /dev/null
-    code=$?
-    test $code -ne 1 || mv "$folder/mesh.msh" "$folder/why"
-fi
+tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' > "$folder/names"
+test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
+# a name with = would be an assignment to awk
+case $case_ in /*) path=$case_ ;; *) path=./$case_ ;; esac
+CASE=$case_ SPACE=$space awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
+code=$?
+test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
+test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
+CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles \
+    awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
+code=$?
+cat "$folder/regions" >> "$folder/case" 2> /dev/null
 test $code -le 1 || no "cannot be checked: is awk there, and room in ${folder%/*}?"
 test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in ${folder%/*}"
 exit $code

@@ -2,7 +2,7 @@
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages.
 # Gives: a plain table for bodies/parts.idp: "units" and its text, "state" and its word, "thickness" and its number; "groups", how
 #        many, then dimension and name of each group that is used, a line each: its number is its place; "statements", how many,
-#        then a line each: word, line of the file, its groups' numbers (two, 0: none), shape, what moves an obstacle, law (none:
+#        then a line each: word, line of the file, its groups' numbers (two, 0: none), shape or a contact's gap, what moves an obstacle, law (none:
 #        without) and 16 numbers (see put()). Or one line that says what is wrong where, and exit code 1.
 # The grammar is the table of usages below; words that stand for a number are looked at in number().
 function no(what) {
@@ -182,19 +182,34 @@ function readObstacle(   g, v, shape, load, law, next_) {
   once("obstacle" SUBSEP g SUBSEP shape_, "this obstacle of " nameOf[g])
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
   touches[g] = FNR; slaves[g] = FNR
+  measured(g, "none")
   put(g, 0, shape, load, law, v)
 }
-function readContact(   a, b, v, law, pair) {
+# gaps of one slave, in space of all contacts, are measured in one way
+function measured(g, gap,   all) {
+  all = space ? 0 : g
+  if (all in gapOf && gapOf[all] != gap)
+    no(nameOf[g] ": gap " (gap == "none" ? "along its normals" : gap) ", in line " gapLine[all] " it is not; allowed: one way for " (space ? "all contacts" : "one slave"))
+  gapOf[all] = gap
+  gapLine[all] = FNR
+}
+function readContact(   a, b, v, law, gap, next_) {
   a = group(dim - 1)
   b = group(dim - 1)
   if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
   once("contact" SUBSEP (a < b ? a SUBSEP b : b SUBSEP a), "contact of " nameOf[a] " and " nameOf[b])
   for (k = 0; k < 16; k++) v[k] = 0
-  law = "none"
-  if (at < words) { keyword("law"); law = readLaw(v) }
+  law = gap = "none"
+  while (at < words) {
+    next_ = word[++at]
+    if (next_ == "law" && law == "none") law = readLaw(v)
+    else if (next_ == "gap" && gap == "none") { keyword("vertical"); gap = "vertical" }
+    else no(next_ ": not allowed here; " usageOf("contact"))
+  }
   slaves[a] = FNR
   touches[a] = touches[b] = FNR
-  put(a, b, "none", "none", law, v)
+  measured(a, gap)
+  put(a, b, gap, "none", law, v)
 }
 function readBody(   g, v) {
   g = group(dim)
@@ -254,7 +269,7 @@ BEGIN {
   usage["body"] = "body NAME E number nu number"
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
-  usage["contact"] = "contact SLAVE MASTER, then nothing or law NAME with its parameters: " lawNames
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [law NAME ...], with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
   usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [law NAME ...], SHAPE one of: " shapeNames

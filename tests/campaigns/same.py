@@ -33,7 +33,7 @@ MOMENTS = {"contactMoment", "reactionMoment", "masterMoment"}
 JOBS = 2
 
 PLANE = ["disc-on-block", "meshed-disc", "confined-block", "wavy", "flat-punch", "hertz-line", "two-cylinders"]
-PLANE += ["two-bodies", "patch-test", "rough"]
+PLANE += ["patch-test", "rough"]
 SPACE = ["sphere-on-block", "sphere-on-plane", "two-spheres", "patch-test-3d"]
 ADHESIVE = ["adhesive-sphere", "adhesive-cylinder", "adhesive-wavy", "adhesive-sphere-3d"]
 METHODS = ["paper", "newton", "linesearch", "incremental", "signorini"]
@@ -96,16 +96,14 @@ def runs() -> Iterator[tuple[str, str, str]]:
         yield one("disc-on-block", f"-method {method} -order {order} -kappa 1e6")
     for law, geometry in product(["power", *LAWS], ["stress", "axisymmetric"]):
         yield one("disc-on-block", f"-law {law} -geometry {geometry} -order 1")
-    for scene, flags in product(
-        ["two-cylinders", "meshed-disc", "two-bodies"], ["-distance exact", "-history 1 -steps 3"]
-    ):
+    for scene, flags in product(["two-cylinders", "meshed-disc"], ["-distance exact", "-history 1 -steps 3"]):
         yield one(scene, flags)
         yield one(scene, f"{flags} -order 1")
     for scene, flags in product(["wavy", "flat-punch", "hertz-line", "two-cylinders", "rough"], INGREDIENTS[:6]):
         yield one(scene, flags)
-    for scene in ["wavy", "flat-punch", "hertz-line", "two-cylinders", "meshed-disc", "two-bodies"]:
+    for scene in ["wavy", "flat-punch", "hertz-line", "two-cylinders", "meshed-disc"]:
         yield one(scene, "-accuracy 1e-2")
-    for scene, points in product(["two-cylinders", "meshed-disc", "two-bodies", "patch-test"], ["nodal", "segment"]):
+    for scene, points in product(["two-cylinders", "meshed-disc", "patch-test"], ["nodal", "segment"]):
         yield one(scene, f"-points {points} -order 1")
     coarse = {"sphere-on-block": "-h 1", "sphere-on-plane": "-h 0.5", "two-spheres": "-h 0.5", "patch-test-3d": ""}
     for scene, order in product(SPACE, (1, 2)):

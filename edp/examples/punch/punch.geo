@@ -1,7 +1,5 @@
-// two-bodies.geo: an example of a mesh for the scene two-bodies: a punch with a round nose above an arched foundation
-// Lengths as they are. The scene needs these names: the curves contact, master, clamped, pushed and the surfaces lower, upper.
-//   gmsh -2 -format msh22 meshes/two-bodies.geo -o bodies.msh
-size = 0.1;                 // of the elements near the contact
+// punch.geo: a punch with a round nose above an arched foundation
+DefineConstant[ size = {0.1, Name "size of the elements near the contact"} ];
 
 // the foundation: 20 wide, 6 high in the middle, its top an arc of radius 40
 Point(1) = {-10, 0, 0};
