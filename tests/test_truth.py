@@ -19,13 +19,13 @@ MEMORY = 3_000_000  # kB: a run that wants more shall end, not the machine
 class Told:
     """What a run printed and wrote."""
 
-    def __init__(self, folder, geo, case, *flags, space=False, expect=0):
+    def __init__(self, folder, geo, case, *flags, space=False, expect=0, vtu=0):
         mesh, case_file, out = folder / "part.geo", folder / "part.case", folder / "out"
         mesh = mesh if "Point" in geo or "OpenCASCADE" in geo else mesh.with_suffix(".msh")
         mesh.write_text(geo)
         case_file.write_text(case)
         script = f"edp/parts{'-3d' * space}.edp"
-        command = [*FREEFEM, script, "-mesh", mesh, "-case", case_file, "-out", out, "-vtu", 0, *flags]
+        command = [*FREEFEM, script, "-mesh", mesh, "-case", case_file, "-out", out, "-vtu", vtu, *flags]
         code, self.stdout = execute(["sh", "-c", f'ulimit -v {MEMORY}; exec "$@"', "sh", *command])
         assert code == expect, f"exit code {code}:\n{self.stdout[-2000:]}"
         self.summary = json.loads((out / "summary.json").read_text()) if code == 0 else {}
