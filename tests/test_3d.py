@@ -108,9 +108,9 @@ def test_counts(law, symmetry):
     assert sphere.summary["used"]["kernel"]
 
 
-MESH = 'Th = gmshMesh("block-3d", meshNames, meshValues, width);'
-UNFOLDED = """meshValues[5] = 2;
-mesh3 quarter = gmshMesh("block-3d", meshNames, meshValues, width);
+MESH = 'Th = gmshMesh("block-3d", names, values, width);'
+UNFOLDED = """values[5] = 2;
+mesh3 quarter = gmshMesh("block-3d", names, values, width);
 mesh3 side = quarter + movemesh(quarter, [-x, y, z], orientation = -1);
 Th = side + movemesh(side, [x, -y, z], orientation = -1);
 """
@@ -119,7 +119,7 @@ Th = side + movemesh(side, [x, -y, z], orientation = -1);
 def test_quarter_is_a_quarter_of_its_images(tmp_path):
     """A loaded quarter, and the block on the quarter's mesh and its mirror images, shall have one solution."""
     package = tree(tmp_path / "package")
-    block = package / "edp" / "blocks" / "block-mesh.idp"
+    block = package / "edp" / "blocks" / "block-space.idp"
     assert block.read_text().count(MESH) == 1
     block.write_text(block.read_text().replace(MESH, UNFOLDED))
     flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-tol", 1e-10, "-bodyForce", 0.1, "-traction", -1]

@@ -190,7 +190,7 @@ def test_unknown_group_is_refused(tmp_path):
     assert 'no physical group "contac"' in first
 
 
-# ---------------------------------------------------------------- discretisation/stiffness.idp
+# ---------------------------------------------------------------- discretisation/of-element.idp
 
 # the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
 BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]

@@ -58,7 +58,7 @@ chainOf.resize(points);
 readAll("contactOf");
 for (int i = 0; i < points; i++) contactOf[i] = lrint(read[i]);
 chainOf = contactOf;
-for (int c = 0; c < CONTACTS; c++) addContact("contact " + c, 0, 0, -1);
+for (int c = 0; c < CONTACTS; c++) addContact("contact " + c, "", 0, 0, -1, false, localCompliance);
 chainClosed.resize(CONTACTS);
 chainClosed = 0;
 contactLength = pointX.max - pointX.min;
