@@ -80,7 +80,7 @@ def test_several(go):
 
 
 def test_prescribed_motion(go):
-    """What a motion needs along itself, with an error, is the force of the run: of a move, of a moved obstacle alike."""
+    """What a motion needs along itself, with an error, is the run's force: of a move, of a moved obstacle alike."""
     squeezed = "body bar E 1000 nu 0\nsymmetry left\nobstacle right plane 2 0 -1 0"
     pushed = go(bar(0.3, 0.3), f"{squeezed} move -0.01 0\n")
     assert pushed.summary["force"] == pytest.approx(7.5, rel=1e-6)

@@ -965,5 +965,7 @@ def test_work_of_an_obstacle(tmp_path, load):
     before, after = (
         solve(tmp_path, mesh, case.format(at + k * step), "-tol", 1e-10, "-order", 1).summary for k in (-1, 1)
     )
-    forces = [run["prescribed"][1]["force"] if "move" in load else run["obstacles"][0]["motion"][1] for run in (before, after)]
+    forces = [
+        run["prescribed"][1]["force"] if "move" in load else run["obstacles"][0]["motion"][1] for run in (before, after)
+    ]
     assert (after["energy"] - before["energy"]) / (2 * step) == pytest.approx(np.mean(forces), rel=1e-3)

@@ -476,7 +476,9 @@ def test_one_meaning(rings_run):
     told = rings_run.summary["estimates"]["force"]
     value, said = rings_run.numbers["contacts.0.force"]
     assert told is None or told["value"] == pytest.approx(value) or told["error"] < said / 100
-    assert rings_run.summary["force"] is None and abs(value) < 1e-9 < 600 < rings_run.numbers["contacts.0.normalForce"][0]
+    assert (
+        rings_run.summary["force"] is None and abs(value) < 1e-9 < 600 < rings_run.numbers["contacts.0.normalForce"][0]
+    )
 
 
 def test_ways(go):
