@@ -525,7 +525,6 @@ def test_pie(go):
 
 
 @pytest.mark.long
-@false("what rounds leave is measured by the last residual's tolerance")
 def test_rounds_of_the_true_distance(go, rings_run):
     """The true distance moves the forces by 1e-4: its error is no larger than without."""
     exact = go(rings(), RINGS, "-distance", "exact").numbers["contacts.0.normalForce"]
