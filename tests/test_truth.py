@@ -503,6 +503,7 @@ def test_opposite_planes(go):
     case = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -2 0 1\nobstacle rim plane 0 2 0 -1 move 0 -0.05\n"
     told = go(sketch.text(), case)
     assert told.summary["force"] == pytest.approx(abs(told.summary["contacts"][1]["force"][1]), rel=1e-6)
+    assert told.summary["estimates"]["force"]["error"] == told.numbers["contacts.1.force"][1] > 1e-3
 
 
 # ---------------------------------------------------------------- robustness
