@@ -42,15 +42,18 @@ def table(kind, names):
     return "\n".join(rows) + "\n"
 
 
-EACH = re.compile(r"^macro (?:each|more)Option\(do, what\) (.*?)//", re.M | re.S)
+EACH = re.compile(r"^macro (?:eachOption|moreOptions)\(do, what\) (.*?)//", re.M | re.S)
 
 
-def reads(script):
+def reads(script, space=False):
     """The options that a script of edp/ reads: by its own line, or by that of a script that it includes."""
     text = (EDP / script).read_text()
+    space = space or "macro threeDimensional" in text
+    if space:
+        text = re.sub(r"^IFMACRO\(!threeDimensional\)\n.*?^ENDIFMACRO\n", "", text, flags=re.M | re.S)
     own = re.findall(r"do\((\w+), what\)", "".join(EACH.findall(text)))
     inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
-    return set(own).union(*map(reads, inner))
+    return set(own).union(*(reads(name, space) for name in inner))
 
 
 def scripts():
@@ -227,7 +230,8 @@ def flags():
 
 CASE = "edp/examples/{0}/{0}"
 RUNS = {  # a run of each kind
-    "plane": "main.edp -method paper -order 1 -h 2 -steps 2 -states 1 -axis 1 -history 1",
+    "plane": "scenes/hertz-line.edp -law power -d0 -0.25 -force 0 -u0 1 -method paper -order 1 -h 2 -steps 2 -states 1"
+    " -axis 1 -history 1",
     "space": "scenes/sphere-on-block.edp -order 1 -h 2 -states 1",
     "two": "scenes/patch-test.edp",
     "two in space": "scenes/patch-test-3d.edp -lower 2 -upper 3",

@@ -146,7 +146,7 @@ def paper_run(tmp_path_factory):
     cells = [row[0] for row in rows(section(MANUAL, "Files of a run")) if ".csv" in row[0]]
     switches = {tuple(name.split()) for cell in cells for name in quoted(cell) if name.startswith("-")}
     flags = [word for switch in sorted(switches) for word in switch]
-    return run_in(ROOT, script("disc-on-block"), "-method", "paper", "-h", 2, "-steps", 2, *flags, out=out)
+    return run_in(ROOT, script("meshed-disc"), "-method", "paper", "-h", 2, "-steps", 2, *flags, out=out)
 
 
 def test_paraview(paper_run):

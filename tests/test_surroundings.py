@@ -625,7 +625,7 @@ def test_series_of_the_exact_distance(tmp_path, scene):
 
 
 @pytest.mark.parametrize(
-    "scene, flags", [("disc-on-block", ["-depth", 2]), ("meshed-disc", ["-depth", 3, "-order", 2])]
+    "scene, flags", [("hertz-line", ["-depth", 2]), ("meshed-disc", ["-depth", 3, "-order", 2])]
 )
 def test_axis_ends_with_the_body(tmp_path, scene, flags):
     """axis.csv shall end at the body's bottom: no rows of zeros from beside the body."""
@@ -635,7 +635,7 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
     assert (rows["s22"] != 0).all()
     depth = done.summary["parameters"]["depth"]
     assert rows["depth"][-1] <= depth * (1 + 1e-6)
-    if scene == "disc-on-block":
+    if scene == "hertz-line":
         assert rows["depth"][-1] == pytest.approx(depth, rel=1e-6)
 
 

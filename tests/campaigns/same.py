@@ -27,7 +27,7 @@ from campaign import FREEFEM, ROOT, script_of, sources_digest
 TOLERANCE = 1e-9
 ESTIMATED = 1e-4  # of the estimates' own numbers: their dual is solved to a tolerance
 LEFT_OUT = {"seconds", "modules", "plugins", "costRatio", "out", "version", "freefem", "gmsh", "date", "given"}
-LEFT_OUT |= {"path", "branch", "control", "w", "eps0"}  # flags of an option: scenes that do not read it have none
+LEFT_OUT |= {"path", "branch", "control", "w", "eps0", "axis"}  # flags of options: of scenes that read them
 BELOW_TOL = {"residual", "algebra", "modelError"}
 MOMENTS = {"contactMoment", "reactionMoment", "masterMoment"}
 JOBS = 2
@@ -40,7 +40,7 @@ METHODS = ["paper", "newton", "linesearch", "incremental", "signorini"]
 LAWS = ["exponential", "barrier", "signorini"]
 INGREDIENTS = ["-T0 d0", "-T0 0", "-threshold pointwise -T0 d0", "-inner newton", "-start none", "-preconditioner none"]
 INGREDIENTS += ["-preconditioner diagonal", "-forcing 1e-6 -tol 1e-10", "-kappa 1e12 -m 1.05", "-kappa 0.01 -m 20"]
-INGREDIENTS += ["-law power -kappa 1e9 -T0 d0", "-maxNewton 1", "-history 1 -steps 4", "-axis 1", "-states 1"]
+INGREDIENTS += ["-law power -kappa 1e9 -T0 d0", "-maxNewton 1", "-history 1 -steps 4", "-states 1"]
 OFTEN = ["-geometry stress", "-geometry axisymmetric", "-force 80", "-distance exact", "-corners 0", "-ends 5 -h 1"]
 OFTEN += [
     "-bodyForce 0.1 -traction 0.2",
@@ -69,7 +69,7 @@ STUCK += [
     "-start none",
     "-eps0 0.002 -gap 0.002",
     "-force 1",
-    "-vtu 0 -axis 1",
+    "-vtu 0",
 ]
 STICKY = "-w 0.003108162 -h 0.02 -fine 0.38 -grading 283"
 REFUSED = ["-h 0", "-order 3", "-method no", "-T0 -5", "-out /proc/x", "-kappa abc", "-law table"]
