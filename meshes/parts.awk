@@ -1,4 +1,4 @@
-# parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE
+# parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE CURVES=FILE
 #        LC_ALL=C awk -f msh.awk -f parts.awk < FILE.msh
 # Needs: msh.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
@@ -6,8 +6,11 @@
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
 #        "regions", how many, then of each the number of its body in the table and of its part: a part is what hangs together, also
 #        several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
-#        order, the place of its middle node, in space of three, each opposite a corner. Exit code 0. Or one line that says what
-#        is wrong, and exit code 1.
+#        order, the place of its middle node, in space of three, each opposite a corner. In the plane the boundary is all of it:
+#        what no group of the table names is numbered one more than the groups, and CURVES has for each element of the boundary
+#        the number of the geometry's curve that it lies on, 0: the file has none; with STRAIGHT no middles where all sides are
+#        straight. Exit code 0. Or one line that says what is
+#        wrong, and exit code 1.
 function measure(a, b, c, d) {
   # twice the area, six times the volume; reach: the square of its longest side from a
   bx = x[b] - x[a]; by = y[b] - y[a]; bz = z[b] - z[a]
@@ -81,8 +84,11 @@ section == "Elements" {
     if (small <= 1e-10 * reach * (space ? sqrt(reach) : 1)) element("a " bodyKind " without " (space ? "volume" : "area"))
     if (small * (space ? 1e18 / 6 : 0.5e12) < 1e-7) element("a " bodyKind " too small: another unit of length helps")
     c1[i] = a; c2[i] = size_ < 0 ? c : b; c3[i] = size_ < 0 ? b : c; c4[i] = d
+    # gmsh: the middles of sides 1-2, 2-3, 3-1
+    if ($2 == 9) for (k = 1; k <= 3; k++) between[edgeKey($(first + k) + 0, $(first + k % 3 + 1) + 0)] = node($(first + 3 + k))
     next
   }
+  if (!space && $3 > 1) curveOf[edgeKey(node($(first + 1)), node($(first + 2)))] = $5
   if (!g) next
   s = ++sides
   for (k = 1; k <= dim; k++) side[s, k] = node($(first + k))
@@ -181,6 +187,33 @@ function checkSides(   s, k, where, g) {
   }
   for (g = 1; g <= groups; g++) if (!(g in has)) fail("the physical group \"" name[g] "\" has no " (dimOf[g] == dim ? bodyKind : sideKind) " of a body")
 }
+# in the plane: the rest of the boundary, which no group of the table names
+function addSide(p, q) {
+  where = edgeKey(p, q)
+  if (tip[where] == 0 || where in isIn) return
+  s = kept[++keptSides] = ++sides
+  side[s, 1] = p; side[s, 2] = q
+  sideGroup[s] = groups + 1
+}
+function addSides(   i) {
+  for (i = 1; i <= elements; i++) { addSide(c1[i], c2[i]); addSide(c2[i], c3[i]); addSide(c3[i], c1[i]) }
+}
+function bulges(p, q, m,   ax, ay, mx, my) {
+  ax = x[q] - x[p]; ay = y[q] - y[p]
+  mx = x[m] - (x[p] + x[q]) / 2; my = y[m] - (y[p] + y[q]) / 2
+  return mx * mx + my * my > 1e-16 * (ax * ax + ay * ay)
+}
+# of all of the boundary, in the plane the triangles' own; STRAIGHT: not of straight bodies
+function knowMiddles(   j, where, bent) {
+  if (space) return curved == sides ? keptSides : 0
+  for (j = 1; j <= keptSides; j++) {
+    where = edgeKey(side[kept[j], 1], side[kept[j], 2])
+    if (where in between) middle[kept[j], 1] = between[where]
+    else if (!((kept[j], 1) in middle)) return 0
+    if (bulges(side[kept[j], 1], side[kept[j], 2], middle[kept[j], 1])) bent = 1
+  }
+  return bent || !ENVIRON["STRAIGHT"] ? keptSides : 0
+}
 # two sides of one body in the same place, and no contact there: what is meant as one body would open
 function checkCracks(   s, n, w, where) {
   for (s in owner) {
@@ -195,9 +228,10 @@ function checkCracks(   s, n, w, where) {
   }
 }
 function spot(p) { return sprintf("%.17g %.17g %.17g", x[p] * 1000000, y[p] * 1000000, (space ? z[p] : 0) * 1000000) }
-function write(   i, j, k, n, m, line, mesh, middles) {
+function write(   i, j, k, n, m, line, mesh, middles, known) {
   mesh = ENVIRON["MESH"]
   middles = ENVIRON["MIDDLES"]
+  known = knowMiddles()
   for (k = 1; k <= nodes; k++) if (inOrder[k] in partOf) now[inOrder[k]] = ++n
   print "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" n > mesh
   for (k = 1; k <= nodes; k++) if (inOrder[k] in now) print now[inOrder[k]], spot(inOrder[k]) > mesh
@@ -207,7 +241,8 @@ function write(   i, j, k, n, m, line, mesh, middles) {
     line = ++m " " (space ? 2 : 1) " 2 " sideGroup[i] " " sideGroup[i]
     for (k = 1; k <= dim; k++) line = line " " now[side[i, k]]
     print line > mesh
-    if (curved == sides) {
+    if (!space) print curveOf[edgeKey(side[i, 1], side[i, 2])] + 0 > ENVIRON["CURVES"]
+    if (known) {
       line = spot(middle[i, 1])
       if (space) line = line " " spot(middle[i, 2]) " " spot(middle[i, 3])
       print line > middles
@@ -220,12 +255,13 @@ function write(   i, j, k, n, m, line, mesh, middles) {
   print "$EndElements" > mesh
   print "regions " regions > ENVIRON["REGIONS"]
   for (k = 1; k <= regions; k++) print region[k] > ENVIRON["REGIONS"]
-  print "parts " parts "\nmiddles " (curved == sides ? keptSides : 0) > ENVIRON["REGIONS"]
+  print "parts " parts "\nmiddles " known > ENVIRON["REGIONS"]
 }
 END {
   complete()
   checkElements()
   checkSides()
   checkCracks()
+  if (!space) addSides()
   write()
 }

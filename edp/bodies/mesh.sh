@@ -1,6 +1,6 @@
 # mesh.sh: a mesh made by gmsh, unless it is there already: sh mesh.sh RUN MESH GEO OPTIONS-OF-GMSH...
 # Needs: RUN, the number of the run's process; GEO, the geometry, with all others in its folder; MESH, a file to be in a folder
-#        that is made if it is missing, beside GEO.
+#        that is made if it is missing, beside GEO; AFTER, a variable: a file that gmsh reads after GEO, or nothing.
 # Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in its $Comments "Gmsh" and gmsh's version; in a
 #        folder with a file .shared also MESH.of, the geometries' checksum, for there they may be another copy's of the package.
 # Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 130 interrupted.
@@ -28,7 +28,7 @@ work=$work-$run
 gmsh=
 trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; rm -rf "$work"; exit 130' HUP INT TERM
 mkdir "$work" 2> /dev/null || exit 4
-gmsh "$@" -v 4 "$geo" -o "$work/gmsh.msh" > "$work/log" 2>&1 &
+gmsh "$@" -v 4 "$geo" ${AFTER:+"$AFTER"} -o "$work/gmsh.msh" > "$work/log" 2>&1 &
 gmsh=$!
 (
     while sleep 1; do

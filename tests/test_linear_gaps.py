@@ -1,0 +1,280 @@
+"""Gaps and rotations are linear in the displacement: what that leaves out is in each ±, or is said with its size.
+
+The truth is a body that is turned in its mesh, statics, or the true distance.
+"""
+
+import json
+import re
+from itertools import count
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, flag_text
+
+# an ellipse, finer near (0, 5), turned by `turn` about its centre
+CAM = """
+DefineConstant[ turn = {0}, rx = {6}, size = {0.03} ];
+Point(1) = {0, 0, 0}; Point(2) = {rx, 0, 0}; Point(3) = {0, 5, 0}; Point(4) = {-rx, 0, 0}; Point(5) = {0, -5, 0};
+Ellipse(1) = {2, 1, 2, 3}; Ellipse(2) = {3, 1, 2, 4}; Ellipse(3) = {4, 1, 2, 5}; Ellipse(4) = {5, 1, 2, 2};
+Point(6) = {2, 0, 0}; Point(7) = {0, 2, 0}; Point(8) = {-2, 0, 0}; Point(9) = {0, -2, 0};
+Circle(5) = {6, 1, 7}; Circle(6) = {7, 1, 8}; Circle(7) = {8, 1, 9}; Circle(8) = {9, 1, 6};
+Rotate {{0, 0, 1}, {0, 0, 0}, turn} { Curve{1:8}; }
+Curve Loop(1) = {1:4}; Curve Loop(2) = {5:8}; Plane Surface(1) = {1, 2};
+Mesh.ElementOrder = 2;
+Physical Curve("rim") = {1:4}; Physical Curve("shaft") = {5:8}; Physical Surface("cam") = {1};
+Field[1] = MathEval; Field[1].F = Sprintf("%g + 0.25 * Sqrt(x * x + (y - 5) * (y - 5))", size);
+Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 1;
+"""
+PRESSED = "body cam E 1e5 nu 0.3\nobstacle rim plane 0 {} 0 -1\n"
+
+# a plank of 10 by 4 on two round feet of radius 1, six apart
+PLANK = """
+size = 0.5;
+Point(1) = {0, 0, 0, size}; Point(2) = {1, 0, 0, size}; Point(3) = {2, 0, 0, size}; Point(4) = {2, -1, 0, 0.02};
+Point(5) = {3, 0, 0, size}; Point(6) = {7, 0, 0, size}; Point(7) = {8, 0, 0, size}; Point(8) = {8, -1, 0, 0.02};
+Point(9) = {9, 0, 0, size}; Point(10) = {10, 0, 0, size}; Point(11) = {10, 4, 0, size}; Point(12) = {0, 4, 0, size};
+Line(1) = {1, 2}; Circle(2) = {2, 3, 4}; Circle(3) = {4, 3, 5}; Line(4) = {5, 6}; Circle(5) = {6, 7, 8};
+Circle(6) = {8, 7, 9}; Line(7) = {9, 10}; Line(8) = {10, 11}; Line(9) = {11, 12}; Line(10) = {12, 1};
+Curve Loop(1) = {1:10}; Plane Surface(1) = {1}; Mesh.ElementOrder = 2;
+Physical Curve("left") = {2, 3}; Physical Curve("right") = {5, 6}; Physical Curve("top") = {9};
+Physical Surface("plank") = {1};
+"""
+STANDING = "body plank E 1e6 nu 0.3\nobstacle left plane 0 -1 0 1\nobstacle right plane 0 -1.3 0 1\n"
+
+# a soft round nose on a stiff floor
+NOSE = """
+h = 0.05;
+Point(1) = {-6, -5, 0, 1}; Point(2) = {6, -5, 0, 1}; Point(3) = {6, 0, 0, 1}; Point(4) = {-6, 0, 0, 1};
+Point(20) = {0, 0, 0, h}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 20}; Line(30) = {20, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 30, 4}; Plane Surface(1) = {1};
+Point(5) = {0, 0, 0, h}; Point(6) = {0, 5, 0, 1}; Point(7) = {4, 2, 0, 1}; Point(8) = {-4, 2, 0, 1};
+Point(9) = {1.4, 5 - Sqrt(25 - 1.96), 0, h}; Point(10) = {-1.4, 5 - Sqrt(25 - 1.96), 0, h};
+Circle(5) = {8, 6, 10}; Circle(6) = {10, 6, 5}; Circle(7) = {5, 6, 9}; Circle(8) = {9, 6, 7}; Line(9) = {7, 8};
+Curve Loop(2) = {5:9}; Plane Surface(2) = {2};
+Physical Curve("base") = {1}; Physical Curve("floor") = {3, 30}; Physical Curve("nose") = {5:8};
+Physical Curve("head") = {9}; Physical Surface("low") = {1}; Physical Surface("up") = {2};
+"""
+ON_FLOOR = "body low E 1e6 nu 0.3\nbody up E 1 nu 0.3\ncontact {} {}\nclamp base\nmove head {} {}\n"
+
+# a ball in a cup, axisymmetric
+HIP = """
+SetFactory("OpenCASCADE");
+Point(1) = {0, 0, 0}; Point(2) = {14, 0, 0}; Point(3) = {0, -14, 0};
+Circle(1) = {2, 1, 3}; Line(2) = {3, 1}; Line(3) = {1, 2}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Point(10) = {0, 0.1, 0}; Point(11) = {14.1, 0.1, 0}; Point(12) = {0, -14, 0}; Point(13) = {24, 0.1, 0};
+Point(14) = {0, -23.9, 0}; Circle(10) = {11, 10, 12}; Circle(11) = {13, 10, 14};
+Line(12) = {12, 14}; Line(13) = {11, 13};
+Curve Loop(2) = {10, 12, -11, -13}; Plane Surface(2) = {2};
+Physical Surface("head") = {1}; Physical Surface("cup") = {2}; Physical Curve("head-surface") = {1};
+Physical Curve("grip") = {3}; Physical Curve("cup-bore") = {10}; Physical Curve("shell") = {11};
+Field[1] = MathEval; Field[1].F = "0.35 * (1 + 0.25 * Abs(Sqrt(x * x + y * y) - 14) / 0.35)";
+Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 2;
+"""
+IN_CUP = """units mm MPa
+state axisymmetric
+body head E 230e3 nu 0.3
+body cup E 800 nu 0.46
+contact cup-bore head-surface
+clamp shell
+force grip 0 -2500
+"""
+
+# a disc in space, finer near (0, 3)
+WHEEL = """
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 1, 3}; Cylinder(2) = {0, 0, 0, 0, 0, 1, 1.2};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Physical Volume("disc") = {3}; Physical Surface("rim") = {1}; Physical Surface("shaft") = {4};
+Field[1] = MathEval; Field[1].F = "0.08 + 0.3 * Sqrt(x * x + (y - 3) * (y - 3))";
+Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 1;
+Mesh.ElementOrder = 2;
+"""
+
+
+class Said:
+    """What a run says."""
+
+    def __init__(self, summary, stdout):
+        self.summary, self.stdout = summary, stdout
+        self.linear = summary["linearised"]
+        if self.linear:
+            self.linear["changes"] = {entry["name"]: entry["change"] for entry in self.linear["changes"] if entry["kind"] != "normal force"}
+        self.warnings = [text for text in summary["warnings"] if "linearised" in text or "use -distance" in text]
+
+    def known(self, what, number=0):
+        """(value, error) of a contact's number, or of a load's way."""
+        if what == "way":
+            entry = self.summary["estimates"]["loads"][number]["way"]
+        else:
+            entry = self.summary["estimates"]["contacts"][number][what]
+        return entry["value"], entry["error"]
+
+    def holds(self, what, truth, number=0):
+        value, error = self.known(what, number)
+        return abs(value - truth) <= error
+
+
+@pytest.fixture
+def said(tmp_path):
+    """said(geo, case, *flags) runs a case; what it says."""
+    numbers = count()
+
+    def go(geo, case, *flags, space=False, **constants):
+        folder = tmp_path / str(next(numbers))
+        folder.mkdir()
+        for name, value in constants.items():
+            geo = re.sub(rf"\b{name} = {{[^}}]*}}", f"{name} = {{{value}}}", geo)
+        (folder / "a.geo").write_text(geo)
+        (folder / "a.case").write_text(case)
+        script = "edp/parts-3d.edp" if space else "edp/parts.edp"
+        files = ["-mesh", folder / "a.geo", "-case", folder / "a.case", "-out", folder / "out", "-vtu", 0]
+        code, stdout = execute(list(map(flag_text, [*FREEFEM, script, *files, *flags])))
+        assert code == 0, stdout[-3000:]
+        return Said(json.loads((folder / "out/summary.json").read_text()), stdout)
+
+    return go
+
+
+@pytest.mark.parametrize(
+    "rx, depth, angle, flags, trusted",
+    [
+        (5, 4.99, 0.02, (), True),
+        (5, 4.99, 0.02, ("-distance", "exact"), True),
+        (5, 4.99, 0.09, ("-distance", "exact"), False),
+        (6, 4.999, 0.05, (), False),
+    ],
+)
+def test_turned_bodies(said, rx, depth, angle, flags, trusted):
+    """A disc and an elliptic cam turned by a statement: the force of those that are turned in their meshes."""
+    pressed = PRESSED.format(depth)
+    true = said(CAM, pressed + "clamp shaft\n", *flags, rx=rx, turn=angle).known("force")[0]
+    turned = said(CAM, pressed + f"rotate shaft 0 0 {angle}\n", *flags, rx=rx)
+    value, error = turned.known("force")
+    assert turned.holds("force", true) and error > 20
+    assert turned.linear["changes"]["rim plane"] == pytest.approx(true - value, rel=0.12)
+    assert turned.linear["trusted"] == trusted and turned.linear["rotation"] == pytest.approx(angle)
+    # the true distance would not help: no run says so
+    assert "use -distance exact" not in turned.stdout
+    assert len(turned.warnings) == (not trusted)
+    if not trusted:
+        size = float(re.search(r"by about (\S+),", turned.warnings[0])[1])
+        assert size == pytest.approx(true - value, rel=0.12)
+
+
+@pytest.mark.parametrize("flags", [(), ("-distance", "exact")])
+@pytest.mark.parametrize("load, height", [("weight plank 0 -1", None), ("traction top 0 -4", 4.0)])
+def test_levers(said, load, height, flags):
+    """A plank that tilts until both feet stand: each foot's force by statics, of the plank where it stands."""
+    plank = said(PLANK, STANDING + load + "\n", *flags)
+    area = 40 + np.pi
+    carried = area if height is None else 40.0
+    middle = (80 - 2 / 3 * 2) / area if height is None else height
+    tilt = np.arcsin(0.3 / 6)
+    right = carried * (0.5 + middle * np.tan(tilt) / 6)
+    for number, true in enumerate((carried - right, right)):
+        assert plank.holds("force", true, number)
+        value, error = plank.known("force", number)
+        assert abs(value - true) > 0.02 * true and error < 3 * abs(value - true)
+    assert not plank.warnings
+
+
+def test_followed_pressure(said):
+    """A pressure goes with the surface that it acts on: its lever stays, and it pushes sideways as the plank tilts."""
+    dead = said(PLANK, STANDING + "traction top 0 -4\n")
+    follows = said(PLANK, STANDING + "pressure top 4\n")
+    assert dead.known("force")[0] == pytest.approx(follows.known("force")[0], rel=1e-6)
+    assert follows.linear["changes"]["left plane"] != pytest.approx(dead.linear["changes"]["left plane"], rel=0.1)
+
+
+def test_exchanged(said):
+    """Slave and master exchanged: the true distance lies within both errors, and is predicted within a third."""
+    noses = {order: ON_FLOOR.format(*order, 0, -0.08) for order in (("nose", "floor"), ("floor", "nose"))}
+    true = said(NOSE, noses["nose", "floor"], "-distance", "exact")
+    assert true.linear is None
+    for order, case in noses.items():
+        linear = said(NOSE, case)
+        assert linear.holds("force", true.known("force")[0]) and not linear.warnings
+        if order[0] == "nose":
+            value, error = linear.known("force")
+            moved = true.known("force")[0] - value
+            assert linear.linear["changes"]["nose floor"] == pytest.approx(moved, rel=0.33)
+            assert error < 4 * moved
+            assert linear.holds("pressureMax", true.known("pressureMax")[0])
+            assert linear.holds("contactLength", true.known("contactLength")[0])
+            assert "to improve, use -distance exact" in linear.stdout
+
+
+def test_hip(said):
+    """A ball in a soft cup, axisymmetric: force and way, each predicted within a twentieth."""
+    linear, true = said(HIP, IN_CUP), said(HIP, IN_CUP, "-distance", "exact")
+    for what, name in (("force", "cup-bore head-surface"), ("way", "force grip")):
+        value, error = linear.known(what)
+        moved = true.known(what)[0] - value
+        assert linear.holds(what, true.known(what)[0]) and error < 4 * abs(moved)
+        assert linear.linear["changes"][name] == pytest.approx(moved, rel=0.05)
+
+
+def test_too_much(said):
+    """A gap whose linearisation is far off: said, with a size within a factor of ten, and with what helps."""
+    case = ON_FLOOR.format("nose", "floor", 1.2, -0.05)
+    linear, true = said(NOSE, case), said(NOSE, case, "-distance", "exact")
+    (text,) = linear.warnings
+    value = linear.known("force")[0]
+    size = float(re.search(r"by about (\S+),", text)[1])
+    assert 0.1 < size / (true.known("force")[0] - value) < 10
+    assert text.endswith("use -distance exact")
+    assert linear.holds("force", true.known("force")[0]) and not linear.linear["trusted"]
+
+
+def test_slides_that_change_nothing(said):
+    """A disc under a plane that slides along it: no word, the true distance gives the same number."""
+    case = PRESSED.format(4.99).replace("0 -1\n", "0 -1 move 1 0\n") + "clamp shaft\n"
+    linear, true = said(CAM, case, rx=5), said(CAM, case, "-distance", "exact", rx=5)
+    assert not linear.warnings
+    assert linear.known("force")[0] == pytest.approx(true.known("force")[0], rel=1e-6)
+    assert linear.known("force")[1] == pytest.approx(true.known("force")[1], rel=1e-3)
+
+
+def test_motion_of_the_whole(said):
+    """A body's motion is its area's mean: of a disc that turns about its middle 0, however its nodes are spread."""
+    turned = said(CAM, PRESSED.format(4.99) + "rotate shaft 0 0 0.02\n", rx=5)
+    motion = turned.summary["bodies"][0]["motion"]
+    assert np.hypot(*motion[:2]) < 0.001 and motion[2] == pytest.approx(0.02, rel=0.01)
+
+
+def test_shaft_in_hub(said):
+    """A shaft that turns in its hub changes nothing; with the true distance it grows by half the angle squared."""
+    geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()
+    geo += 'Physical Curve("bore") = {11:14}; Physical Curve("outside") = {41:44};\n'
+    case = "body inner E 210e3 nu 0.3\nbody outer E 210e3 nu 0.3\ncontact hub shaft\nclamp outside\n"
+    true = said(geo, case + "clamp bore\n").known("force")[0]
+    linear = said(geo, case + "rotate bore 0 0 0.02\n")
+    assert linear.holds("force", true) and linear.known("force")[1] < 0.003 * true and not linear.warnings
+    exact = said(geo, case + "rotate bore 0 0 0.02\n", "-distance", "exact")
+    value = exact.known("force")[0]
+    assert value > 2.5 * true and exact.holds("force", true)
+    assert exact.linear["changes"]["hub shaft"] == pytest.approx(true - value, rel=0.01)
+    assert "rotations are linearised" in exact.warnings[0]
+
+
+def test_rounds_leave_errors(said):
+    """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
+    folder = ROOT / "edp/examples/press-fit"
+    geo, case = (folder / "press-fit.geo").read_text(), (folder / "press-fit.case").read_text()
+    linear, exact = said(geo, case), said(geo, case, "-distance", "exact")
+    assert exact.known("force")[1] == pytest.approx(linear.known("force")[1], rel=0.1)
+
+
+@pytest.mark.long
+def test_turned_in_space(said):
+    """A disc in space, turned about its axis."""
+    case = "body disc E 1e5 nu 0.3\nobstacle rim plane 0 2.97 0 0 -1 0\n{}\n"
+    true = said(WHEEL, case.format("clamp shaft"), space=True).known("force")[0]
+    for angle in (0.02, 0.05):
+        turned = said(WHEEL, case.format(f"rotate shaft 0 0 0 0 0 1 {angle}"), space=True)
+        assert turned.holds("force", true) and not turned.warnings
+        moved = true - turned.known("force")[0]
+        assert turned.linear["changes"]["rim plane"] == pytest.approx(moved, rel=0.15)
+    # points that face nothing are no example for their neighbours
+    exact = said(WHEEL, case.format("clamp shaft"), "-distance", "exact", space=True)
+    assert exact.holds("force", true) and exact.known("force")[1] < 0.05 * true

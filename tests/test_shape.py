@@ -1,0 +1,149 @@
+"""The shape's part of a number in the plane: corners, elements that follow every smooth boundary, what is unknown."""
+
+import json
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, snippet, told
+from test_parts import Mesh, block
+from test_surfaces import ring
+
+# outer ring 10.05 to 14, inner ring 7 to 10
+RINGS = "body outer E 1000 nu 0.3\nbody inner E 1000 nu 0.3\n"
+SHARP = """
+real[int] corner(Th.nbe);
+for (int e = 0; e < Th.nbe; e++) corner[e] = sideSharp[e] > 0;
+tell("corners", corner.sum);
+tell("curved", curvedElements);
+"""
+
+
+def sharp(folder, mesh, case, name="a.msh"):
+    """Corners of the whole boundary, elements that follow it."""
+    (folder / name).write_text(mesh)
+    (folder / "a.case").write_text(case)
+    text = (ROOT / "edp/parts.edp").read_text().split("sayCase();")[0] + SHARP
+    return told(snippet(folder, text, "-mesh", name, "-case", "a.case"))
+
+
+def fit(edges, overlap=0.001):
+    """A ring of radii 7 and 10 pressed into one of 10 and 14, of so many sides."""
+    mesh = ring(Mesh(), 10, 14, edges, 2, "outer", ("bore", "rim"))
+    return ring(mesh, 7, 10 + overlap, edges, 2, "inner", ("hole", "pin"), 0.1).text()
+
+
+def lame(inner=7, radius=10, outer=14, overlap=0.001):
+    """Integral of the pressure of such rings, round."""
+    bends = (radius**2 + inner**2) / (radius**2 - inner**2) + (outer**2 + radius**2) / (outer**2 - radius**2)
+    return 2 * np.pi * overlap * 1000 / (1 - 0.3**2) / bends
+
+
+BRACKET = """
+Point(1)={0,0,0,1};Point(2)={30,0,0,1};Point(3)={30,4,0,1};Point(4)={6,4,0,1};Point(5)={6,6,0,1};Point(6)={4,6,0,1};
+Point(7)={4,20,0,1};Point(8)={0,20,0,1};
+Line(1)={1,2};Line(2)={2,3};Line(3)={3,4};Circle(4)={4,5,6};Line(5)={6,7};Line(6)={7,8};Line(7)={8,1};
+Curve Loop(1)={1:7};Plane Surface(1)={1};Physical Surface("bracket")={1};
+Physical Curve("foot")={3};Physical Curve("wall")={6};
+"""
+DISC = """
+Point(1)={0,0,0,0.5};Point(2)={1,0,0,0.5};Point(3)={0,1,0,0.5};Point(4)={-1,0,0,0.5};Point(5)={0,-1,0,0.12};
+Circle(1)={2,1,3};Circle(2)={3,1,4};Circle(3)={4,1,5};Circle(4)={5,1,2};Curve Loop(1)={1:4};Plane Surface(1)={1};
+Physical Curve("rim")={3:4};Physical Surface("disc")={1};
+"""
+HEAVY = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
+
+
+def test_corners(tmp_path):
+    """A curve's sides, however few, are no corners; those of a body are, and of a fillet's ends none."""
+    case = RINGS + "contact bore pin\n"
+    for edges in (5, 8, 12):
+        found = sharp(tmp_path, fit(edges), case)
+        assert found["corners"] == 0 and found["curved"] == 4 * edges
+    found = sharp(tmp_path, block(Mesh()).text(), "body block E 1 nu 0.3\nobstacle top plane 0 3 0 -1\nclamp bottom\n")
+    assert found["corners"] == 4 and found["curved"] == 0
+    case = "body bracket E 1 nu 0.3\nobstacle foot plane 0 5 0 -1\nclamp wall\n"
+    assert sharp(tmp_path, BRACKET, case, "a.geo")["corners"] == 5
+
+
+def run(folder, mesh, case, *flags, expect=0):
+    """summary.json of a run with estimates, the first contact's force in it, what was printed."""
+    name = "a.geo" if "Point" in mesh else "a.msh"
+    (folder / name).write_text(mesh)
+    (folder / "a.case").write_text(case)
+    command = [*FREEFEM, "edp/parts.edp", "-mesh", folder / name, "-case", folder / "a.case", "-out", folder / "out"]
+    code, stdout = execute([*command, *flags])
+    assert code == expect, stdout[-2000:]
+    summary = json.loads((folder / "out/summary.json").read_text())
+    return summary, summary["estimates"]["contacts"][0]["force"], stdout
+
+
+def circle(first, radius, sides, turned=0.0):
+    """.geo lines: a circle of four arcs."""
+    angles = turned + np.pi / 2 * np.arange(4)
+    lines = [
+        f"Point({first + k})={{{radius * np.cos(a):.15g},{radius * np.sin(a):.15g},0}};" for k, a in enumerate(angles)
+    ]
+    lines += [f"Circle({first + k})={{{first + k},1,{first + (k + 1) % 4}}};" for k in range(4)]
+    arcs = f"{{{first}:{first + 3}}}"
+    return [*lines, f"Curve Loop({first})={arcs};", f"Transfinite Curve {arcs}={sides // 4 + 1};"]
+
+
+@pytest.fixture(scope="module")
+def coarse(tmp_path_factory):
+    """A press fit whose free circles have 8 sides: .geo, and the bare mesh of first order."""
+    folder = tmp_path_factory.mktemp("coarse")
+    lines = [
+        "Point(1)={0,0,0};",
+        *circle(10, 10, 8),
+        *circle(20, 20.002, 80),
+        *circle(30, 20, 64),
+        *circle(40, 30, 8),
+    ]
+    lines += ["Plane Surface(1)={20,10};", "Plane Surface(2)={40,30};", 'Physical Surface("inner")={1};']
+    lines += ['Physical Surface("outer")={2};', 'Physical Curve("pin")={20:23};', 'Physical Curve("bore")={30:33};']
+    (folder / "a.geo").write_text("\n".join(lines) + "\n")
+    code, stdout = execute(["gmsh", "-2", "-order", "1", "-format", "msh22", folder / "a.geo", "-o", folder / "a.msh"])
+    assert code == 0, stdout
+    return {"geo": (folder / "a.geo").read_text(), "msh": (folder / "a.msh").read_text()}
+
+
+@pytest.mark.parametrize("kind, order, most", [("msh", 1, 0.4), ("msh", 2, 0.02), ("msh", 4, 0.02), ("geo", 2, 0.01)])
+def test_few_sides(tmp_path, coarse, kind, order, most):
+    """Of circles of 8 sides the force is within what is said; a geometry is known better than a bare file."""
+    _, force, _ = run(tmp_path, coarse[kind], RINGS + "contact bore pin\n", "-order", order)
+    truth = lame(10, 20, 30, 0.002)
+    assert abs(force["value"] - truth) < force["error"] < most * truth
+
+
+def test_floor(tmp_path):
+    """Where nothing more is known of the curves -accuracy stops, and says so."""
+    case = RINGS + "contact bore pin\n"
+    summary, force, stdout = run(tmp_path, fit(24), case, "-accuracy", 1e-5, expect=21)
+    assert "the first mesh knows its curves no better" in stdout
+    assert summary["accuracy"]["meshes"] < 4 and abs(force["value"] - lame()) < max(force["error"], 1e-4 * lame())
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_weight(tmp_path, order):
+    """What the balance alone tells of a weight is as good as the shape."""
+    summary, force, _ = run(tmp_path, DISC, HEAVY, "-order", order)
+    assert 1e-9 < abs(force["value"] - np.pi) < force["error"] < (0.2 if order == 1 else 1e-3)
+    assert any("straight sides stand for curves" in text for text in summary["warnings"]) == (order == 1)
+
+
+def test_geometry_again(tmp_path):
+    """With a .geo file new meshes are of the geometry: a disc's weight, and how far it has gone."""
+    summary, force, _ = run(tmp_path, DISC, HEAVY, "-accuracy", 1e-3)
+    assert summary["accuracy"]["met"] and summary["accuracy"]["meshes"] > 1
+    assert abs(force["value"] - np.pi) < force["error"] < 1e-3 * np.pi
+
+
+def test_slices(tmp_path):
+    """Any number of elements round a node beside a boundary that is followed: a disc of 12 slices."""
+    angles = 2 * np.pi * np.arange(12) / 12
+    mesh = Mesh()
+    sides = [("rim", (1 + j, 1 + (j + 1) % 12)) for j in range(12)]
+    slices = [("disc", (0, 1 + j, 1 + (j + 1) % 12)) for j in range(12)]
+    mesh.add([(0, 0, 0), *((np.cos(a), np.sin(a), 0) for a in angles)], sides, slices)
+    _, force, _ = run(tmp_path, mesh.text(), HEAVY, "-order", 2)
+    assert abs(force["value"] - np.pi) < force["error"] < 0.05
