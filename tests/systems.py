@@ -185,8 +185,9 @@ def differences(found, reference):
             contact.get("contactLength", 0) for contact in expected.get("contacts", [])
         )
         for key in NUMBERS:
-            size = max(abs(expected.get(key, 0)), least if key == "force" else 0)
-            off = abs(found[name].get(key, 0) - expected.get(key, 0)) / size if size else 0.0
+            here, there = (run.get(key) or 0 for run in (expected, found[name]))  # null: not known
+            size = max(abs(here), least if key == "force" else 0)
+            off = abs(there - here) / size if size else 0.0
             if key == "overlapMax" and expected["wallPoints"]:  # at the wall it is rounding
                 continue
             greatest = max(greatest, off)

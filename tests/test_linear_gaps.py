@@ -98,7 +98,7 @@ class Said:
         self.summary, self.stdout = summary, stdout
         self.linear = summary["linearised"]
         if self.linear:
-            self.linear["changes"] = {entry["name"]: entry["change"] for entry in self.linear["changes"]}
+            self.linear["changes"] = {entry["name"]: entry["change"] for entry in self.linear["changes"] if entry["kind"] != "normal force"}
         self.warnings = [text for text in summary["warnings"] if "linearised" in text or "use -distance" in text]
 
     def known(self, what, number=0):

@@ -76,6 +76,11 @@ function number(what, low, high,   t, v, mantissa) {
   return v
 }
 function any(what) { return number(what, -1e300, 1e300) }
+# refused before what they say: as many numbers to come as a vector has
+function counted(what,   n) {
+  while (at + n < words && spells(word[at + n + 1])) n++
+  if (n > 2 + space) no(word[at + 3 + space] ": " what " has " n " numbers, more than the " 2 + space " components there are; " usageOf(word[1]))
+}
 function vector(what, k, into, from) {
   for (k = 0; k < 3; k++) into[from + k] = k < 2 + space ? any(what) : 0
 }
@@ -173,6 +178,7 @@ function readObstacle(   g, v, shape, load, law, next_) {
     if (next_ == "law" && law == "none") law = readLaw(v)
     else if ((next_ == "move" || next_ == "force") && load == "none") {
       load = next_
+      counted(load)
       vector("the obstacle's " load, 0, v, 13)
       if (load == "force") nonzero("the obstacle's force", v, 13)
     } else no(next_ ": not allowed here; " usageOf("obstacle"))
@@ -226,7 +232,7 @@ function readOther(   g, v, what) {
   g = group(what == "weight" ? dim : dim - 1)
   if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
   else once(what SUBSEP g, what " of " nameOf[g])
-  if (what ~ /^(move|force|traction|weight)$/) vector("the " what, 0, v, 0)
+  if (what ~ /^(move|force|traction|weight)$/) { counted(what); vector("the " what, 0, v, 0) }
   if (what == "force") nonzero("the force", v, 0)
   if (what == "rotate") {
     if (axial) no("rotate: a ring cannot turn; allowed with state axisymmetric: clamp, symmetry, move, force")

@@ -211,7 +211,7 @@ def press_fit(name: str, random: Random) -> Part:
     r = c + over  # of the inner ring at rest: its pressure is smaller by c / r
     p = over / c / (((r**2 + a**2) / (r**2 - a**2) - n1) / e1 + ((b**2 + c**2) / (b**2 - c**2) + n2) / e2)
     doubt = 0.3 * over / c
-    known = {"force": 2 * np.pi * c * p, "pressureMax": p, "contactLength": 2 * np.pi * c}
+    known = {"normalForce": 2 * np.pi * c * p, "pressureMax": p, "contactLength": 2 * np.pi * c}
     case = (
         f"state {'strain' if strain else 'stress'}\n{body('inner', E1, nu1)}{body('outer', E2, nu2)}contact hub shaft\n"
     )
@@ -240,7 +240,7 @@ def lined_tube(name: str, random: Random) -> Part:
         return sketch.text()
 
     outer = 2 * (1 - nu) * p / (1 + (1 - 2 * nu) * (b / a) ** 2)
-    known = {"force": 2 * np.pi * b * outer, "pressureMax": outer, "contactLength": 2 * np.pi * b}
+    known = {"normalForce": 2 * np.pi * b * outer, "pressureMax": outer, "contactLength": 2 * np.pi * b}
     case = f"{body('tube', E, nu)}obstacle skin circle 0 0 R {b:.16g} inside\npressure bore {p:.9g}\n"
     return Part(name, geo, case, contact_knows(known), ("shape",), fine=0)
 
@@ -845,7 +845,7 @@ def press_fit_in_space(name: str, random: Random) -> Part:
     p = over / c / ((((r**2 + a**2) / (r**2 - a**2) - n) + ((b**2 + c**2) / (b**2 - c**2) + n) / ratio) / (E * e))
     mirrors = "".join(f"symmetry {side}{k}\n" for k in (0, 1) for side in ("bottom", "top", "x", "y"))
     case = f"{body('inner', E, nu)}{body('outer', E * ratio, nu)}contact hub shaft\n{mirrors}"
-    known = contact_knows({"force": np.sqrt(2) * c * height * p, "pressureMax": p}, 0.3 * over / c)
+    known = contact_knows({"normalForce": np.pi / 2 * c * height * p, "pressureMax": p}, 0.3 * over / c)
     return Part(name, geo, case, known, ("shape",), space=True, fine=0)
 
 
