@@ -66,7 +66,7 @@ def test_corners(tmp_path):
 
 
 def run(folder, mesh, case, *flags, expect=0):
-    """summary.json of a run with estimates, the first contact's force in it, what was printed."""
+    """summary.json of a run with estimates, the first contact's normal force in it, what was printed."""
     name = "a.geo" if "Point" in mesh else "a.msh"
     (folder / name).write_text(mesh)
     (folder / "a.case").write_text(case)
@@ -74,7 +74,7 @@ def run(folder, mesh, case, *flags, expect=0):
     code, stdout = execute([*command, *flags])
     assert code == expect, stdout[-2000:]
     summary = json.loads((folder / "out/summary.json").read_text())
-    return summary, summary["estimates"]["contacts"][0]["force"], stdout
+    return summary, summary["estimates"]["contacts"][0]["normalForce"], stdout
 
 
 def circle(first, radius, sides, turned=0.0):
