@@ -208,7 +208,8 @@ def general(text):
     """The scene two-spheres with a statement of contact instead of its formula for the gap."""
     start, end = text.index("macro separation"), text.index("macro atRim")
     text = text[:start] + text[end:]
-    statement = 'addContact("balls", "", slaveLabel, masterLabel, -1, false, localCompliance);\ninclude "discretisation/discretise.idp"'
+    added = 'addContact("balls", "", slaveLabel, masterLabel, -1, false, localCompliance);'
+    statement = added + '\ninclude "discretisation/discretise.idp"'
     return text.replace('include "discretisation/discretise.idp"', statement)
 
 

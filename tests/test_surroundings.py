@@ -624,9 +624,7 @@ def test_series_of_the_exact_distance(tmp_path, scene):
 # ---------------------------------------------------------------- stresses below the contact
 
 
-@pytest.mark.parametrize(
-    "scene, flags", [("hertz-line", ["-depth", 2]), ("meshed-disc", ["-depth", 3, "-order", 2])]
-)
+@pytest.mark.parametrize("scene, flags", [("hertz-line", ["-depth", 2]), ("meshed-disc", ["-depth", 3, "-order", 2])])
 def test_axis_ends_with_the_body(tmp_path, scene, flags):
     """axis.csv shall end at the body's bottom: no rows of zeros from beside the body."""
     done = run_in(ROOT, scene_script(scene), *flags, "-h", 1, "-axis", 1, *TINY[2:], out=tmp_path / "out")
