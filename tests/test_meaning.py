@@ -7,22 +7,9 @@ import pytest
 from foreign_parts import Draw, Sketch
 from freefem import ROOT, execute
 from test_paraview import Grid
-from test_truth import Told
 
 BOWL = "body disc E 1000 nu 0.3\nobstacle rim circle 0 0.5 R 2.5 inside\n"
 DISC = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -2 0 1\n"
-
-
-@pytest.fixture
-def go(tmp_path):
-    """go(geo, case, *flags) runs a part."""
-
-    def start(*words, **options):
-        folder = tmp_path / str(len(list(tmp_path.iterdir())))
-        folder.mkdir()
-        return Told(folder, *words, **options)
-
-    return start
 
 
 def disc(size=0.3):

@@ -43,18 +43,6 @@ class Told:
         )
 
 
-@pytest.fixture
-def go(tmp_path):
-    """go(geo, case, *flags) runs a part."""
-
-    def start(*words, **options):
-        folder = tmp_path / str(len(list(tmp_path.iterdir())))
-        folder.mkdir()
-        return Told(folder, *words, **options)
-
-    return start
-
-
 def false(reason, *arguments, long=False):
     """A test, or one of its cases, that fails: what a run says there is false."""
     mark = pytest.mark.xfail(strict=True, reason=reason)

@@ -480,28 +480,35 @@ def run(
             common = {"sources": digest, **machine()}
             progress = Progress(title or path.stem, sum(weight_of(item) for item in todo), len(todo))
             gauge = measure(sources, processes) if measure else None
-            with terminable(), ThreadPoolExecutor(jobs) as pool:
+            with working(jobs, processes, progress) as pool:
                 waiting = {pool.submit(run_case, item, sources, processes, gauge, freefem): item for item in todo}
-                try:
-                    while waiting:
-                        ended, _ = wait(waiting, return_when=FIRST_COMPLETED)
-                        for future in ended:
-                            item = waiting.pop(future)
-                            row = future.result()
-                            table.append({**row, **common})
-                            progress.step(weight_of(item), row["status"] == "converged")
-                except BaseException:
-                    processes.stop()
-                    pool.shutdown(cancel_futures=True)
-                    raise
-                finally:
-                    progress.close()
+                while waiting:
+                    ended, _ = wait(waiting, return_when=FIRST_COMPLETED)
+                    for future in ended:
+                        item = waiting.pop(future)
+                        row = future.result()
+                        table.append({**row, **common})
+                        progress.step(weight_of(item), row["status"] == "converged")
     order = {item.key: place for place, item in enumerate(cases)}
     return sorted(read_rows(path), key=lambda row: order[key_of(row)])
 
 
 def weight_of(item: Case) -> float:
     return item.weight * item.repeats
+
+
+@contextlib.contextmanager
+def working(jobs, processes, progress):
+    """A pool of so many workers; what interrupts it ends their processes and what waits too."""
+    with terminable(), ThreadPoolExecutor(jobs) as pool:
+        try:
+            yield pool
+        except BaseException:
+            processes.stop()
+            pool.shutdown(cancel_futures=True)
+            raise
+        finally:
+            progress.close()
 
 
 @contextlib.contextmanager

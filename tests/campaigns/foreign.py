@@ -16,7 +16,6 @@ again, it goes on where it was. `--anew` forgets truths: where the meaning of a 
 """
 
 import argparse
-import concurrent.futures
 import hashlib
 import json
 import re
@@ -189,16 +188,9 @@ def work(todo: list[tuple[str, Job, Store]], sources: Path, jobs: int, title: st
         store.keep(key, record)
         progress.step(1, record["code"] == 0)
 
-    with campaign.terminable(), concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        try:
-            for future in [pool.submit(one, *each) for each in todo]:
-                future.result()
-        except BaseException:
-            processes.stop()
-            pool.shutdown(cancel_futures=True)
-            raise
-        finally:
-            progress.close()
+    with campaign.working(jobs, processes, progress) as pool:
+        for future in [pool.submit(one, *each) for each in todo]:
+            future.result()
 
 
 # ---------------------------------------------------------------- verdicts
