@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.output import enter, write_figure
-from postprocess.results import Run, ResultsError, read_run, read_table
+from postprocess.results import ResultsError, Run, read_run, read_table
 
 BASIC = "step fraction".split()
 SIZE = (style.PAGE, 0.42 * style.PAGE)

@@ -243,7 +243,7 @@ def drawn(what: str, rows: list[dict], names: list[str]) -> Figure:
                 np.array([np.nan if one.get(key) is None else one[key] for one in rows], float)[order]
                 for key in (name, f"{name} error")
             )
-            label = style.plain(name.removesuffix(f" {title}"))
+            label = style.plain(name.removesuffix(f" {title}").removesuffix(" displacement").removesuffix(" von Mises"))
             bars = np.where(np.isfinite(error), error, 0)
             axes.errorbar(at[order], column, bars, label=label, capsize=2, elinewidth=0.8, **style.curve(index))
         axes.set_xlabel(style.plain(what.replace("*", "...")))
