@@ -97,7 +97,7 @@ def freefem(script, *flags):
 def told(script, *flags):
     """{flag: (default, unit, meaning, allowed)} as -help prints them beside other flags."""
     found = {}
-    for line in freefem(script, *flags, "-help").splitlines():
+    for line in freefem(script, *flags, "-help", "all").splitlines():
         if line.startswith("-"):
             name, default = line.split()[:2]
             late = max(len(default) - 14, 0)
