@@ -3,7 +3,7 @@
 CASE is a case file, MESH its mesh. NUMBER is the statement whose number is replaced, with * in its place, as
 "force grip 0 *". --values has the numbers, or FROM:TO:COUNT. Runs go side by side on the cores; one that is there is
 not run again, so an interrupted sweep goes on. DIR has a folder for each run, sweep.csv, sweep.pdf and sweep.png; the
-last three are written when all runs have ended. Flags behind -- are the run's, as -- -order 4.
+last three are written when all runs have ended. What begins with - needs a =: --values=-3:-1:20, --flags="-order 4".
 """
 
 import argparse
@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at once (default: the cores)"
     )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: results/sweep/CASE)")
-    parser.add_argument("flags", nargs="*", metavar="FLAG", help="behind --: the run's own flags")
+    parser.add_argument("--flags", default="", metavar="WORDS", help='the runs\' own flags: --flags="-order 4"')
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> None:
     folder = Path(arguments.out or Path("results/sweep") / case.stem)
     lines = text_of(case).splitlines()
     line, word = place(case, lines, arguments.number)
-    what = {"mesh": checksum(mesh), "case": lines, "number": arguments.number, "flags": arguments.flags}
+    what = {"mesh": checksum(mesh), "case": lines, "number": arguments.number, "flags": arguments.flags.split()}
     same(folder, what)
     todo = []
     for value in values:
@@ -164,7 +164,7 @@ def execute(todo: list, mesh: Path, arguments: argparse.Namespace) -> None:
                 log = folder.with_name(f"{folder.name}.log").open("wb")
                 words = ["sh", ROOT / "edp/freefem.sh", script, "-mesh", mesh, "-case", stated, "-out", folder]
                 process = subprocess.Popen(
-                    [*map(str, words), *arguments.flags],
+                    [*map(str, words), *arguments.flags.split()],
                     stdout=log,
                     stderr=subprocess.STDOUT,
                     env=environment,
