@@ -292,6 +292,38 @@ def test_stresses_of_a_cantilever(order, tmp_path):
     assert "clamp wall: carries" in done.stdout
 
 
+BELOW = """
+Point(1) = {-30, -30, 0}; Point(2) = {30, -30, 0}; Point(3) = {30, 0, 0}; Point(4) = {-30, 0, 0};
+Point(5) = {-0.2, 0, 0}; Point(6) = {0.2, 0, 0}; Point(7) = {0, -0.1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1};
+Curve Loop(1) = {1 : 6}; Plane Surface(1) = {1};
+Field[1] = Distance; Field[1].PointsList = {7};
+Field[2] = Threshold; Field[2].InField = 1; Field[2].SizeMin = SIZE; Field[2].SizeMax = 5;
+Field[2].DistMin = 0.17; Field[2].DistMax = 30; Background Field = 2;
+Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("face") = {4};
+"""
+
+
+def test_stresses_below_a_contact(tmp_path):
+    """Hertz's line contact, down its axis: von Mises' stress, its greatest and the depth of that."""
+    case = "body block E 1000 nu 0.3\nobstacle face circle 0 10 R 10 force 0 -1\nclamp base\nline axis 0 0 0 -0.4\n"
+    solve(tmp_path, BELOW, case, "-vtu", 0, size=0.03)
+    half = np.sqrt(4 * 10 / (np.pi * 1000 / 0.91))
+    peak = 2 / (np.pi * half)
+    table = np.genfromtxt(tmp_path / "out/line-axis.csv", delimiter=",", names=True)
+    depth = -table["y"]
+    root = np.sqrt(half**2 + depth**2)
+    along, down = -peak / half * ((half**2 + 2 * depth**2) / root - 2 * depth), -peak * half / root
+    third = 0.3 * (along + down)
+    exact = np.sqrt(((along - down) ** 2 + (down - third) ** 2 + (third - along) ** 2) / 2)
+    assert (np.abs(table["vonMises"] - exact) <= table["vonMisesError"] + 1e-3 * peak).all()
+    assert np.median(table["vonMisesError"]) < 0.03 * peak
+    found = summary(tmp_path)["stresses"][0]
+    assert abs(found["vonMises"] - exact.max()) <= found["error"] + 1e-3 * peak < 0.1 * peak
+    assert -found["at"][1] / half == pytest.approx(0.7, abs=0.1)
+
+
 # ---------------------------------------------------------------- what is asked for
 
 
