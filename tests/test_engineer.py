@@ -321,7 +321,7 @@ def test_stresses_below_a_contact(tmp_path):
     assert np.median(table["vonMisesError"]) < 0.03 * peak
     found = summary(tmp_path)["stresses"][0]
     assert abs(found["vonMises"] - exact.max()) <= found["error"] + 1e-3 * peak < 0.1 * peak
-    assert -found["at"][1] / half == pytest.approx(0.7, abs=0.1)
+    assert -found["at"][1] / half == pytest.approx(0.7, abs=0.15)  # at a node
 
 
 # ---------------------------------------------------------------- what is asked for
