@@ -134,8 +134,8 @@ def test_heat_in_space(tmp_path):
 BOLT = """
 h = 0.7;
 Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 10, 0, h}; Point(4) = {3, 10, 0, h};
-Point(5) = {3, 12, 0, h}; Point(6) = {0, 12, 0, h}; Point(7) = {0, 10, 0, h}; Point(8) = {0, 5, 0, h}; Point(9) = {1, 5, 0, h};
-Line(1) = {1, 2}; Line(2) = {2, 9}; Line(3) = {9, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
+Point(5) = {3, 12, 0, h}; Point(6) = {0, 12, 0, h}; Point(7) = {0, 10, 0, h}; Point(8) = {0, 5, 0, h};
+Point(9) = {1, 5, 0, h}; Line(1) = {1, 2}; Line(2) = {2, 9}; Line(3) = {9, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
 Line(7) = {6, 7}; Line(8) = {7, 8}; Line(9) = {8, 1}; Line(10) = {8, 9}; Line(11) = {7, 3};
 Curve Loop(1) = {1, 2, -10, 9}; Plane Surface(1) = {1}; Curve Loop(2) = {10, 3, -11, 8}; Plane Surface(2) = {2};
 Curve Loop(3) = {11, 4, 5, 6, 7}; Plane Surface(3) = {3};
