@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 from freefem import ROOT, run_in
+from PIL import Image
 
 RING = """
 h = SIZE;
@@ -135,7 +136,8 @@ BOLT = """
 h = 0.7;
 Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 10, 0, h}; Point(4) = {3, 10, 0, h};
 Point(5) = {3, 12, 0, h}; Point(6) = {0, 12, 0, h}; Point(7) = {0, 10, 0, h}; Point(8) = {0, 5, 0, h};
-Point(9) = {1, 5, 0, h}; Line(1) = {1, 2}; Line(2) = {2, 9}; Line(3) = {9, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
+Point(9) = {1, 5, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 9}; Line(3) = {9, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
 Line(7) = {6, 7}; Line(8) = {7, 8}; Line(9) = {8, 1}; Line(10) = {8, 9}; Line(11) = {7, 3};
 Curve Loop(1) = {1, 2, -10, 9}; Plane Surface(1) = {1}; Curve Loop(2) = {10, 3, -11, 8}; Plane Surface(2) = {2};
 Curve Loop(3) = {11, 4, 5, 6, 7}; Plane Surface(3) = {3};
@@ -263,6 +265,10 @@ def test_stresses_of_lame(tmp_path):
         assert f'Name="stress{name}[pressure]"'.encode() in grid
     subprocess.run([sys.executable, "-m", "postprocess", "line", str(tmp_path / "out")], cwd=ROOT, check=True)
     assert (tmp_path / "out/line-radius.png").stat().st_size > 10000
+    command = [sys.executable, "-m", "postprocess", "stress", str(tmp_path / "out"), "--slide"]
+    subprocess.run(command, cwd=ROOT, check=True)
+    with Image.open(tmp_path / "out/stress.png") as picture:
+        assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
 
 BEAM = """
