@@ -2,7 +2,7 @@
 #        SPACE=0|1 LC_ALL=C awk -f inp.awk CASE FILE.inp > FILE.msh
 # Needs: FILE.inp with *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE of one part, other keywords are left out; CASE, the case file: of
 #        the sets those are meant that stand in it.
-# Gives: elements of ELSETs as bodies; sides of bodies as groups: of a SURFACE its sides, of an NSET all sides of the boundary whose
+# Gives: elements of ELSETs as bodies; plane elements in space, lines in the plane, as gmsh writes them: sides of bodies; sides of bodies as groups: of a SURFACE its sides, of an NSET all sides of the boundary whose
 #        corners are in it. Quadrangles and bricks are cut later (meshes/cut.awk). Exit code 0. Or one line that says what is
 #        wrong, exit code 1.
 function no(what) { print "line " FNR ": " what; failed = 1; exit 1 }
@@ -28,6 +28,8 @@ BEGIN {
   solid("P3", 2, "1 2 3", "1 2/2 3/3 1", 3)
   solid("P6", 9, "1 2 3 4 5 6", "1 2 4/2 3 5/3 1 6", 3)
   solid("P4", 3, "1 2 3 4", "1 2/2 3/3 4/4 1", 4)
+  solid("L2", 1, "1 2", "1 2", 2)
+  solid("L3", 8, "1 3 2", "1 3 2", 2)
   allowed = space ? "C3D4, C3D10, C3D6, C3D8" : "CPE, CPS or CAX 3, 4, 6"
 }
 function solid(name, type, nodes, sides, corners) { gmsh[name] = type; order[name] = nodes; sidesOf[name] = sides; cornersOf[name] = corners }
@@ -35,6 +37,9 @@ function kindOf(t) {
   t = toupper(t)
   if (space && t ~ /^C3D(4|6|10|10M|10T|8|8R|8I|8H|8RH)$/) { sub(/[A-Z]*$/, "", t); return t }
   if (!space && t ~ /^(CPE|CPS|CAX)(3|4|6|4R|4I|4H|6M)$/) { gsub(/[^0-9]/, "", t); return "P" t }
+  # gmsh's way to write sides of bodies, which its groups name, and the geometry's edges
+  if (space && t ~ /^(CPE|CPS|CAX)(3|4|6)$/) { gsub(/[^0-9]/, "", t); return "P" t }
+  if (t ~ /^T[23]D[23]$/) return "L" substr(t, 4)
   no("*ELEMENT, TYPE=" t ": not read; allowed: " allowed)
 }
 # CASE: all words of the statements
@@ -55,6 +60,7 @@ NR == FNR {
   if (section == "NODE") { if (option("NSET") != "") into = newSet("NSET", option("NSET")) }
   else if (section == "ELEMENT") {
     kind = kindOf(option("TYPE"))
+    isSideKind = kind ~ (space ? "^[PL]" : "^L")
     if (option("ELSET") != "") into = newSet("ELSET", option("ELSET"))
   } else if (section == "NSET" || section == "ELSET") { into = newSet(section, option(section)); generate = option("GENERATE") != "" }
   else if (section == "SURFACE") {
@@ -81,7 +87,8 @@ section == "ELEMENT" {
     e = $1 + 0
     if (e in typeOf) no("the element " e " is there twice; allowed: once")
     typeOf[e] = kind
-    elementAt[++elements] = e
+    if (isSideKind) flat[++flats] = e
+    else elementAt[++elements] = e
     given[e] = 0
     start = 2
     if (into != "") inSet["ELSET", into, e] = 1
@@ -132,6 +139,10 @@ function side(e, s,   list, w, n, k, j, key, c, t) {
   sideType = space ? (n == 6 ? 9 : (c == 4 ? 3 : 2)) : (n == 3 ? 8 : 1)
   return key
 }
+function holds(set, list, n,   k) {
+  for (k = 1; k <= n; k++) if (("ELSET", set, list[k]) in inSet) return 1
+  return 0
+}
 function write(e, s, name,   key) {
   key = side(e, s)
   if (key == "") { print "*SURFACE " name ": element " e " has no side S" s; failed = 1; exit 1 }
@@ -156,7 +167,19 @@ END {
   n = split(substr(sets["NSET"], 2), list, "\n")
   for (k = 1; k <= n; k++) group(1 + space, list[k])
   bodies = split(substr(sets["ELSET"], 2), body, "\n")
-  for (k = 1; k <= bodies; k++) group(2 + space, body[k])
+  for (k = 1; k <= bodies; k++) if (holds(body[k], elementAt, elements)) group(2 + space, body[k])
+  # an ELSET of sides is a group of them
+  for (k = 1; k <= bodies; k++)
+    if (!((2 + space, body[k]) in number)) {
+      group(1 + space, body[k])
+      for (i = 1; i <= flats && (body[k] in wanted); i++)
+        if ((("ELSET", body[k], flat[i]) in inSet) && (gmsh[typeOf[flat[i]]] ~ (space ? "^(2|3|9)$" : "^(1|8)$"))) {
+          t = ""
+          m = split(order[typeOf[flat[i]]], w, " ")
+          for (j = 1; j <= m; j++) t = t " " corner[flat[i], space ? w[j] : (j == 3 ? 2 : (m == 3 && j == 2 ? 3 : j))]
+          line[++lines] = gmsh[typeOf[flat[i]]] " 2 " group(1 + space, body[k]) " " group(1 + space, body[k]) t
+        }
+    }
   # how many elements have a side; whose boundary it is
   for (i = 1; i <= elements; i++)
     for (s = 1; s <= 6; s++) if ((key = side(elementAt[i], s)) != "") times[key]++

@@ -172,8 +172,8 @@ function toShape(s, px, py, pz,   qx, qy, qz, n, t) {
   return t < 0 ? -t : t
 }
 # where two sets of faces are nearest: pieces of the first, no larger than grain, whose distance is at most margin above the least.
-# zone[1 ...] of them, the count; widest: the radius of the largest;  shape: an obstacle, in place of the second set
-function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n, w, m, least, lb, d, wide, again, A2, cand, cand2, kept, seen, mine, gap) {
+# zone[1 ...] of them, beside[] what they are nearest to, the count; widest: the radius of the largest;  shape: an obstacle, in place of the second set
+function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n, w, m, least, lb, d, wide, again, A2, cand, cand2, kept, seen, mine, gap, next_) {
   na = piecesOf(a, A)
   nb = shape == "" ? piecesOf(b, B) : 0
   if (!na || shape == "" && !nb) return 0
@@ -238,11 +238,11 @@ function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n
     gap[i] = 1e300
     if (shape != "") gap[i] = toShape(s, CX[p], CY[p], CZ[p])
     n = split(cand2[i], w, " ")
-    for (k = 1; k <= n; k++) { d = away(CX[p], CY[p], CZ[p], w[k]); if (d < gap[i]) gap[i] = d }
+    for (k = 1; k <= n; k++) { d = away(CX[p], CY[p], CZ[p], w[k]); if (d < gap[i]) { gap[i] = d; next_[i] = w[k] } }
     if (gap[i] < least) least = gap[i]
   }
   n = 0
-  for (i = 1; i <= kept; i++) if (gap[i] <= least + margin) { zone[++n] = A2[i]; if (reach[A2[i]] > widest) widest = reach[A2[i]] }
+  for (i = 1; i <= kept; i++) if (gap[i] <= least + margin) { zone[++n] = A2[i]; beside[n] = next_[i]; if (reach[A2[i]] > widest) widest = reach[A2[i]] }
   return n
 }
 function ofBodies(numbers,   n, w, k, all) {
@@ -313,7 +313,8 @@ function between(a, b,   fa, fb, n, w, k, i, m, list, j, nb, B, s, r, bulge, fou
   }
   if (found != "") return found
   n = nearest(fa, fb, diagonal / 200, diagonal / 1000, "")
-  for (i = 1; i <= n; i++) if (index(found " ", " " face[zone[i]] " ") == 0) found = found " " face[zone[i]]
+  for (i = 1; i <= n; i++)
+    if (index(found " ", " " face[zone[i]] " ") == 0 && along(zone[i], beside[i])) found = found " " face[zone[i]]
   return found
 }
 function bulgeOf(e,   k, a, b, d, most) {

@@ -44,13 +44,12 @@ every=${0%/*}/every-curve.geo
 case $case_ in /*) path=$case_ ;; *) path=./$case_ ;; esac
 kind=$(printf %s "${file##*.}" | tr A-Z a-z)
 import=
+overlap=
 cad=0
 case $kind in
-    step | stp | brep) cad=1 ;;
-    iges | igs)                             # faces that nothing joins
-        cad=1
-        import="-setnumber Geometry.OCCSewFaces 1 -setnumber Geometry.OCCMakeSolids 1" ;;
+    step | stp | brep | iges | igs) cad=1 ;;
     inp)
+        overlap=1
         SPACE=$space awk -f "$meshes/inp.awk" "$path" "$file" > "$folder/inp.msh" 2> "$folder/log" || no "$(tail -n 1 "$folder/inp.msh")"
         file=$folder/inp.msh ;;
     geo) sed -n 's/^ *DefineConstant\[ *\([A-Za-z_0-9]*\) *=.*size.*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//' > "$folder/numbers" ;;
@@ -58,7 +57,7 @@ esac
 # gmsh's own way to name what it cannot read
 complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 readCase() {
-    CASE=$case_ SPACE=$space PICKS=${1-} AGAIN=${AGAIN-} BODIES=${bodies-} \
+    CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=${AGAIN-} BODIES=${bodies-} \
         awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
     code=$?
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
@@ -86,12 +85,20 @@ if test -z "${AGAIN-}" && { test $cad = 1 || { test -n "${CHECK-}" && command -v
             awk -f "$meshes/pick.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
     command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
-    outline
-    bodies=
-    if test $cad = 1; then
+    listBodies() {
         bodies=$(awk -v d=$((2 + space)) '/^\$/ { s = $1; row = 0; next }
             s == "$Entities" { if (++row == 1) { for (k = 1; k <= d; k++) from += $k; to = from + $(d + 1) }
                 else if (row > from + 1 && row <= to + 1) all = all " " $1 } END { print substr(all, 2) }' "$folder/outline.msh")
+    }
+    outline
+    bodies=
+    if test $cad = 1; then
+        listBodies
+        if test -z "$bodies$import" && test "$space" = 1; then      # faces that nothing joins, as IGES has them
+            import="-setnumber Geometry.OCCSewFaces 1 -setnumber Geometry.OCCMakeSolids 1"
+            outline
+            listBodies
+        fi
         test -n "$bodies" || no "no $(test "$space" = 1 && echo solid || echo surface) in it"
     fi
     if test "$case_" = none; then

@@ -1,6 +1,7 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk -f case-file.awk NAMES FILE
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages;
-#        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing.
+#        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing; SETS_OVERLAP, not
+#        empty: an element may be in several groups, of which the case needs one.
 # Gives: a plain table for bodies/parts.idp: "units" and its text, "state" and its word, "thickness" and its number; "groups", how
 #        many, then dimension and name of each group that is used, a line each: its number is its place; "statements", how many,
 #        then a line each: word, line of the file, its groups' numbers (two, 0: none), shape or a contact's gap, what moves an obstacle, law (none:
@@ -423,7 +424,7 @@ END {
   finishing = 1
   if (!statements) no("it has no statement; allowed: at least body and contact or obstacle")
   for (k = 1; k <= names; k++)
-    if (dimOf[k] == dim && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))
+    if (dimOf[k] == dim && ENVIRON["SETS_OVERLAP"] == "" && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))
       no("nothing says what the " kind[dim] " " nameIn[k] " is made of; allowed: a line body " nameIn[k] " E number nu number")
   for (g in slaves)
     if (g in heldBy) no("line " slaves[g] ": " nameOf[g] ": a slave that line " heldIn[g] " holds (" heldBy[g] "); allowed: the other surface as slave")
