@@ -32,6 +32,7 @@ section == "$Entities" {
   if (d < dim - 1 || d > dim) next
   entities[d] = entities[d] " " $1
   isThere[d, $1] = 1
+  if (d == dim && $1 > greatest) greatest = $1
   at = 8
   n = $at
   for (k = 1; k <= n; k++) { t = $(at + k); if ((d SUBSEP t) in named) add(named[d, t], d, $1) }
@@ -353,6 +354,7 @@ function numbersOf(line, d, how, text,   n, w, k, v, found, all) {
     return found
   }
   for (k = 2; k <= n; k++) {
+    if (d == dim && (w[k] in nowCalled)) w[k] = nowCalled[w[k]]
     if (!((d SUBSEP w[k]) in isThere)) no(line, w[k] ": no such number of " many[d] "; allowed:" listed(all))
     found = found " " w[k]
   }
@@ -369,7 +371,10 @@ function apart(a, b, line,   k, n, w, m, v, i, j, p, other) {
     split(sharedBy[k], p, " ")
     if (index(a " ", " " p[1] " ") && index(b " ", " " p[2] " ") || index(a " ", " " p[2] " ") && index(b " ", " " p[1] " ")) {
       other = index(b " ", " " p[2] " ") ? p[2] : p[1]
-      if (!(other in taken)) { taken[other] = 1; toPart = toPart (toPart == "" ? "" : ", ") other }
+      if ((p[1] in taken) || (p[2] in taken)) continue
+      taken[other] = 1
+      toPart = toPart (toPart == "" ? "" : ", ") other
+      renamed = renamed "// " other " " greatest + ++copies "\n"
     }
   }
 }
@@ -419,6 +424,9 @@ END {
   diagonal = sqrt((high[0] - low[0]) ^ 2 + (high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2)
   pieces = elements
   if (ENVIRON["FACES"] != "") writeFaces()
+  # bodies that were given faces of their own have new numbers
+  while (ENVIRON["APART"] != "" && (getline line < ENVIRON["APART"]) > 0) if (split(line, f, " ") == 3 && f[1] == "//") nowCalled[f[2]] = f[3]
+  close(ENVIRON["APART"])
   while (ENVIRON["PICKS"] != "" && (getline line < ENVIRON["PICKS"]) > 0) {
     split(line, f, "\t")
     if (f[1] == "group") groupLine[++groups] = line
@@ -449,6 +457,7 @@ END {
       members[f[3], f[4]] = found
     }
   if (toPart != "") {
+    printf "%s", renamed > ENVIRON["APART"]
     print "SetFactory(\"OpenCASCADE\");\nold_() = {" toPart "};\nFor k_ In {0 : #old_() - 1}" > ENVIRON["APART"]
     word = space ? "Volume" : "Surface"
     print "  new_() = Translate{0, 0, 0}{ Duplicata{ " word "{old_(k_)}; } };\n  Recursive Delete{ " word "{old_(k_)}; }\nEndFor" > ENVIRON["APART"]

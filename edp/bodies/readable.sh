@@ -54,6 +54,19 @@ case $kind in
         file=$folder/inp.msh ;;
     geo) sed -n 's/^ *DefineConstant\[ *\([A-Za-z_0-9]*\) *=.*size.*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//' > "$folder/numbers" ;;
 esac
+# what sets a number must name one
+if test -n "${SETS-}"; then
+    test "$kind" = geo || no "-set: it has no numbers to be set; allowed: with a .geo file"
+    constants=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\).*/\1/p' "$file" | tr '\n' ' ')
+    next=
+    for word in $SETS; do
+        test "$next" != name || case " $constants" in *" $word "*) ;; *)
+            grep -qiE 'merge|include' "$file" || no "-set $word: no number of it that can be set; allowed: ${constants:-none}" ;;
+        esac
+        next=
+        test "$word" != -setnumber || next=name
+    done
+fi
 # gmsh's own way to name what it cannot read
 complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 readCase() {
