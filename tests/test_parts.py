@@ -163,7 +163,7 @@ def test_case_is_read(plane):
 @pytest.mark.parametrize(
     "case, words",
     [
-        (GOOD + "clampp left", "line 4: clampp: unknown statement; did you mean clamp? allowed: "),
+        (GOOD + "clampp left", "line 4: clampp: unknown statement; did you mean clamp (no displacement)? allowed: "),
         (
             GOOD + "clamp lfet",
             "line 4: lfet: no physical curve of the mesh; did you mean left? allowed: bottom right top left",

@@ -7,8 +7,8 @@
 # Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
 #        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/gmsh: gmsh's version, if it meshed FILE;
 #        FOLDER/after: the file that gmsh read after the geometry, or nothing; FOLDER/left: bodies that are left out; FOLDER/faces:
-#        the geometry's faces with their numbers (meshes/pick.awk); FOLDER/numbers: sizes that a .geo file lets one set. FOLDER is
-#        new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
+#        the geometry's faces with their numbers (meshes/pick.awk); FOLDER/finer: what makes smaller elements, in words. FOLDER
+#        is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
 # Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused, 4 only FOLDER/faces.
 . "${0%/*}/../case/process.sh"
 run=$1
@@ -37,7 +37,8 @@ test -d "$file" && no "a folder, no mesh"
 test -r "$file" || no "may not be read"
 how=
 order=
-for name in gmsh after left numbers; do : > "$folder/$name"; done
+for name in gmsh after left; do : > "$folder/$name"; done
+finer="mesh with smaller elements"
 # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
 every=${0%/*}/every-curve.geo
 # a name with = would be an assignment to awk
@@ -52,8 +53,12 @@ case $kind in
         overlap=1
         SPACE=$space awk -f "$meshes/inp.awk" "$path" "$file" > "$folder/inp.msh" 2> "$folder/log" || no "$(tail -n 1 "$folder/inp.msh")"
         file=$folder/inp.msh ;;
-    geo) sed -n 's/^ *DefineConstant\[ *\([A-Za-z_0-9]*\) *=.*size.*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//' > "$folder/numbers" ;;
+    geo)
+        finer=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\) *=.*size of the.*/-set \1/p' "$file" | head -n 1)
+        finer="lower sizes (${finer:+$finer, or }size contact in the case file)" ;;
 esac
+test $cad = 0 || finer="lower sizes (size contact, size NAME in the case file)"
+echo "$finer" > "$folder/finer"
 # what sets a number must name one
 if test -n "${SETS-}"; then
     test "$kind" = geo || no "-set: it has no numbers to be set; allowed: with a .geo file"

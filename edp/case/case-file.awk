@@ -42,6 +42,21 @@ function meant(word, words,   list, n, k, off, least, found) {
   return found == "" ? "" : "did you mean " found "? "
 }
 
+# of an unknown statement the one that does what it is likely to ask for, and what that does
+function leadTo(t,   k, n, list, near) {
+  t = tolower(t)
+  sub(/s$/, "", t)
+  if (t in instead) return instead[t] "; "
+  n = split(t in leads ? leads[t] : "", list, " ")
+  for (k = 1; k <= n && !(list[k] in usage); k++);
+  if (k <= n) near = "did you mean " list[k] "? "
+  else near = meant(word[1], statementWords)
+  k = near
+  sub(/^did you mean /, "", k)
+  sub(/\? $/, "", k)
+  return k in does ? "did you mean " k " (" does[k] ")? " : near
+}
+
 # the line's words: word[1] ... word[words], blanks kept between quotes, # begins a comment
 function splitLine(   rest, at) {
   words = 0
@@ -381,6 +396,27 @@ BEGIN {
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
   statementNames = "units, state, thickness, group, size, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight"
+  split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
+    "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
+    "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
+    "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
+    "|size of the elements|preload a shank pulled together|expand thermal strain|units of lengths and pressures" \
+    "|state strain, stress or about an axis|thickness in the plane", list, "|")
+  for (k in list) { line = list[k]; sub(/ .*/, "", line); does[line] = substr(list[k], length(line) + 2) }
+  split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|gravity acceleration density dload:weight" \
+    "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
+    "|material elastic steel:body|temperature thermal heat shrink:expand|rigid wall ground:obstacle|set nset elset surface face select:group" \
+    "|mesh h elementsize refine:size|unit:units|interface pair touch:contact|interference overlap:contact", list, "|")
+  for (k in list) {
+    n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
+    for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
+  }
+  leads["preload"] = "force"
+  instead["friction"] = instead["mu"] = instead["coulomb"] = "contacts are frictionless, there is none: contact SLAVE MASTER"
+  instead["tie"] = instead["tied"] = instead["bond"] = instead["bonded"] = instead["glue"] = instead["weld"] = \
+    "bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
+  instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle"
+  instead["spring"] = "springs are not offered: a body of their stiffness"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
   low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
@@ -406,7 +442,7 @@ FILENAME == ARGV[1] {
   splitLine()
   if (!words) next
   at = 1
-  if (!(word[1] in usage)) no(word[1] ": unknown statement; " meant(word[1], statementWords) "allowed: " statementNames)
+  if (!(word[1] in usage)) no(word[1] ": unknown statement; " leadTo(word[1]) "allowed: " statementNames)
   if (word[1] ~ /^(units|state|thickness)$/) single()
   else if (word[1] == "group") readGroup()
   else if (word[1] == "size") readSize()
