@@ -1,8 +1,8 @@
 # pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
-#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 APART=FILE LEFT=FILE FACES=FILE LC_ALL=C awk -f pick.awk < OUTLINE.msh
+#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE LEFT=FILE FACES=FILE LC_ALL=C awk -f pick.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
 #        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
-#        names, whose bodies are left out where no group has them.
+#        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
 # Gives: on standard output a .geo file to be read after the geometry: its groups and sizes, exit code 0;  APART, if bodies that
 #        "between" names share faces: a .geo file that gives each its own, exit code 4: the outline is to be made again with
 #        it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
@@ -173,8 +173,8 @@ function toShape(s, px, py, pz,   qx, qy, qz, n, t) {
   return t < 0 ? -t : t
 }
 # where two sets of faces are nearest: pieces of the first, no larger than grain, whose distance is at most margin above the least.
-# zone[1 ...] of them, beside[] what they are nearest to, the count; widest: the radius of the largest;  shape: an obstacle, in place of the second set
-function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n, w, m, least, lb, d, wide, again, A2, cand, cand2, kept, seen, mine, gap, next_) {
+# zone[1 ...] of them, the count; widest: the radius of the largest;  shape: an obstacle, in place of the second set
+function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n, w, m, least, lb, d, wide, again, A2, cand, cand2, kept, seen, mine, gap) {
   na = piecesOf(a, A)
   nb = shape == "" ? piecesOf(b, B) : 0
   if (!na || shape == "" && !nb) return 0
@@ -239,11 +239,11 @@ function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n
     gap[i] = 1e300
     if (shape != "") gap[i] = toShape(s, CX[p], CY[p], CZ[p])
     n = split(cand2[i], w, " ")
-    for (k = 1; k <= n; k++) { d = away(CX[p], CY[p], CZ[p], w[k]); if (d < gap[i]) { gap[i] = d; next_[i] = w[k] } }
+    for (k = 1; k <= n; k++) { d = away(CX[p], CY[p], CZ[p], w[k]); if (d < gap[i]) gap[i] = d }
     if (gap[i] < least) least = gap[i]
   }
   n = 0
-  for (i = 1; i <= kept; i++) if (gap[i] <= least + margin) { zone[++n] = A2[i]; beside[n] = next_[i]; if (reach[A2[i]] > widest) widest = reach[A2[i]] }
+  for (i = 1; i <= kept; i++) if (gap[i] <= least + margin) { zone[++n] = A2[i]; if (reach[A2[i]] > widest) widest = reach[A2[i]] }
   return n
 }
 function ofBodies(numbers,   n, w, k, all) {
@@ -288,34 +288,30 @@ function nearestTo(d, v,   n, w, k, list, m, i, e, r, best, found) {
   }
   return found
 }
-# the faces of some bodies that lie on others; where none does, the nearest
-function between(a, b,   fa, fb, n, w, k, i, m, list, j, nb, B, s, r, bulge, found, e, on, tol) {
-  fa = ofBodies(a)
-  fb = ofBodies(b)
-  nb = piecesOf(fb, B)
+# the faces of some bodies that lie on others; where none does, the nearest: by the middles of their pieces
+function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meets) {
+  n = piecesOf(ofBodies(a), list)
+  nb = piecesOf(ofBodies(b), B)
   for (j = 1; j <= nb; j++) ball(B[j])
-  n = split(fa, w, " ")
-  for (k = 1; k <= n; k++) {
-    split("", list)
-    m = piecesOf(w[k], list)
-    on = 0
-    for (i = 1; i <= m && !on; i++) {
-      e = list[i]
-      ball(e)
-      s = space ? 4 : 2
-      for (j = 1; j <= nb && !on; j++) {
-        r = B[j]
-        if ((CX[e] - CX[r]) ^ 2 + (CY[e] - CY[r]) ^ 2 + (CZ[e] - CZ[r]) ^ 2 > (reach[e] + reach[r]) ^ 2) continue
-        tol = 1e-4 * diagonal + 1.2 * (bulgeOf(e) + bulgeOf(r))
-        if (away(CX[e], CY[e], CZ[e], r) < tol && along(e, r)) on = 1
-      }
+  least = 1e300
+  for (i = 1; i <= n; i++) {
+    e = list[i]
+    ball(e)
+    best = 1e300
+    for (j = 1; j <= nb; j++) {
+      r = B[j]
+      d = best + reach[r]
+      if ((CX[e] - CX[r]) ^ 2 + (CY[e] - CY[r]) ^ 2 + (CZ[e] - CZ[r]) ^ 2 > d * d) continue
+      d = away(CX[e], CY[e], CZ[e], r)
+      if (d < best) { best = d; next_ = r }
     }
-    if (on) found = found " " w[k]
+    off[i] = along(e, next_) ? best : 1e300
+    play[i] = 1e-4 * diagonal + 1.2 * (bulgeOf(e) + bulgeOf(next_))
+    if (off[i] < play[i]) meets = 1
+    if (off[i] < least) least = off[i]
   }
-  if (found != "") return found
-  n = nearest(fa, fb, diagonal / 200, diagonal / 1000, "")
   for (i = 1; i <= n; i++)
-    if (index(found " ", " " face[zone[i]] " ") == 0 && along(zone[i], beside[i])) found = found " " face[zone[i]]
+    if (off[i] < (meets ? 0 : least + 1e-3 * diagonal) + play[i] && index(found " ", " " face[list[i]] " ") == 0) found = found " " face[list[i]]
   return found
 }
 function bulgeOf(e,   k, a, b, d, most) {
@@ -395,7 +391,7 @@ function sizeOf(numbers, d, h,   to) {
 function contactSize(h,   k, n, i, w, p, points, wide, key) {
   for (k = 1; k <= contacts; k++) {
     split(contact[k], w, "\t")
-    n = nearest(members[dim - 1, w[1]], members[dim - 1, w[2]], 2 * h, 0.1 * h, k in obstacle ? w[2] : "")
+    n = nearest(members[dim - 1, w[1]], members[dim - 1, w[2]], 2 * h, 0.05 * h, k in obstacle ? w[2] : "")
     for (i = 1; i <= n; i++) {
       p = zone[i]
       if (widest > wide) wide = widest
@@ -408,7 +404,7 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
   }
   if (!points) return
   field("Distance"); print "Field[" fields "].PointsList = {zone_ + 1 : zone_ + " points "};"
-  field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.25*Max(0,F%d-%.9g)", h, fields - 1, 8 * h + (wide > 4 * h ? wide : 0)) "\";"
+  field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.25*Max(0,F%d-%.9g)", h, fields - 1, 4 * h + (wide > 4 * h ? wide : 0)) "\";"
   chosen = chosen (chosen == "" ? "" : ", ") fields
 }
 function writeFaces(   e, k, n) {
@@ -434,10 +430,13 @@ END {
     if (f[1] == "contact" || f[1] == "obstacle") contact[++contacts] = f[3] "\t" f[4]
     if (f[1] == "obstacle") obstacle[contacts] = 1
   }
-  if ((groups || sizes) && !elements) {
-    split(groups ? groupLine[1] : sizeLine[1], f, "\t")
-    no(f[2], (f[1] == "size" ? "sizes need a geometry" : "the mesh has no " many[dim - 1] " with numbers") "; allowed: " \
-      (f[1] == "size" ? "with a .geo, .step, .iges or .brep file" : "groups of the file's own, or a geometry"))
+  if (groups && !elements) {
+    split(groupLine[1], f, "\t")
+    no(f[2], "the mesh has no " many[dim - 1] " with numbers; allowed: groups of the file's own, or a geometry")
+  }
+  if (sizes && ENVIRON["MESHED"]) {
+    split(sizeLine[1], f, "\t")
+    no(f[2], "sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file")
   }
   # bodies first: "between" asks for them
   for (turn = 0; turn < 2; turn++)

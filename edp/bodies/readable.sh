@@ -62,10 +62,10 @@ echo "$finer" > "$folder/finer"
 # what sets a number must name one
 if test -n "${SETS-}"; then
     test "$kind" = geo || no "-set: it has no numbers to be set; allowed: with a .geo file"
-    constants=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\).*/\1/p' "$file" | tr '\n' ' ')
+    constants=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\).*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//')
     next=
     for word in $SETS; do
-        test "$next" != name || case " $constants" in *" $word "*) ;; *)
+        test "$next" != name || case " $constants " in *" $word "*) ;; *)
             grep -qiE 'merge|include' "$file" || no "-set $word: no number of it that can be set; allowed: ${constants:-none}" ;;
         esac
         next=
@@ -89,8 +89,9 @@ if test -z "${AGAIN-}" && { test $cad = 1 || { test -n "${CHECK-}" && command -v
     picked=$folder/picked.geo
     : > "$folder/apart.geo"
     way="-2 -order 2"
+    meshed=0
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
-    case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save; fi ;; esac
+    case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save meshed=1; fi ;; esac
     outline() {
         rm -f "$folder/outline.msh"
         gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 ${SETS-} $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
@@ -100,7 +101,7 @@ if test -z "${AGAIN-}" && { test $cad = 1 || { test -n "${CHECK-}" && command -v
         sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
     }
     pick() {
-        PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad APART=$folder/apart.geo LEFT=$folder/left FACES=$folder/faces \
+        PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo LEFT=$folder/left FACES=$folder/faces \
             awk -f "$meshes/pick.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
     command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"

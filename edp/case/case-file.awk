@@ -194,10 +194,11 @@ function readAhead(file,   n, kept, own, list, k) {
   $0 = kept
   ahead = 0
   for (n in how_) named(how_[n] == manyOf[dim] || how_[n] ~ /^(box|near)$/ && (n in isBody) ? dim : dim - 1, n)
-  # the one body of a geometry needs no group
-  if (split(ENVIRON["BODIES"], list, " ") == 1 && own == 1 && !((dim SUBSEP only) in there)) {
+  # one body alone needs no group: it is all there is
+  for (n in dimOfGroup) if (dimOfGroup[n] == dim) own = 0
+  if (ENVIRON["BODIES"] != "" && own == 1) {
     named(dim, only)
-    pick("group\t0\t" dim "\t" only "\t" manyOf[dim] " " list[1])
+    pick("group\t0\t" dim "\t" only "\t" manyOf[dim] " " ENVIRON["BODIES"])
   }
 }
 function named(dimension, name) {
