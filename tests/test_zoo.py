@@ -1,4 +1,4 @@
-"""Geometries and meshes of any kind: each is taken as it is, or refused in one line; groups and sizes that a case picks.
+"""Geometries and meshes of any kind: each is taken as it is, or refused in one line; groups and sizes of a case.
 
 The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a few are solved.
 """
@@ -103,7 +103,7 @@ def iges(*boxes):
         corner = [[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)]
         for a, b, c, d in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 4, 5), (2, 3, 6, 7), (0, 2, 4, 6), (1, 3, 5, 7)):
             knots = [0.0, 0.0, 1.0, 1.0] * 2
-            places = sum((corner[k] for k in (a, b, c, d)), [])
+            places = [value for k in (a, b, c, d) for value in corner[k]]
             values = [128, 1, 1, 1, 1, 0, 0, 1, 0, 0, *knots, *[1.0] * 4, *map(float, places), 0.0, 1.0, 0.0, 1.0]
             words, lines = [str(value) for value in values], [""]
             for k, word in enumerate(words):
@@ -222,7 +222,7 @@ PRESSED = "body PART E 210e3 nu 0.3\nclamp BASE\nobstacle TOP plane 0 0 1.999 0 
 
 
 def test_inp(tmp_path):
-    """Node sets and surfaces of CalculiX's become groups, bricks are cut alike on both sides; a case names what it uses."""
+    """Node sets and surfaces of CalculiX's become groups; a case names what it uses."""
     (tmp_path / "a.inp").write_text(INP)
     code, why, areas, volumes = readable(tmp_path, tmp_path / "a.inp", PRESSED)
     assert code == 0, why
@@ -378,7 +378,7 @@ def test_numbers_of_a_geometry(tmp_path):
     """-set NAME value is a number of a .geo file, another name refused with those that there are."""
     geo = ROOT / "edp/examples/roller/roller.geo"
     case = (geo.with_suffix(".case")).read_text()
-    code, why, areas, _ = readable(tmp_path, geo, case, 0, SETS=" -setnumber size 2")
+    code, why, *_ = readable(tmp_path, geo, case, 0, SETS=" -setnumber size 2")
     assert code == 0, why
     code, why, *_ = readable(tmp_path, geo, case, 0, SETS=" -setnumber sizes 2")
     assert code == 1 and why == "-set sizes: no number of it that can be set; allowed: radius width height size"
