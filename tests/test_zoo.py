@@ -126,12 +126,22 @@ def iges(*boxes):
     return "".join(f"{line:<72}{key}{k:>7}\n" for key, lines in parts.items() for k, line in enumerate(lines, 1))
 
 
-def readable(folder, mesh, case, space=1, **variables):
+def readable(folder, mesh, case, space=1, sets=""):
     """(exit code, what is said, areas of groups, volumes of bodies) of the reader by itself."""
     (folder / "a.case").write_text(case)
     out = folder / "read"
-    environment = {**os.environ, "LC_ALL": "C", **variables}
-    command = ["sh", "edp/bodies/readable.sh", str(os.getpid()), mesh, out, folder / "a.case", str(space)]
+    environment = {**os.environ, "LC_ALL": "C"}
+    command = [
+        "sh",
+        "edp/bodies/readable.sh",
+        str(os.getpid()),
+        mesh,
+        out,
+        folder / "a.case",
+        str(space),
+        "solve",
+        sets,
+    ]
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     why = (out / "why").read_text().strip() if (out / "why").exists() else ""
     assert done.returncode in (0, 4) or why.count("\n") == 0
@@ -319,7 +329,7 @@ def test_sizes(tmp_path):
     def elements(case):
         (tmp_path / "a.case").write_text(case + NAMED.format("0"))
         out = tmp_path / "read"
-        command = ["sh", "edp/bodies/readable.sh", str(os.getpid()), mesh, out, tmp_path / "a.case", "1"]
+        command = ["sh", "edp/bodies/readable.sh", str(os.getpid()), mesh, out, tmp_path / "a.case", "1", "solve"]
         assert subprocess.run(command, cwd=ROOT, env={**os.environ, "LC_ALL": "C"}).returncode == 0
         rows = (out / "mesh.msh").read_text().splitlines()
         subprocess.run(["rm", "-r", out], check=True)
@@ -370,7 +380,7 @@ def test_files_that_are_none(tmp_path, cad):
     mesh = gmsh(tmp_path, "c.msh", CUBOIDS, "-3", "-format", "msh22")
     code, why, *_ = readable(tmp_path, mesh, "size contact 0.1\n" + NAMED.format("0"))
     assert code == 3 and "line 1: sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file" in why
-    code, why, *_ = readable(tmp_path, cad, PICKED + NAMED.format("0"), SETS=" -setnumber radius 3")
+    code, why, *_ = readable(tmp_path, cad, PICKED + NAMED.format("0"), sets=" -setnumber radius 3")
     assert code == 1 and why == "-set: it has no numbers to be set; allowed: with a .geo file"
 
 
@@ -378,9 +388,9 @@ def test_numbers_of_a_geometry(tmp_path):
     """-set NAME value is a number of a .geo file, another name refused with those that there are."""
     geo = ROOT / "edp/examples/roller/roller.geo"
     case = (geo.with_suffix(".case")).read_text()
-    code, why, *_ = readable(tmp_path, geo, case, 0, SETS=" -setnumber size 2")
+    code, why, *_ = readable(tmp_path, geo, case, 0, sets=" -setnumber size 2")
     assert code == 0, why
-    code, why, *_ = readable(tmp_path, geo, case, 0, SETS=" -setnumber sizes 2")
+    code, why, *_ = readable(tmp_path, geo, case, 0, sets=" -setnumber sizes 2")
     assert code == 1 and why == "-set sizes: no number of it that can be set; allowed: radius width height size"
 
 
@@ -414,7 +424,7 @@ def test_shown_without_a_case(tmp_path, cad):
     faces = np.genfromtxt(out / "check/check-faces.csv", delimiter=",", names=True)
     assert sorted(set(faces["face"])) == list(range(1, 13)) and set(faces["body"]) == {1, 2}
     code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", cad, "-out", tmp_path / "none"])
-    assert code == 10 and "-check 1 shows a geometry without one" in said and not (tmp_path / "none").exists()
+    assert code == 10 and "-check 1 shows a geometry without" in said and not (tmp_path / "none").exists()
     code, said = execute([".venv/bin/python", "-m", "postprocess", "check", out])
     assert code == 0 and (out / "check/faces.png").exists() and not (out / "check/check.png").exists()
 

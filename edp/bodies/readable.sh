@@ -1,14 +1,13 @@
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE [SURFACE]
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE AS SETS [SURFACE]
 # Needs: RUN, the number of the run's process; awk; gmsh for a geometry (.geo, .step, .stp, .iges, .igs, .brep), and for what is not
 #        version 2 text; CASE, a case file, or none: only FOLDER/faces is wanted; SPACE, 1 for bodies in space, 0 for the
-#        plane; SURFACE: gmsh's mesh of the same surfaces, of second order; of a geometry in space it is made here. Variables:
-#        SETS, options of gmsh that set numbers of a .geo file; CHECK, not empty: FOLDER/faces is wanted; AGAIN, not empty: FILE is
-#        a mesh that has the case file's groups.
+#        plane; AS: solve, check: FOLDER/faces is wanted, again: FILE is a mesh that has the case file's groups; SETS, options of
+#        gmsh that set numbers of a .geo file; SURFACE: gmsh's mesh of the same surfaces, of second order; of a geometry in space
+#        it is made here.
 # Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
-#        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/gmsh: gmsh's version, if it meshed FILE;
-#        FOLDER/after: the file that gmsh read after the geometry, or nothing; FOLDER/left: bodies that are left out; FOLDER/faces:
-#        the geometry's faces with their numbers (meshes/pick.awk); FOLDER/finer: what makes smaller elements, in words. FOLDER
-#        is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
+#        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/told, a line each: gmsh's version, if it meshed
+#        FILE; the file that gmsh read after the geometry; what makes smaller elements, in words; bodies that are left out; FOLDER/faces:
+#        the geometry's faces with their numbers (meshes/pick.awk). FOLDER is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
 # Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused, 4 only FOLDER/faces.
 . "${0%/*}/../case/process.sh"
 run=$1
@@ -18,7 +17,9 @@ folder=$3
 case $folder in /*) ;; *) folder=./$folder ;; esac
 case_=$4
 space=$5
-surface=${6-}
+as=$6
+SETS=${7-}
+surface=${8-}
 flat="-2 -order 2 -setnumber Mesh.SaveAll 1"
 meshes=${0%/*}/../../meshes
 (umask 077 && mkdir "$folder") || exit 2
@@ -37,15 +38,18 @@ test -d "$file" && no "a folder, no mesh"
 test -r "$file" || no "may not be read"
 how=
 order=
-for name in gmsh after left; do : > "$folder/$name"; done
+for name in gmsh left; do : > "$folder/$name"; done
+after=
 finer="mesh with smaller elements"
 # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
 every=${0%/*}/every-curve.geo
 # a name with = would be an assignment to awk
-case $case_ in /*) path=$case_ ;; *) path=./$case_ ;; esac
+case $case_ in none) path=/dev/null ;; /*) path=$case_ ;; *) path=./$case_ ;; esac
 kind=$(printf %s "${file##*.}" | tr A-Z a-z)
 import=
 overlap=
+again=
+test "$as" != again || again=1
 cad=0
 case $kind in
     step | stp | brep | iges | igs) cad=1 ;;
@@ -58,9 +62,8 @@ case $kind in
         finer="lower sizes (${finer:+$finer, or }size contact in the case file)" ;;
 esac
 test $cad = 0 || finer="lower sizes (size contact, size NAME in the case file)"
-echo "$finer" > "$folder/finer"
 # what sets a number must name one
-if test -n "${SETS-}"; then
+if test -n "$SETS" && test -z "$again"; then
     test "$kind" = geo || no "-set: it has no numbers to be set; allowed: with a .geo file"
     constants=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\).*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//')
     next=
@@ -75,7 +78,7 @@ fi
 # gmsh's own way to name what it cannot read
 complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 readCase() {
-    CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=${AGAIN-} BODIES=${bodies-} \
+    CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=$again BODIES=${bodies-} \
         awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
     code=$?
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
@@ -84,7 +87,7 @@ readCase() {
 
 # what a case file picks of a geometry, in a file that gmsh reads after it
 picked=
-if test -z "${AGAIN-}" && { test $cad = 1 || { test -n "${CHECK-}" && command -v gmsh > /dev/null; } \
+if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gmsh > /dev/null; } \
     || grep -qE '^[[:blank:]]*(group|size)[[:blank:]]' "$path" 2> /dev/null; }; then
     picked=$folder/picked.geo
     : > "$folder/apart.geo"
@@ -94,7 +97,7 @@ if test -z "${AGAIN-}" && { test $cad = 1 || { test -n "${CHECK-}" && command -v
     case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save meshed=1; fi ;; esac
     outline() {
         rm -f "$folder/outline.msh"
-        gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 ${SETS-} $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
+        gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
             -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
         grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
         test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
@@ -156,11 +159,10 @@ case $kind in geo | step | stp | brep | iges | igs)
         after=$generated/own-$(cksum < "$picked" | tr ' ' -).geo
         test -s "$after" || { cp "$picked" "$after.$run" && mv "$after.$run" "$after"; } 2> /dev/null || after=$picked
     fi
-    echo "$after" > "$folder/after"
-    kept=$generated/own-$(cat "$file" ${after:+"$after"} | cksum | tr ' ' -)$(echo "${SETS-}" | cksum | tr ' ' -)$how.msh
+    kept=$generated/own-$(cat "$file" ${after:+"$after"} | cksum | tr ' ' -)$(echo "$SETS" | cksum | tr ' ' -)$how.msh
     if ! { test "$kind" = geo && grep -qiE 'merge|include|shapefromfile' "$file"; } && mkdir -p "$generated" 2> /dev/null \
-        && AFTER=$after sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22 ${SETS-} $import; then
-        test "$space" = 0 || ! AFTER=$after sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 ${SETS-} $import \
+        && AFTER=$after sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22 $SETS $import; then
+        test "$space" = 0 || ! AFTER=$after sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 $SETS $import \
             || surface=${kept%.msh}-surface.msh
         file=$kept
         sed -n '/^\$Comments/{n;s/^Gmsh //p;q;}' "$kept" > "$folder/gmsh"
@@ -173,10 +175,10 @@ esac
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
 if test -n "$how"; then
     command -v gmsh > /dev/null || no "not gmsh's version 2 text format, and gmsh, which would convert it, is not on the PATH"
-    gmsh "$how" $order -v 4 -format msh22 ${SETS-} $import "$file" ${after:+"$after"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
+    gmsh "$how" $order -v 4 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
     grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
-    test "$how" != -3 || gmsh $flat -v 1 -format msh22 ${SETS-} $import "$file" ${after:+"$after"} -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
+    test "$how" != -3 || gmsh $flat -v 1 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
     test ! -s "$folder/surface.msh" || surface=$folder/surface.msh
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
     file=$folder/converted.msh
@@ -185,7 +187,8 @@ tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/every c
 test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
 test -n "$picked" || readCase
 straight=
-test "$space" = 1 || test ! -s "$folder/after" || straight=1
+test "$space" = 1 || case $kind in geo | step | stp | brep | iges | igs) straight=1 ;; esac
+{ cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; } > "$folder/told"
 check() {
     CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
         RISES=$folder/rises SURFACE=$surface \
