@@ -165,6 +165,25 @@ def check_ball(case, allowed):
     assert case.first["pressureMax"] == pytest.approx(greatest, rel=allowed)
 
 
+def test_gear_pair(tmp_path):
+    """A tooth's pressure shall be Hertz's of the involutes' radii, its force along the line of action."""
+    case = example("gear-pair", tmp_path, "contact 0.02|contact 0.04")
+    check_gears(case.first, case.summary, 5e-3)
+    balanced(case)
+
+
+def check_gears(contact, summary, allowed=1e-3):
+    angle = np.radians(20)
+    radius = 1 / (1 / (48 * np.sin(angle)) + 1 / (72 * np.sin(angle)))
+    force = contact["normalForce"]
+    a, greatest = forms.hertz_line(force, radius, forms.contact_modulus(STEEL, STEEL))
+    assert contact["pressureMax"] == pytest.approx(greatest, rel=allowed)
+    assert contact["halfWidthMoment"] == pytest.approx(a, rel=2 * allowed)
+    along = np.degrees(np.arctan2(-contact["force"][1], -contact["force"][0]))
+    assert along == pytest.approx(20, abs=20 * allowed)
+    assert -summary["prescribed"][0]["moment"] == pytest.approx(force * 48 * np.cos(angle), rel=allowed)
+
+
 # ---------------------------------------------------------------- the pages
 
 
@@ -224,6 +243,12 @@ def test_page_numbers(name, tmp_path):
         ):
             assert agrees(case.summary[key], written[quantity])
             assert case.summary[key] == pytest.approx(paper.summary[key], rel=2e-7)
+    if name == "gear-pair":
+        check_gears(contacts[0], case.summary)
+        written = {row[0]: row[1] for row in rows(section(page, "Numbers"))}
+        assert agrees(contacts[0]["pressureMax"], written["greatest pressure"])
+        assert agrees(contacts[0]["halfWidthMoment"], written["half-width"])
+        assert agrees(-case.summary["prescribed"][0]["moment"], written["moment about the driver's centre"])
     if name == "wheel-on-rail":
         found = [*contacts[0]["semiAxes"], contacts[0]["pressureMax"]]
         measured = [(number(row[1]), number(row[2])) for row in rows(section(page, "Numbers"))]

@@ -416,7 +416,7 @@ BEGIN {
   instead["friction"] = instead["mu"] = instead["coulomb"] = "contacts are frictionless, there is none: contact SLAVE MASTER"
   instead["tie"] = instead["tied"] = instead["bond"] = instead["bonded"] = instead["glue"] = instead["weld"] = \
     "bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
-  instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle"
+  instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle, and its moment is said"
   instead["spring"] = "springs are not offered: a body of their stiffness"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
