@@ -69,7 +69,7 @@ section == "PhysicalNames" {
   if (($1 SUBSEP word) in numberOf) groupOf[$1, $2] = numberOf[$1, word]
 }
 section == "Elements" {
-  if (!($2 in typeAt)) element("of gmsh's type " $2 ": allowed: triangles, in space tetrahedra, of first or second order (no quadrangles, no Recombine)")
+  if (!($2 in typeAt)) element("of gmsh's type " $2 ": allowed: triangles, in space tetrahedra, of first or second order (quadrangles, bricks, prisms and pyramids of first order are cut)")
   type = typeAt[$2]
   if ($3 !~ /^[0-9]+$/ || NF != 3 + $3 + nodesOf[type]) element(NF " numbers; cut off, or more than it should have?")
   if (dims[type] > dim) element("a tetrahedron: allowed in the plane: triangles; edp/parts-3d.edp is for bodies in space")

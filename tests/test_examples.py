@@ -18,7 +18,7 @@ from postprocess import closed_forms as forms
 FOLDER = ROOT / "edp/examples"
 NAMES = sorted(path.parent.name for path in FOLDER.glob("*/*.case"))
 STEEL = forms.plane_modulus(210e3, 0.3)
-SPACE = ("crossed-cylinders", "ball-on-bracket")
+SPACE = ("crossed-cylinders", "ball-on-bracket", "wheel-on-rail")
 PAPER = ("-method", "paper", "-order", "2")
 
 
@@ -165,6 +165,25 @@ def check_ball(case, allowed):
     assert case.first["pressureMax"] == pytest.approx(greatest, rel=allowed)
 
 
+def test_gear_pair(tmp_path):
+    """A tooth's pressure shall be Hertz's of the involutes' radii, its force along the line of action."""
+    case = example("gear-pair", tmp_path, "contact 0.02|contact 0.04")
+    check_gears(case.first, case.summary, 5e-3)
+    balanced(case)
+
+
+def check_gears(contact, summary, allowed=1e-3):
+    angle = np.radians(20)
+    radius = 1 / (1 / (48 * np.sin(angle)) + 1 / (72 * np.sin(angle)))
+    force = contact["normalForce"]
+    a, greatest = forms.hertz_line(force, radius, forms.contact_modulus(STEEL, STEEL))
+    assert contact["pressureMax"] == pytest.approx(greatest, rel=allowed)
+    assert contact["halfWidthMoment"] == pytest.approx(a, rel=2 * allowed)
+    along = np.degrees(np.arctan2(-contact["force"][1], -contact["force"][0]))
+    assert along == pytest.approx(20, abs=20 * allowed)
+    assert -summary["prescribed"][0]["moment"] == pytest.approx(force * 48 * np.cos(angle), rel=allowed)
+
+
 # ---------------------------------------------------------------- the pages
 
 
@@ -174,15 +193,9 @@ def test_page(name):
     page, case = (FOLDER / name / "README.md").read_text(), (FOLDER / name / f"{name}.case").read_text()
     named = set(re.findall(r"`([\w-]+)`", section(page, "Strong form")))
     words = [line.split("#")[0].split() for line in case.splitlines()]
-    used = [
-        word[1:3] if word[0] == "contact" else word[1:2] for word in words if word and word[0] not in ("units", "state")
-    ]
-    boundary = {
-        group
-        for word, groups in zip([w for w in words if w and w[0] not in ("units", "state")], used, strict=True)
-        for group in groups
-        if word[0] != "body"
-    }
+    words = [word for word in words if word and word[0] not in ("units", "state", "size")]
+    used = [word[1:3] if word[0] == "contact" else word[1:2] for word in words]
+    boundary = {group for word, groups in zip(words, used, strict=True) for group in groups if word[0] != "body"}
     assert boundary <= named
     (commands,) = fences(page, "sh")
     first, second = commands.splitlines()
@@ -230,6 +243,18 @@ def test_page_numbers(name, tmp_path):
         ):
             assert agrees(case.summary[key], written[quantity])
             assert case.summary[key] == pytest.approx(paper.summary[key], rel=2e-7)
+    if name == "gear-pair":
+        check_gears(contacts[0], case.summary)
+        written = {row[0]: row[1] for row in rows(section(page, "Numbers"))}
+        assert agrees(contacts[0]["pressureMax"], written["greatest pressure"])
+        assert agrees(contacts[0]["halfWidthMoment"], written["half-width"])
+        assert agrees(-case.summary["prescribed"][0]["moment"], written["moment about the driver's centre"])
+    if name == "wheel-on-rail":
+        found = [*contacts[0]["semiAxes"], contacts[0]["pressureMax"]]
+        measured = [(number(row[1]), number(row[2])) for row in rows(section(page, "Numbers"))]
+        assert [pair[0] for pair in measured] == pytest.approx(found, rel=1e-3)
+        exact = forms.hertz_ellipse(80e3, (460, 300), forms.contact_modulus(STEEL, STEEL))
+        assert [pair[1] for pair in measured] == pytest.approx(exact[:3], rel=1e-3)
     if name in ("pin-in-hole", "crossed-cylinders"):
         lines = [row for row in rows(section(page, "Numbers")) if row[0] in ("1000", "10, 40")]
         found = (contacts[0]["contactLength"] / 20.02,) if name == "pin-in-hole" else contacts[0]["semiAxes"]

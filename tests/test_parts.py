@@ -163,7 +163,7 @@ def test_case_is_read(plane):
 @pytest.mark.parametrize(
     "case, words",
     [
-        (GOOD + "clampp left", "line 4: clampp: unknown statement; did you mean clamp? allowed: "),
+        (GOOD + "clampp left", "line 4: clampp: unknown statement; did you mean clamp (no displacement)? allowed: "),
         (
             GOOD + "clamp lfet",
             "line 4: lfet: no physical curve of the mesh; did you mean left? allowed: bottom right top left",
@@ -662,6 +662,7 @@ def test_check(tmp_path):
     folder = tmp_path / "out/check"
     assert sorted(file.name for file in folder.glob("check*")) == [
         "check-boundary.csv",
+        "check-faces.csv",
         "check-mesh.vtu",
         "check-points.csv",
         "check.json",
@@ -909,7 +910,7 @@ def damaged(how):
     triangle = next(k for k, line in enumerate(lines) if line.split()[1:3] == ["2", "2"])
     words = lines[triangle].split()
     if how == "quadrangle":
-        lines[triangle] = " ".join([words[0], "3", *words[2:], words[-1]])
+        lines[triangle] = " ".join([words[0], "10", *words[2:], *words[-3:], *words[-3:]])
     if how == "cut off":
         lines = lines[:triangle]
     if how == "no body":
@@ -931,7 +932,7 @@ def damaged(how):
 @pytest.mark.parametrize(
     "how, words",
     [
-        ("quadrangle", "of gmsh's type 3: allowed: triangles, in space tetrahedra, of first or second order"),
+        ("quadrangle", "of gmsh's type 10: allowed: triangles, in space tetrahedra, of first or second order"),
         ("cut off", "cut off in $Elements"),
         ("no body", "a triangle in no body"),
         ("flat", "a triangle without area"),

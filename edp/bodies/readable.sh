@@ -1,12 +1,14 @@
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE [SURFACE]
-# Needs: RUN, the number of the run's process; awk; gmsh for a .geo file, and for what is not version 2 text; CASE, a case file;
-#        SPACE, 1 for bodies in space, 0 for the plane; SURFACE: gmsh's mesh of the same surfaces, of second order; of a .geo file in
-#        space it is made here.
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE AS SETS [SURFACE]
+# Needs: RUN, the number of the run's process; awk; gmsh for a geometry (.geo, .step, .stp, .iges, .igs, .brep), and for what is not
+#        version 2 text; CASE, a case file, or none: only FOLDER/faces is wanted; SPACE, 1 for bodies in space, 0 for the
+#        plane; AS: solve, check: FOLDER/faces is wanted, again: FILE is a mesh that has the case file's groups; SETS, options of
+#        gmsh that set numbers of a .geo file; SURFACE: gmsh's mesh of the same surfaces, of second order; of a geometry in space
+#        it is made here.
 # Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
-#        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/gmsh: gmsh's version, if it meshed FILE. FOLDER
-#        is new, and goes when the run has
-#        ended, however it ended: the run takes it away itself if it can.
-# Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused.
+#        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/told, a line each: gmsh's version, if it meshed
+#        FILE; the file that gmsh read after the geometry; what makes smaller elements, in words; bodies that are left out; FOLDER/faces:
+#        the geometry's faces with their numbers (meshes/pick.awk). FOLDER is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
+# Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused, 4 only FOLDER/faces.
 . "${0%/*}/../case/process.sh"
 run=$1
 file=$2
@@ -15,7 +17,9 @@ folder=$3
 case $folder in /*) ;; *) folder=./$folder ;; esac
 case_=$4
 space=$5
-surface=${6-}
+as=$6
+SETS=${7-}
+surface=${8-}
 flat="-2 -order 2 -setnumber Mesh.SaveAll 1"
 meshes=${0%/*}/../../meshes
 (umask 077 && mkdir "$folder") || exit 2
@@ -33,52 +37,170 @@ no() {
 test -d "$file" && no "a folder, no mesh"
 test -r "$file" || no "may not be read"
 how=
-: > "$folder/gmsh"
 order=
-every=
-case $file in *.geo)
+for name in gmsh left; do : > "$folder/$name"; done
+after=
+finer="mesh with smaller elements"
+# in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
+every=${0%/*}/every-curve.geo
+# a name with = would be an assignment to awk
+case $case_ in none) path=/dev/null ;; /*) path=$case_ ;; *) path=./$case_ ;; esac
+kind=$(printf %s "${file##*.}" | tr A-Z a-z)
+import=
+overlap=
+again=
+test "$as" != again || again=1
+cad=0
+case $kind in
+    step | stp | brep | iges | igs) cad=1 ;;
+    inp)
+        overlap=1
+        SPACE=$space awk -f "$meshes/inp.awk" "$path" "$file" > "$folder/inp.msh" 2> "$folder/log" || no "$(tail -n 1 "$folder/inp.msh")"
+        file=$folder/inp.msh ;;
+    geo)
+        finer=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\) *=.*size of the.*/-set \1/p' "$file" | head -n 1)
+        finer="lower sizes (${finer:+$finer, or }size contact in the case file)" ;;
+esac
+test $cad = 0 || finer="lower sizes (size contact, size NAME in the case file)"
+# what sets a number must name one
+if test -n "$SETS" && test -z "$again"; then
+    test "$kind" = geo || no "-set: it has no numbers to be set; allowed: with a .geo file"
+    constants=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\).*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//')
+    next=
+    for word in $SETS; do
+        test "$next" != name || case " $constants " in *" $word "*) ;; *)
+            grep -qiE 'merge|include' "$file" || no "-set $word: no number of it that can be set; allowed: ${constants:-none}" ;;
+        esac
+        next=
+        test "$word" != -setnumber || next=name
+    done
+fi
+# gmsh's own way to name what it cannot read
+complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
+readCase() {
+    CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=$again BODIES=${bodies-} \
+        awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
+    code=$?
+    test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
+    test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
+}
+
+# what a case file picks of a geometry, in a file that gmsh reads after it
+picked=
+if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gmsh > /dev/null; } \
+    || grep -qE '^[[:blank:]]*(group|size)[[:blank:]]' "$path" 2> /dev/null; }; then
+    picked=$folder/picked.geo
+    : > "$folder/apart.geo"
+    way="-2 -order 2"
+    meshed=0
+    # of gmsh's own curves its curvature ends in an endless loop (4.8)
+    case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save meshed=1; fi ;; esac
+    outline() {
+        rm -f "$folder/outline.msh"
+        gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
+            -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
+        grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
+        test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
+        sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
+    }
+    pick() {
+        PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo LEFT=$folder/left FACES=$folder/faces \
+            awk -f "$meshes/pick.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
+    }
+    command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
+    listBodies() {
+        bodies=$(awk -v d=$((2 + space)) '/^\$/ { s = $1; row = 0; next }
+            s == "$Entities" { if (++row == 1) { for (k = 1; k <= d; k++) from += $k; to = from + $(d + 1) }
+                else if (row > from + 1 && row <= to + 1) all = all " " $1 } END { print substr(all, 2) }' "$folder/outline.msh")
+    }
+    outline
+    bodies=
+    if test $cad = 1; then
+        listBodies
+        if test -z "$bodies$import" && test "$space" = 1; then      # faces that nothing joins, as IGES has them
+            import="-setnumber Geometry.OCCSewFaces 1 -setnumber Geometry.OCCMakeSolids 1"
+            outline
+            listBodies
+        fi
+        test -n "$bodies" || no "no $(test "$space" = 1 && echo solid || echo surface) in it"
+    fi
+    if test "$case_" = none; then
+        pick || no "its faces cannot be listed"
+        exit 4
+    fi
+    : > "$folder/picks"
+    readCase "$folder/picks"
+    pick "$folder/picks"
+    code=$?
+    if test $code = 4; then
+        outline
+        pick "$folder/picks"
+        code=$?
+    fi
+    test $code != 4 || no "-case $case_: bodies that share a face with two others cannot be taken apart; allowed: apart in the geometry" 3
+    test $code != 1 || no "$(tail -n 1 "$picked")" 3
+    test $code = 0 || no "-case $case_: its groups cannot be picked: $(head -n 1 "$folder/log")" 3
+    { cat "$folder/apart.geo" "$picked"; test "$space" = 1 || cat "$every"; } > "$folder/after.geo"
+    picked=$folder/after.geo
+    # what picks nothing is taken as it is
+    test $cad = 1 || grep -qE '^(group|size)' "$folder/picks" || picked=
+fi
+
+case $kind in geo | step | stp | brep | iges | igs)
     how=-$((2 + space))
-    # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
-    test "$space" != 0 || every=${0%/*}/every-curve.geo
-    order=${every:+-order 2}
+    test "$space" = 1 || order="-order 2"
     # kept as the package's own meshes are, if it stands for itself: what it includes may change unseen
     generated=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
     generated=${generated:+$generated/meshes}
     generated=${generated:-$meshes/generated}
-    kept=$generated/own-$(cksum < "$file" | tr ' ' -)$how${every:+-curves}.msh
-    if ! grep -qiE 'merge|include|shapefromfile' "$file" && mkdir -p "$generated" 2> /dev/null \
-        && AFTER=$every sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22; then
-        test "$space" = 0 || ! sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 \
+    after=$picked
+    test -n "$after" || test "$space" = 1 || after=$every
+    if test -n "$picked" && mkdir -p "$generated" 2> /dev/null; then
+        after=$generated/own-$(cksum < "$picked" | tr ' ' -).geo
+        test -s "$after" || { cp "$picked" "$after.$run" && mv "$after.$run" "$after"; } 2> /dev/null || after=$picked
+    fi
+    kept=$generated/own-$(cat "$file" ${after:+"$after"} | cksum | tr ' ' -)$(echo "$SETS" | cksum | tr ' ' -)$how.msh
+    if ! { test "$kind" = geo && grep -qiE 'merge|include|shapefromfile' "$file"; } && mkdir -p "$generated" 2> /dev/null \
+        && AFTER=$after sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22 $SETS $import; then
+        test "$space" = 0 || ! AFTER=$after sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 $SETS $import \
             || surface=${kept%.msh}-surface.msh
         file=$kept
         sed -n '/^\$Comments/{n;s/^Gmsh //p;q;}' "$kept" > "$folder/gmsh"
         how=
     fi ;;
+*)  after=$picked
+    test -z "$picked" || how=-save ;;
 esac
 # the second line of gmsh's format: version, 0 for text or 1 for binary, size of a real
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
 if test -n "$how"; then
     command -v gmsh > /dev/null || no "not gmsh's version 2 text format, and gmsh, which would convert it, is not on the PATH"
-    gmsh "$how" $order -v 4 -format msh22 "$file" ${every:+"$every"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
-    grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(sed -n 's/^Error *: *//p' "$folder/log" | head -n 1)"
+    gmsh "$how" $order -v 4 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
+    grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
-    test "$how" != -3 || gmsh $flat -v 1 -format msh22 "$file" -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
+    test "$how" != -3 || gmsh $flat -v 1 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
     test ! -s "$folder/surface.msh" || surface=$folder/surface.msh
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
     file=$folder/converted.msh
 fi
 tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/every curve of the geometry/d;/^[0-9] /p;}' > "$folder/names"
 test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
-# a name with = would be an assignment to awk
-case $case_ in /*) path=$case_ ;; *) path=./$case_ ;; esac
-CASE=$case_ SPACE=$space awk -f "${0%/*}/../case/case-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
-code=$?
-test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
-test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
-CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
-    RISES=$folder/rises SURFACE=$surface \
-    STRAIGHT=$every awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
-code=$?
+test -n "$picked" || readCase
+straight=
+test "$space" = 1 || case $kind in geo | step | stp | brep | iges | igs) straight=1 ;; esac
+{ cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; } > "$folder/told"
+check() {
+    CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
+        RISES=$folder/rises SURFACE=$surface \
+        STRAIGHT=$straight awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
+    code=$?
+}
+check
+if grep -q "of gmsh's type [3567]: " "$folder/why"; then
+    awk -f "$meshes/cut.awk" "$file" "$file" > "$folder/cut.msh" 2> "$folder/log"
+    file=$folder/cut.msh
+    check
+fi
 cat "$folder/regions" >> "$folder/case" 2> /dev/null
 test $code -le 1 || no "cannot be checked: is awk there, and room in ${folder%/*}?"
 test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in ${folder%/*}"

@@ -1,12 +1,16 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk -f case-file.awk NAMES FILE
-# Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages.
+# Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages;
+#        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing; SETS_OVERLAP, not
+#        empty: an element may be in several groups, of which the case needs one.
 # Gives: a plain table for bodies/parts.idp: "units" and its text, "state" and its word, "thickness" and its number; "groups", how
 #        many, then dimension and name of each group that is used, a line each: its number is its place; "statements", how many,
 #        then a line each: word, line of the file, its groups' numbers (two, 0: none), shape or a contact's gap, what moves an obstacle, law (none:
-#        without) and 16 numbers (see put()). Or one line that says what is wrong where, and exit code 1.
+#        without) and 16 numbers (see put()). Or one line that says what is wrong where, and exit code 1. PICKS, for
+#        meshes/pick.awk, a line each, its words between tabs: group, line, dimension, name, and how it is picked; size, line, name,
+#        number; contact, obstacle: line, groups' names, shape and numbers.
 # The grammar is the table of usages below; words that stand for a number are looked at in number().
 function no(what) {
-  if (!finishing) what = "line " FNR ": " what
+  if (!finishing) what = "line " (ahead ? ahead : FNR) ": " what
   print "-case " ENVIRON["CASE"] ", " what
   failed = 1
   exit 1
@@ -36,6 +40,21 @@ function meant(word, words,   list, n, k, off, least, found) {
     if (off < least) { least = off; found = list[k] }
   }
   return found == "" ? "" : "did you mean " found "? "
+}
+
+# of an unknown statement the one that does what it is likely to ask for, and what that does
+function leadTo(t,   k, n, list, near) {
+  t = tolower(t)
+  sub(/s$/, "", t)
+  if (t in instead) return instead[t] "; "
+  n = split(t in leads ? leads[t] : "", list, " ")
+  for (k = 1; k <= n && !(list[k] in usage); k++);
+  if (k <= n) near = "did you mean " list[k] "? "
+  else near = meant(word[1], statementWords)
+  k = near
+  sub(/^did you mean /, "", k)
+  sub(/\? $/, "", k)
+  return k in does ? "did you mean " k " (" does[k] ")? " : near
 }
 
 # the line's words: word[1] ... word[words], blanks kept between quotes, # begins a comment
@@ -93,22 +112,101 @@ function keyword(name) {
   if (word[++at] != name) no(word[at] ": not allowed here; " usageOf(word[1]))
 }
 
-# the number of the group of a dimension that the next word names
-function group(dimension,   name, key, k, other) {
+# the next word, which must be a group of that dimension
+function known(dimension,   name, key, k, other) {
   if (at >= words) no("a name is missing after " word[words] "; " usageOf(word[1]))
   name = word[++at]
   key = dimension SUBSEP name
   if (!(key in there)) {
+    if (dimension == dim && ENVIRON["BODIES"] != "")
+      no(name ": no body of the geometry has this name; allowed: a line group " name " " manyOf[dim] " N ..., of " ENVIRON["BODIES"])
+    if (ENVIRON["BODIES"] != "" && listed(dimension, " ") == " none")
+      no(name ": no group; allowed: a line group " name " " manyOf[dim - 1] " N ... (-check 1 without -case draws their numbers)")
     for (k = 0; k <= 3; k++) if (k != dimension && (k SUBSEP name) in there) other = k
     if (other != "") no(name ": a " kind[other] " of the mesh; allowed for " word[1] ": its " kind[dimension] "s:" listed(dimension, " "))
     no(name ": no physical " kind[dimension] " of the mesh; " meant(name, listed(dimension, "|")) "allowed:" listed(dimension, " "))
   }
+  return name
+}
+# its number
+function group(dimension,   name, key) {
+  name = known(dimension)
+  key = dimension SUBSEP name
   if (!(key in place)) { place[key] = ++groups; groupLine[groups] = dimension " " name; nameOf[groups] = name }
   return place[key]
 }
 function listed(dimension, between,   k, all) {
   for (k = 1; k <= names; k++) if (dimOf[k] == dimension) all = all between nameIn[k]
   return all == "" ? " none" : (between == "|" ? substr(all, 2) : all)
+}
+# group: what it is picked by, for meshes/pick.awk; names are known since readAhead()
+function readGroup(   name, how, k, text) {
+  name = word[++at]
+  once("group" SUBSEP name, "group " name)
+  if ((dim SUBSEP name) in inFile || (dim - 1 SUBSEP name) in inFile)
+    no(name ": the mesh or geometry has a group of this name; allowed: another name")
+  if (at >= words) no("what it is picked by is missing after " name "; " usageOf("group"))
+  how = word[++at]
+  if (index(" " pickWords " ", " " how " ") == 0) no(how ": unknown; " meant(how, pickList) usageOf("group"))
+  text = how
+  if (how == manyOf[dim] || how == manyOf[dim - 1]) {
+    if (at >= words) no("numbers are missing after " how "; " usageOf("group"))
+    while (at < words) {
+      if (word[++at] !~ /^[0-9]+$/) no(word[at] ": not the number of one of the " how "; allowed: those that -check 1 draws")
+      text = text " " word[at] + 0
+    }
+  } else if (how == "between") {
+    for (k = 0; k < 2; k++) text = text "\t" known(dim)
+    if (word[at] == word[at - 1]) no(word[at] ": twice the same body; allowed: two bodies")
+  } else {
+    vector("the place", 0, taken_, 0)
+    if (how == "box") vector("the other corner", 0, taken_, 3)
+    if (how == "plane") { vector("the normal", 0, taken_, 3); nonzero("the normal", taken_, 3) }
+    for (k = 0; k < (how == "near" ? 3 : 6); k++) text = text " " sprintf("%.17g", taken_[k])
+  }
+  pick("group\t" FNR "\t" dimOfGroup[name] "\t" name "\t" text)
+}
+function pick(line) { if (ENVIRON["PICKS"] != "") print line > ENVIRON["PICKS"] }
+function readSize(   name, h) {
+  if (words < 2) no("a name is missing; " usageOf("size"))
+  name = word[++at]
+  if (name != "contact" || (dim SUBSEP name) in there || (dim - 1 SUBSEP name) in there) {
+    at--
+    known((dim SUBSEP name) in there ? dim : dim - 1)
+  }
+  once("size" SUBSEP name, "size of " name)
+  h = number("the size", 0, 1e300)
+  pick("size\t" FNR "\t" name "\t" sprintf("%.17g", h))
+  sized = 1
+}
+# before the rest: the names of groups; what is said to be made of something is a body
+function readAhead(file,   n, kept, own, list, k) {
+  if (ENVIRON["AGAIN"] == "") for (key in there) inFile[key] = 1
+  kept = $0
+  while ((getline < file) > 0) {
+    if (++ahead == 1) sub(/^\357\273\277/, "")
+    splitLine()
+    if (word[1] ~ /^(body|weight)$/ && words > 1) isBody[word[2]] = 1
+    if (word[1] == "group" && words > 2) how_[word[2]] = word[3]
+    if (word[1] == "body" && words > 1 && !((dim SUBSEP word[2]) in there)) { own++; only = word[2] }
+  }
+  close(file)
+  $0 = kept
+  ahead = 0
+  for (n in how_) named(how_[n] == manyOf[dim] || how_[n] ~ /^(box|near)$/ && (n in isBody) ? dim : dim - 1, n)
+  # one body alone needs no group: it is all there is
+  for (n in dimOfGroup) if (dimOfGroup[n] == dim) own = 0
+  if (ENVIRON["BODIES"] != "" && own == 1) {
+    named(dim, only)
+    pick("group\t0\t" dim "\t" only "\t" manyOf[dim] " " ENVIRON["BODIES"])
+  }
+}
+function named(dimension, name) {
+  dimOfGroup[name] = dimension
+  if ((dimension SUBSEP name) in there) return
+  there[dimension, name] = 1
+  dimOf[++names] = dimension
+  nameIn[names] = name
 }
 function once(key, what) {
   if (key in seen) no(what ": stated before, in line " seen[key] "; allowed: once")
@@ -192,6 +290,7 @@ function readObstacle(   g, v, shape, load, law, next_, over) {
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
   v[4] -= over
   touches[g] = FNR; slaves[g] = FNR
+  pick("obstacle\t" FNR "\t" nameOf[g] "\t" shape_)
   measured(g, "none")
   put(g, 0, shape, load, law, v)
 }
@@ -220,6 +319,7 @@ function readContact(   a, b, v, law, gap, next_, over) {
   }
   slaves[a] = FNR
   touches[a] = touches[b] = FNR
+  pick("contact\t" FNR "\t" nameOf[a] "\t" nameOf[b])
   measured(a, gap)
   v[4] -= over
   put(a, b, gap, "none", law, v)
@@ -327,9 +427,36 @@ BEGIN {
   usage["pressure"] = "pressure NAME number"
   usage["traction"] = "traction NAME x y" at3
   usage["weight"] = "weight NAME x y" at3
+  manyOf[1] = "curves"; manyOf[2] = space ? "faces" : "surfaces"; manyOf[3] = "volumes"
+  pickWords = manyOf[dim - 1] " " manyOf[dim] " box plane near between"
+  pickList = pickWords
+  gsub(/ /, "|", pickList)
+  usage["group"] = "group NAME " manyOf[dim - 1] " N ..., " manyOf[dim] " N ..., box x y" at3 " x y" at3 ", plane x y" at3 " nx ny" \
+    (space ? " nz" : "") ", near x y" at3 " or between BODY BODY"
+  usage["size"] = "size NAME number or size contact number"
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line"
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line"
+  split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
+    "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
+    "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
+    "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
+    "|size of the elements|preload a shank pulled together|expand thermal strain|units of lengths and pressures" \
+    "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it", list, "|")
+  for (k in list) { line = list[k]; sub(/ .*/, "", line); does[line] = substr(list[k], length(line) + 2) }
+  split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|gravity acceleration density dload:weight" \
+    "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
+    "|material elastic steel:body|temperature thermal heat shrink:expand|rigid wall ground:obstacle|set nset elset surface face select:group" \
+    "|mesh h elementsize refine:size|unit:units|interface pair touch:contact|interference overlap:contact", list, "|")
+  for (k in list) {
+    n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
+    for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
+  }
+  instead["friction"] = instead["mu"] = instead["coulomb"] = "contacts are frictionless, there is none: contact SLAVE MASTER"
+  instead["tie"] = instead["tied"] = instead["bond"] = instead["bonded"] = instead["glue"] = instead["weld"] = \
+    "bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
+  instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle, and its moment is said"
+  instead["spring"] = "springs are not offered: a body of their stiffness"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
   low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
@@ -350,12 +477,15 @@ FILENAME == ARGV[1] {
   next
 }
 {
+  if (FNR == 1) readAhead(FILENAME)
   if (FNR == 1) sub(/^\357\273\277/, "")
   splitLine()
   if (!words) next
   at = 1
-  if (!(word[1] in usage)) no(word[1] ": unknown statement; " meant(word[1], statementWords) "allowed: " statementNames)
+  if (!(word[1] in usage)) no(word[1] ": unknown statement; " leadTo(word[1]) "allowed: " statementNames)
   if (word[1] ~ /^(units|state|thickness)$/) single()
+  else if (word[1] == "group") readGroup()
+  else if (word[1] == "size") readSize()
   else {
     if (!firstLine) firstLine = FNR
     if (word[1] == "body") readBody()
@@ -371,7 +501,7 @@ END {
   finishing = 1
   if (!statements) no("it has no statement; allowed: at least body and contact or obstacle")
   for (k = 1; k <= names; k++)
-    if (dimOf[k] == dim && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))
+    if (dimOf[k] == dim && ENVIRON["SETS_OVERLAP"] == "" && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))
       no("nothing says what the " kind[dim] " " nameIn[k] " is made of; allowed: a line body " nameIn[k] " E number nu number")
   for (g in slaves)
     if (g in heldBy) no("line " slaves[g] ": " nameOf[g] ": a slave that line " heldIn[g] " holds (" heldBy[g] "); allowed: the other surface as slave")

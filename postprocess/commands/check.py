@@ -3,7 +3,9 @@
 RUN is the result folder of a run of parts.edp or parts-3d.edp with -check 1, or its folder check. Written are
 check.pdf and check.png beside the files of the check, or what --out names. Each group of the boundary that the case
 file names has a colour, its statement stands beside it; a line at each contact point is its normal, as long as its
-gap or as the elements around, whichever is less.
+gap or as the elements around, whichever is less. Of a geometry faces.pdf and faces.png show its faces (in the plane
+its curves) with the numbers that a line `group NAME faces N` takes; in space from both sides. Without a case file they
+are all.
 """
 
 import argparse
@@ -16,8 +18,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from postprocess import bodies as drawn
-from postprocess import style
-from postprocess.output import enter, write_figure
+from postprocess import faces, style
+from postprocess.output import enter, write_figures
 from postprocess.results import ResultsError, brief, check_file, read_table
 from postprocess.vtu import CORNERS, corners, read_arrays
 
@@ -33,11 +35,17 @@ def run(arguments: argparse.Namespace) -> None:
     given = Path(arguments.folder)
     folder = given / "check" if (given / "check").is_dir() else given
     out = Path(arguments.out) if arguments.out else folder / "check.pdf"
+    numbered = folder / "check-faces.csv"
     with style.look():
-        figure = draw(folder, drawn.sight(*arguments.view))
+        figures = {}
+        if (folder / "check.json").exists() or not numbered.exists():
+            figures[out] = draw(folder, drawn.sight(*arguments.view))
+        if numbered.exists():
+            beside = out.with_name(f"{out.stem}-faces.pdf") if arguments.out else folder / "faces.pdf"
+            figures[beside] = faces.draw(numbered, *arguments.view)
         if not arguments.out:
-            enter(folder, ["check.pdf", "check.png"])
-        for path in write_figure(figure, out):
+            enter(folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")])
+        for path in write_figures(figures):
             print(path)
 
 

@@ -1,0 +1,31 @@
+# faces.sh: the faces of a geometry with their numbers, for a picture: sh faces.sh RUN FILE FOLDER SPACE SETS PICTURE
+# Needs: RUN, FILE, SPACE, SETS: as bodies/readable.sh; FOLDER, of results; PICTURE, the command that draws. Or FILE, a folder of
+#        bodies/readable.sh's, FOLDER, where a run's files are before they are published, and the word keep.
+# Gives: FOLDER/check-faces.csv, said on standard output; with keep that file is told to case/folder.sh, and FILE removed.
+# Exit codes: 0 done, 10 refused in one line, as a run's.
+keep() {
+    test ! -s "$1/faces" || { cp "$1/faces" "$2/check-faces.csv" && echo "check-faces.csv $(wc -c < "$1/faces")" >> "$2/.ends"; }
+    rm -rf "$1"
+}
+here=${0%/*}
+if test "$4" = keep; then
+    keep "$2" "$3"
+    exit
+fi
+read=${TMPDIR:-/tmp}/faces-$1-$(date +%s)
+sh "$here/readable.sh" "$1" "$2" "$read" none "$4" check "$5"
+if test $? != 4; then
+    echo "-mesh $2: $(cat "$read/why" 2> /dev/null || echo "cannot be read")$(grep -q '; allowed: ' "$read/why" 2> /dev/null \
+        || echo "; allowed: a geometry (.geo, .step, .iges, .brep), or a mesh of gmsh's with numbers of faces")"
+    rm -rf "$read"
+    exit 10
+fi
+if ! sh "$here/../case/folder.sh" "$1" open "$3"; then
+    echo "-out ${3%/check}: not writable, or in use; allowed: a folder that can be written"
+    rm -rf "$read"
+    exit 10
+fi
+keep "$read" "$3/.run"
+sh "$here/../case/folder.sh" "$1" publish "$3" || exit 30
+echo "checked: the geometry alone; no case file was given"
+echo "  picture: $6"

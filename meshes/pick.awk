@@ -1,0 +1,488 @@
+# pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
+#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE LEFT=FILE FACES=FILE LC_ALL=C awk -f pick.awk < OUTLINE.msh
+# Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
+#        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
+#        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
+# Gives: on standard output a .geo file to be read after the geometry: its groups and sizes, exit code 0;  APART, if bodies that
+#        "between" names share faces: a .geo file that gives each its own, exit code 4: the outline is to be made again with
+#        it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
+#        their faces and bodies, for a picture;  or one line that says what is wrong, exit code 1.
+# What is decided here is which numbers are meant; shapes are gmsh's: its outline is as near to them as quadratic elements are.
+# "near" and "between" compare places of these, "box" and "plane" all nodes of a face.
+function no(line, what) {
+  print "-case " ENVIRON["CASE"] ", line " line ": " what
+  failed = 1
+  exit 1
+}
+BEGIN {
+  space = ENVIRON["SPACE"] + 0
+  dim = 2 + space
+  many[1] = "curves"; many[2] = space ? "faces" : "surfaces"; many[3] = "volumes"
+}
+/^\$/ { section = $1; row = block = 0; next }
+section == "$PhysicalNames" && ++row > 1 {
+  name = $0
+  sub(/^[^"]*"/, "", name)
+  sub(/"[^"]*$/, "", name)
+  named[$1, $2] = name
+}
+section == "$Entities" {
+  if (++row == 1) { ends[0] = 1; for (k = 1; k <= 4; k++) ends[k] = ends[k - 1] + $k; next }
+  for (d = 0; row > ends[d + 1]; d++);
+  if (d < dim - 1 || d > dim) next
+  entities[d] = entities[d] " " $1
+  isThere[d, $1] = 1
+  if (d == dim && $1 > greatest) greatest = $1
+  at = 8
+  n = $at
+  for (k = 1; k <= n; k++) { t = $(at + k); if ((d SUBSEP t) in named) add(named[d, t], d, $1) }
+  at += n + 1
+  n = $at
+  for (k = 1; k <= n && d == dim; k++) {
+    t = $(at + k)
+    if (t < 0) t = -t
+    around[$1] = around[$1] " " t
+    if (!(t in bodyOf)) bodyOf[t] = $1
+    else if (bodyOf[t] != $1) { shared++; sharedBy[shared] = bodyOf[t] " " $1 }
+  }
+}
+# rows of a block: its nodes' numbers, then their places
+section == "$Nodes" {
+  if (++row == 1) next
+  if (block == 0) { block = 2 * $4; half = $4; next }
+  if (block > half) tag[2 * half - block] = $1
+  else { k = tag[half - block]; x[k] = $1; y[k] = $2; z[k] = $3; widen(0, $1); widen(1, $2); widen(2, $3) }
+  block--
+}
+section == "$Elements" {
+  if (++row == 1) next
+  if (block == 0) { block = $4; onDim = $1; entity = $2; type = $3; next }
+  block--
+  if (onDim != dim - 1) next
+  if (type ~ /^(3|10|16)$/) { quadrangles = 1; next }
+  if (type !~ (space ? "^(2|9)$" : "^(1|8)$")) next
+  e = ++elements
+  face[e] = entity
+  last[entity] = e
+  if (!(entity in first)) first[entity] = e
+  place(e, 0, $2)
+  place(e, 1, $3)
+  if (space) place(e, 2, $4)
+  n = space ? 4 : 3
+  if (type == 9) { place(e, 3, $5); place(e, 4, $6); place(e, 5, $7) }
+  else if (type == 8) place(e, 2, $4)
+  else if (space) { middle(e, 3, 0, 1); middle(e, 4, 1, 2); middle(e, 5, 2, 0) }
+  else middle(e, 2, 0, 1)
+}
+function widen(k, v) {
+  if (!(k in low) || v < low[k]) low[k] = v + 0
+  if (!(k in high) || v > high[k]) high[k] = v + 0
+}
+function add(name, d, number) {
+  if (index(members[d, name] " ", " " number " ")) return
+  members[d, name] = members[d, name] " " number
+}
+# pieces of faces: corners, then middles of sides (01, 12, 20; of a curve 01)
+function place(e, k, node) { X[e, k] = x[node]; Y[e, k] = y[node]; Z[e, k] = z[node] }
+function middle(e, k, a, b) { X[e, k] = (X[e, a] + X[e, b]) / 2; Y[e, k] = (Y[e, a] + Y[e, b]) / 2; Z[e, k] = (Z[e, a] + Z[e, b]) / 2 }
+# a place of quadratic element p as a mixture of its nodes: weights w[0 ... ]
+function mix(p, q, k, a, b, c, d, f, g) {
+  X[q, k] = a * X[p, 0] + b * X[p, 1] + (space ? c * X[p, 2] + d * X[p, 3] + f * X[p, 4] + g * X[p, 5] : c * X[p, 2])
+  Y[q, k] = a * Y[p, 0] + b * Y[p, 1] + (space ? c * Y[p, 2] + d * Y[p, 3] + f * Y[p, 4] + g * Y[p, 5] : c * Y[p, 2])
+  Z[q, k] = a * Z[p, 0] + b * Z[p, 1] + (space ? c * Z[p, 2] + d * Z[p, 3] + f * Z[p, 4] + g * Z[p, 5] : c * Z[p, 2])
+}
+# its four (of a curve two) parts, again quadratic: children[1 ... ]
+function split_(p,   q) {
+  if (p in parts) return parts[p]
+  parts[p] = pieces + 1
+  pieces += space ? 4 : 2
+  q = parts[p]
+  if (!space) {
+    mix(p, q, 0, 1, 0, 0); mix(p, q, 1, 0, 0, 1); mix(p, q, 2, 0.375, -0.125, 0.75)
+    mix(p, q + 1, 0, 0, 0, 1); mix(p, q + 1, 1, 0, 1, 0); mix(p, q + 1, 2, -0.125, 0.375, 0.75)
+    face[q] = face[q + 1] = face[p]
+    return q
+  }
+  # the corners' ones: with corners a, middles of the sides beside it
+  mix(p, q, 0, 1, 0, 0, 0, 0, 0); mix(p, q, 1, 0, 0, 0, 1, 0, 0); mix(p, q, 2, 0, 0, 0, 0, 0, 1)
+  mix(p, q, 3, 0.375, -0.125, 0, 0.75, 0, 0); mix(p, q, 4, 0, -0.125, -0.125, 0.5, 0.25, 0.5); mix(p, q, 5, 0.375, 0, -0.125, 0, 0, 0.75)
+  mix(p, q + 1, 0, 0, 0, 0, 1, 0, 0); mix(p, q + 1, 1, 0, 1, 0, 0, 0, 0); mix(p, q + 1, 2, 0, 0, 0, 0, 1, 0)
+  mix(p, q + 1, 3, -0.125, 0.375, 0, 0.75, 0, 0); mix(p, q + 1, 4, 0, 0.375, -0.125, 0, 0.75, 0); mix(p, q + 1, 5, -0.125, 0, -0.125, 0.5, 0.5, 0.25)
+  mix(p, q + 2, 0, 0, 0, 0, 0, 0, 1); mix(p, q + 2, 1, 0, 0, 0, 0, 1, 0); mix(p, q + 2, 2, 0, 0, 1, 0, 0, 0)
+  mix(p, q + 2, 3, -0.125, -0.125, 0, 0.25, 0.5, 0.5); mix(p, q + 2, 4, 0, -0.125, 0.375, 0, 0.75, 0); mix(p, q + 2, 5, -0.125, 0, 0.375, 0, 0, 0.75)
+  mix(p, q + 3, 0, 0, 0, 0, 1, 0, 0); mix(p, q + 3, 1, 0, 0, 0, 0, 1, 0); mix(p, q + 3, 2, 0, 0, 0, 0, 0, 1)
+  mix(p, q + 3, 3, -0.125, 0, -0.125, 0.5, 0.5, 0.25); mix(p, q + 3, 4, -0.125, -0.125, 0, 0.25, 0.5, 0.5); mix(p, q + 3, 5, 0, -0.125, -0.125, 0.5, 0.25, 0.5)
+  face[q] = face[q + 1] = face[q + 2] = face[q + 3] = face[p]
+  return q
+}
+# a ball around a piece: centre, radius
+function ball(p,   k, n, r, dx, dy, dz) {
+  if (p in reach) return
+  n = space ? 3 : 2
+  for (k = 0; k < n; k++) { CX[p] += X[p, k] / n; CY[p] += Y[p, k] / n; CZ[p] += Z[p, k] / n }
+  for (k = 0; k < (space ? 6 : 3); k++) {
+    dx = X[p, k] - CX[p]; dy = Y[p, k] - CY[p]; dz = Z[p, k] - CZ[p]
+    r = sqrt(dx * dx + dy * dy + dz * dz)
+    if (r > reach[p]) reach[p] = r
+  }
+}
+# from a place to the flat piece between the corners of p
+function away(px, py, pz, p,   ax, ay, az, bx, by, bz, qx, qy, qz, aa, ab, bb, qa, qb, det, u, v, t, best, d, k) {
+  ax = X[p, 1] - X[p, 0]; ay = Y[p, 1] - Y[p, 0]; az = Z[p, 1] - Z[p, 0]
+  qx = px - X[p, 0]; qy = py - Y[p, 0]; qz = pz - Z[p, 0]
+  aa = ax * ax + ay * ay + az * az
+  qa = qx * ax + qy * ay + qz * az
+  if (!space) return toSegment(qx, qy, qz, ax, ay, az)
+  bx = X[p, 2] - X[p, 0]; by = Y[p, 2] - Y[p, 0]; bz = Z[p, 2] - Z[p, 0]
+  ab = ax * bx + ay * by + az * bz; bb = bx * bx + by * by + bz * bz
+  qb = qx * bx + qy * by + qz * bz
+  det = aa * bb - ab * ab
+  u = det > 0 ? (qa * bb - qb * ab) / det : -1
+  v = det > 0 ? (qb * aa - qa * ab) / det : -1
+  if (u >= 0 && v >= 0 && u + v <= 1) {
+    qx -= u * ax + v * bx; qy -= u * ay + v * by; qz -= u * az + v * bz
+    return sqrt(qx * qx + qy * qy + qz * qz)
+  }
+  best = toSegment(qx, qy, qz, ax, ay, az)
+  d = toSegment(qx, qy, qz, bx, by, bz)
+  if (d < best) best = d
+  d = toSegment(qx - ax, qy - ay, qz - az, bx - ax, by - ay, bz - az)
+  return d < best ? d : best
+}
+function toSegment(qx, qy, qz, ax, ay, az,   t) {
+  t = (qx * ax + qy * ay + qz * az) / (ax * ax + ay * ay + az * az + 1e-300)
+  t = t < 0 ? 0 : (t > 1 ? 1 : t)
+  qx -= t * ax; qy -= t * ay; qz -= t * az
+  return sqrt(qx * qx + qy * qy + qz * qz)
+}
+# the pieces of some faces into list[1 ...]: how many
+function piecesOf(numbers, list,   n, w, k, e, count) {
+  n = split(numbers, w, " ")
+  for (k = 1; k <= n; k++)
+    for (e = first[w[k]]; e != "" && e <= last[w[k]]; e++) if (face[e] == w[k]) list[++count] = e
+  return count + 0
+}
+# distance to an obstacle's rigid shape, from outside or inside
+function toShape(s, px, py, pz,   qx, qy, qz, n, t) {
+  qx = px - s[2]; qy = py - s[3]; qz = pz - s[4]
+  n = sqrt(s[5] * s[5] + s[6] * s[6] + s[7] * s[7])
+  if (s[1] == "plane" || s[1] == "cylinder") t = (qx * s[5] + qy * s[6] + qz * s[7]) / n
+  if (s[1] == "plane") return t < 0 ? -t : t
+  if (s[1] == "cylinder") { qx -= t * s[5] / n; qy -= t * s[6] / n; qz -= t * s[7] / n }
+  t = sqrt(qx * qx + qy * qy + qz * qz) - s[8]
+  return t < 0 ? -t : t
+}
+# where two sets of faces are nearest: pieces of the first, no larger than grain, whose distance is at most margin above the least.
+# zone[1 ...] of them, the count; widest: the radius of the largest;  shape: an obstacle, in place of the second set
+function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n, w, m, least, lb, d, wide, again, A2, cand, cand2, kept, seen, mine, gap) {
+  na = piecesOf(a, A)
+  nb = shape == "" ? piecesOf(b, B) : 0
+  if (!na || shape == "" && !nb) return 0
+  split(shape, s, " ")
+  for (i = 1; i <= na; i++) { ball(A[i]); cand[i] = "" }
+  for (j = 1; j <= nb; j++) ball(B[j])
+  pieces = pieces < elements ? elements : pieces
+  # every piece of A has its candidates of B
+  if (shape == "") { cand[0] = ""; for (j = 1; j <= nb; j++) cand[0] = cand[0] " " B[j]; for (i = 1; i <= na; i++) cand[i] = cand[0] }
+  for (rounds = 0; rounds < 40; rounds++) {
+    least = 1e300
+    for (i = 1; i <= na; i++) {
+      p = A[i]
+      if (shape != "") { d = toShape(s, CX[p], CY[p], CZ[p]); if (d < least) least = d; continue }
+      n = split(cand[i], w, " ")
+      for (k = 1; k <= n; k++) {
+        q = w[k]
+        d = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2 + (CZ[p] - CZ[q]) ^ 2)
+        if (d < least) least = d
+      }
+    }
+    again = kept = 0
+    split("", A2); split("", cand2)
+    for (i = 1; i <= na; i++) {
+      p = A[i]
+      mine = ""
+      if (shape != "") { if (toShape(s, CX[p], CY[p], CZ[p]) - reach[p] > least + margin) continue }
+      else {
+        n = split(cand[i], w, " ")
+        for (k = 1; k <= n; k++) {
+          q = w[k]
+          lb = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2 + (CZ[p] - CZ[q]) ^ 2) - reach[p] - reach[q]
+          if (lb <= least + margin) mine = mine " " q
+        }
+        if (mine == "") continue
+      }
+      A2[++kept] = p
+      cand2[kept] = mine
+      if (reach[p] > grain) again = 1
+    }
+    m = space ? 4 : 2
+    if (!again || kept > 20000) break
+    # finer: those of A, and the candidates
+    split("", A); split("", cand)
+    na = 0
+    split("", seen)
+    for (i = 1; i <= kept; i++) {
+      n = split(cand2[i], w, " ")
+      mine = ""
+      for (k = 1; k <= n; k++)
+        if (reach[w[k]] > grain) { q = split_(w[k]); for (j = 0; j < m; j++) { ball(q + j); mine = mine " " q + j } }
+        else mine = mine " " w[k]
+      if (reach[A2[i]] > grain) { p = split_(A2[i]); for (j = 0; j < m; j++) { ball(p + j); A[++na] = p + j; cand[na] = mine } }
+      else { A[++na] = A2[i]; cand[na] = mine }
+    }
+  }
+  # at last the distances themselves
+  least = 1e300
+  widest = 0
+  for (i = 1; i <= kept; i++) {
+    p = A2[i]
+    gap[i] = 1e300
+    if (shape != "") gap[i] = toShape(s, CX[p], CY[p], CZ[p])
+    n = split(cand2[i], w, " ")
+    for (k = 1; k <= n; k++) { d = away(CX[p], CY[p], CZ[p], w[k]); if (d < gap[i]) gap[i] = d }
+    if (gap[i] < least) least = gap[i]
+  }
+  n = 0
+  for (i = 1; i <= kept; i++) if (gap[i] <= least + margin) { zone[++n] = A2[i]; if (reach[A2[i]] > widest) widest = reach[A2[i]] }
+  return n
+}
+function ofBodies(numbers,   n, w, k, all) {
+  n = split(numbers, w, " ")
+  for (k = 1; k <= n; k++) all = all around[w[k]]
+  return all
+}
+# do all corners and middles of a face, or of a body's faces, lie there?
+function within(numbers, how, v,   list, n, i, k, e, t, size, inside) {
+  n = piecesOf(numbers, list)
+  if (!n) return 0
+  size = 1e-6 * diagonal
+  for (i = 1; i <= n; i++)
+    for (k = 0; k < (space ? 6 : 3); k++) {
+      e = list[i]
+      if (how == "plane") {
+        t = (X[e, k] - v[1]) * v[4] + (Y[e, k] - v[2]) * v[5] + (Z[e, k] - v[3]) * v[6]
+        t /= sqrt(v[4] * v[4] + v[5] * v[5] + v[6] * v[6])
+        inside = t < size && t > -size
+      } else inside = isBetween(X[e, k], v[1], v[4], size) && isBetween(Y[e, k], v[2], v[5], size) && (!space || isBetween(Z[e, k], v[3], v[6], size))
+      if (!inside) return 0
+    }
+  return 1
+}
+function isBetween(t, a, b, size) { return a < b ? t > a - size && t < b + size : t > b - size && t < a + size }
+function nearestTo(d, v,   n, w, k, list, m, i, e, r, best, found) {
+  n = split(entities[d], w, " ")
+  best = 1e300
+  for (k = 1; k <= n; k++) {
+    split("", list)
+    m = piecesOf(d == dim ? ofBodies(w[k]) : w[k], list)
+    for (i = 1; i <= m; i++) {
+      e = list[i]
+      ball(e)
+      if (sqrt((CX[e] - v[1]) ^ 2 + (CY[e] - v[2]) ^ 2 + (CZ[e] - v[3]) ^ 2) - reach[e] > best) continue
+      pieces = pieces < elements ? elements : pieces
+      for (r = split_(e) + (space ? 3 : 1); r >= parts[e]; r--) {
+        t = away(v[1], v[2], v[3], r)
+        if (t < best) { best = t; found = w[k] }
+      }
+    }
+  }
+  return found
+}
+# the faces of some bodies that lie on others; where none does, the nearest: by the middles of their pieces
+function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meets) {
+  n = piecesOf(ofBodies(a), list)
+  nb = piecesOf(ofBodies(b), B)
+  for (j = 1; j <= nb; j++) ball(B[j])
+  least = 1e300
+  for (i = 1; i <= n; i++) {
+    e = list[i]
+    ball(e)
+    best = 1e300
+    for (j = 1; j <= nb; j++) {
+      r = B[j]
+      d = best + reach[r]
+      if ((CX[e] - CX[r]) ^ 2 + (CY[e] - CY[r]) ^ 2 + (CZ[e] - CZ[r]) ^ 2 > d * d) continue
+      d = away(CX[e], CY[e], CZ[e], r)
+      if (d < best) { best = d; next_ = r }
+    }
+    off[i] = along(e, next_) ? best : 1e300
+    play[i] = 1e-4 * diagonal + 1.2 * (bulgeOf(e) + bulgeOf(next_))
+    if (off[i] < play[i]) meets = 1
+    if (off[i] < least) least = off[i]
+  }
+  for (i = 1; i <= n; i++)
+    if (off[i] < (meets ? 0 : least + 1e-3 * diagonal) + play[i] && index(found " ", " " face[list[i]] " ") == 0) found = found " " face[list[i]]
+  return found
+}
+function bulgeOf(e,   k, a, b, d, most) {
+  for (k = 0; k < (space ? 3 : 1); k++) {
+    a = k; b = space ? (k + 1) % 3 : 1
+    d = sqrt((X[e, k + 2 + space] - (X[e, a] + X[e, b]) / 2) ^ 2 + (Y[e, k + 2 + space] - (Y[e, a] + Y[e, b]) / 2) ^ 2 + (Z[e, k + 2 + space] - (Z[e, a] + Z[e, b]) / 2) ^ 2)
+    if (d > most) most = d
+  }
+  return most + 0
+}
+# do two pieces face each other, within 45 degrees?
+function along(e, f,   n, m, k) {
+  normal(e, ne); normal(f, nf)
+  k = ne[0] * nf[0] + ne[1] * nf[1] + ne[2] * nf[2]
+  return k * k > 0.5
+}
+function normal(e, n,   ax, ay, az, bx, by, bz, l) {
+  ax = X[e, 1] - X[e, 0]; ay = Y[e, 1] - Y[e, 0]; az = Z[e, 1] - Z[e, 0]
+  if (space) { bx = X[e, 2] - X[e, 0]; by = Y[e, 2] - Y[e, 0]; bz = Z[e, 2] - Z[e, 0] } else { bx = by = 0; bz = 1 }
+  n[0] = ay * bz - az * by; n[1] = az * bx - ax * bz; n[2] = ax * by - ay * bx
+  l = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) + 1e-300
+  n[0] /= l; n[1] /= l; n[2] /= l
+}
+function numbersOf(line, d, how, text,   n, w, k, v, found, all) {
+  all = entities[d]
+  n = split(text, w, " ")
+  if (how == "near") {
+    for (k = 1; k <= 3; k++) v[k] = w[k + 1] + 0
+    found = nearestTo(d, v)
+    return found == "" ? "" : " " found
+  }
+  if (how == "box" || how == "plane") {
+    for (k = 1; k <= 6; k++) v[k] = w[k + 1] + 0
+    n = split(all, w, " ")
+    for (k = 1; k <= n; k++) if (within(d == dim ? ofBodies(w[k]) : w[k], how, v)) found = found " " w[k]
+    return found
+  }
+  for (k = 2; k <= n; k++) {
+    if (d == dim && (w[k] in nowCalled)) w[k] = nowCalled[w[k]]
+    if (!((d SUBSEP w[k]) in isThere)) no(line, w[k] ": no such number of " many[d] "; allowed:" listed(all))
+    found = found " " w[k]
+  }
+  return found
+}
+function listed(numbers,   n, w) {
+  n = split(numbers, w, " ")
+  return n == 0 ? " none" : (n <= 20 ? numbers : " " w[1] " ... " w[n])
+}
+# of bodies that "between" names: who shares faces?
+function apart(a, b, line,   k, n, w, m, v, i, j, p, other) {
+  n = split(a, w, " "); m = split(b, v, " ")
+  for (k = 1; k <= shared; k++) {
+    split(sharedBy[k], p, " ")
+    if (index(a " ", " " p[1] " ") && index(b " ", " " p[2] " ") || index(a " ", " " p[2] " ") && index(b " ", " " p[1] " ")) {
+      other = index(b " ", " " p[2] " ") ? p[2] : p[1]
+      if ((p[1] in taken) || (p[2] in taken)) continue
+      taken[other] = 1
+      toPart = toPart (toPart == "" ? "" : ", ") other
+      renamed = renamed "// " other " " greatest + ++copies "\n"
+    }
+  }
+}
+function joined(numbers) { sub(/^ /, "", numbers); gsub(/ /, ", ", numbers); return numbers }
+function field(text) { print "Field[" ++fields "] = " text ";" }
+function sizeOf(numbers, d, h,   to) {
+  field("MathEval"); print "Field[" fields "].F = \"" h "\";"
+  field("Restrict"); print "Field[" fields "].IField = " fields - 1 ";"
+  to = d == 3 ? "RegionsList" : (d == 2 ? "FacesList" : "EdgesList")
+  print "Field[" fields "]." to " = {" joined(numbers) "};"
+  # with a body its boundary, with a face its edges
+  if (d == 3) print "Field[" fields "].FacesList = {" joined(ofBodies(numbers)) "};"
+  if (d == 2 && !space) print "Field[" fields "].EdgesList = {" joined(ofBodies(numbers)) "};"
+  if (d == 2 && space) print "edges_() = Abs(Boundary{ Surface{" joined(numbers) "}; });\nField[" fields "].EdgesList = {edges_()};"
+  if (d == 3) print "edges_() = Abs(Boundary{ Surface{" joined(ofBodies(numbers)) "}; });\nField[" fields "].EdgesList = {edges_()};"
+  chosen = chosen (chosen == "" ? "" : ", ") fields
+}
+function contactSize(h,   k, n, i, w, p, points, wide, key) {
+  for (k = 1; k <= contacts; k++) {
+    split(contact[k], w, "\t")
+    n = nearest(members[dim - 1, w[1]], members[dim - 1, w[2]], 2 * h, 0.05 * h, k in obstacle ? w[2] : "")
+    for (i = 1; i <= n; i++) {
+      p = zone[i]
+      if (widest > wide) wide = widest
+      key = int(CX[p] / h / 2) " " int(CY[p] / h / 2) " " int(CZ[p] / h / 2)
+      if (key in used_) continue
+      used_[key] = 1
+      points++
+      print "Point(zone_ + " points ") = {" sprintf("%.9g, %.9g, %.9g", CX[p], CY[p], CZ[p]) "};"
+    }
+  }
+  if (!points) return
+  field("Distance"); print "Field[" fields "].PointsList = {zone_ + 1 : zone_ + " points "};"
+  field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.25*Max(0,F%d-%.9g)", h, fields - 1, 4 * h + (wide > 4 * h ? wide : 0)) "\";"
+  chosen = chosen (chosen == "" ? "" : ", ") fields
+}
+function writeFaces(   e, k, n) {
+  print (space ? "face,body,x0,y0,z0,x1,y1,z1,x2,y2,z2" : "face,body,x0,y0,z0,x1,y1,z1") > ENVIRON["FACES"]
+  for (e = 1; e <= elements; e++) {
+    line = face[e] "," bodyOf[face[e]] + 0
+    for (k = 0; k < (space ? 3 : 2); k++) line = line sprintf(",%.9g,%.9g,%.9g", X[e, k], Y[e, k], Z[e, k])
+    print line > ENVIRON["FACES"]
+  }
+}
+END {
+  if (failed) exit 1
+  diagonal = sqrt((high[0] - low[0]) ^ 2 + (high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2)
+  pieces = elements
+  if (ENVIRON["FACES"] != "") writeFaces()
+  # bodies that were given faces of their own have new numbers
+  while (ENVIRON["APART"] != "" && (getline line < ENVIRON["APART"]) > 0) if (split(line, f, " ") == 3 && f[1] == "//") nowCalled[f[2]] = f[3]
+  close(ENVIRON["APART"])
+  while (ENVIRON["PICKS"] != "" && (getline line < ENVIRON["PICKS"]) > 0) {
+    split(line, f, "\t")
+    if (f[1] == "group") groupLine[++groups] = line
+    if (f[1] == "size") sizeLine[++sizes] = line
+    if (f[1] == "contact" || f[1] == "obstacle") contact[++contacts] = f[3] "\t" f[4]
+    if (f[1] == "obstacle") obstacle[contacts] = 1
+  }
+  if (groups && !elements) {
+    split(groupLine[1], f, "\t")
+    no(f[2], "the mesh has no " many[dim - 1] " with numbers; allowed: groups of the file's own, or a geometry")
+  }
+  if (sizes && ENVIRON["MESHED"]) {
+    split(sizeLine[1], f, "\t")
+    no(f[2], "sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file")
+  }
+  # bodies first: "between" asks for them
+  for (turn = 0; turn < 2; turn++)
+    for (g = 1; g <= groups; g++) {
+      n = split(groupLine[g], f, "\t")
+      split(f[5], w, " ")
+      how = w[1]
+      if ((how == "between") != turn) continue
+      if (how == "between") {
+        a = members[dim, f[6]]; b = members[dim, f[7]]
+        if (ofBodies(a) == "" || ofBodies(b) == "") no(f[2], f[4] ": between: the file does not say which faces are a body's; allowed: with a geometry")
+        apart(a, b, f[2])
+        found = toPart == "" ? between(a, b) : ""
+        if (toPart != "") continue
+      } else found = numbersOf(f[2], f[3], how, f[5])
+      if (found == "") no(f[2], f[4] ": " how ": no " (f[3] == dim ? "body" : (space ? "face" : "curve")) " lies there; allowed: one or more, of" listed(entities[f[3]]))
+      members[f[3], f[4]] = found
+    }
+  if (toPart != "") {
+    printf "%s", renamed > ENVIRON["APART"]
+    print "SetFactory(\"OpenCASCADE\");\nold_() = {" toPart "};\nFor k_ In {0 : #old_() - 1}" > ENVIRON["APART"]
+    word = space ? "Volume" : "Surface"
+    print "  new_() = Translate{0, 0, 0}{ Duplicata{ " word "{old_(k_)}; } };\n  Recursive Delete{ " word "{old_(k_)}; }\nEndFor" > ENVIRON["APART"]
+    exit 4
+  }
+  kind[1] = "Curve"; kind[2] = "Surface"; kind[3] = "Volume"
+  for (g = 1; g <= groups; g++) {
+    split(groupLine[g], f, "\t")
+    print "Physical " kind[f[3]] "(\"" f[4] "\") = {" joined(members[f[3], f[4]]) "};"
+    if (f[3] == dim) { n = split(members[dim, f[4]], w, " "); for (k = 1; k <= n; k++) inGroup[w[k]] = 1 }
+  }
+  if (ENVIRON["CAD"]) {
+    n = split(entities[dim], w, " ")
+    for (k = 1; k <= n; k++) if (!(w[k] in inGroup)) left = left " " w[k]
+    if (left != "") print many[dim] left > ENVIRON["LEFT"]
+  }
+  if (ENVIRON["CAD"]) print "Mesh.MeshSizeFromCurvature = 12;"
+  print "zone_ = newp;"
+  for (g = 1; g <= sizes; g++) {
+    split(sizeLine[g], f, "\t")
+    if (f[3] == "contact" && members[dim, "contact"] members[dim - 1, "contact"] == "") contactSize(f[4] + 0)
+    else if (members[dim, f[3]] != "") sizeOf(members[dim, f[3]], dim, f[4])
+    else sizeOf(members[dim - 1, f[3]], dim - 1, f[4])
+  }
+  if (chosen != "") {
+    field("Min"); print "Field[" fields "].FieldsList = {" chosen "};\nBackground Field = " fields ";"
+    print "Mesh.MeshSizeFromPoints = 0;"
+  }
+}

@@ -1,0 +1,140 @@
+"""The faces of a geometry, or in the plane its curves, with the numbers by which a case file picks them."""
+
+import textwrap
+from pathlib import Path
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+
+from postprocess import bodies as drawn
+from postprocess import style
+from postprocess.results import read_table
+
+HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+
+
+def draw(path: Path, azimuth: float, elevation: float) -> Figure:
+    """One column wide; in space from where the eye is, and from the other side and below."""
+    with path.open() as file:
+        plane = "x2" not in file.readline()
+    ends = 2 if plane else 3
+    columns = [f"{axis}{end}" for end in range(ends) for axis in "xyz"]
+    found = read_table(path, ["face", "body", *columns])
+    at = np.column_stack([found[name] for name in columns]).reshape(-1, ends, 3)
+    face, body = (np.asarray(found[name]).astype(int) for name in ("face", "body"))
+    figure = Figure(figsize=(style.COLUMN, (0.9 if plane else 1.5) * style.COLUMN), layout="constrained")
+    if plane:
+        draw_curves(figure.subplots(), at, face)
+        return figure
+    rim = rims(at, face)
+    at, face, body = finer(at, face, body)
+    views = ((azimuth, elevation), (azimuth + 180, -elevation))
+    for axes, angles, words in zip(figure.subplots(2, 1), views, ("", ": the other side"), strict=True):
+        draw_faces(axes, at, face, body, rim, drawn.sight(*angles))
+        axes.set_title(f"Faces{words}", loc="left", fontsize=6.5)
+    figure.supxlabel("\n".join(volumes(face, body)), x=0.02, ha="left", fontsize=6)
+    return figure
+
+
+def volumes(face: np.ndarray, body: np.ndarray) -> list[str]:
+    """Of each body its number and those of its faces."""
+    lines = []
+    for number in np.unique(body[body > 0]):
+        own = " ".join(str(each) for each in np.unique(face[body == number]))
+        lines += textwrap.wrap(f"volume {number}: faces {own}", 95, subsequent_indent="    ")
+    return lines
+
+
+def draw_curves(axes, at: np.ndarray, curve: np.ndarray) -> None:
+    """Each curve's number at its middle."""
+    place = at[:, :, :2]
+    axes.add_collection(LineCollection(place, color=style.BLUE, linewidth=0.8))
+    for number in np.unique(curve):
+        own = place[curve == number]
+        write(axes, own[len(own) // 2].mean(axis=0), number)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_xlabel("$x$")
+    axes.set_ylabel("$y$")
+    axes.set_title("Curves", loc="left", fontsize=6.5)
+
+
+def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray):
+    """Triangles cut until they are small beside the whole: each is drawn before or behind another as a whole."""
+    for _ in range(5):
+        large = (
+            np.linalg.norm(at - np.roll(at, 1, axis=1), axis=2).max(axis=1)
+            > np.ptp(at.reshape(-1, 3), axis=0).max() / 12
+        )
+        if not large.any() or len(at) > 4000:
+            break
+        a, b, c = at[large].transpose(1, 0, 2)
+        d, e, f = (a + b) / 2, (b + c) / 2, (c + a) / 2
+        parts = [np.stack(part, axis=1) for part in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))]
+        at = np.concatenate([at[~large], *parts])
+        face, body = (np.concatenate([each[~large], np.tile(each[large], 4)]) for each in (face, body))
+    return at, face, body
+
+
+def draw_faces(axes, at, face, body, rim, view) -> None:
+    """Far triangles first, in their bodies' colours, the faces' edges on them; a number where a face can be seen."""
+    seen = at @ view.T
+    across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
+    size = np.linalg.norm(across, axis=1)
+    bright = 0.62 + 0.38 * np.abs(across @ drawn.LIGHT) / np.maximum(size, 1e-300)
+    fills = np.array([[int(fill[k : k + 2], 16) / 255 for k in (1, 3, 5)] for fill in drawn.FILLS])
+    colours = np.clip(fills[body % len(fills)] * bright[:, None], 0, 1)
+    order = np.lexsort((seen[:, :, 2].mean(axis=1), ~hidden(seen.mean(axis=1), seen)))
+    shown = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
+    axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **shown))
+    share = np.linspace(0, 1, 17)[:, None, None, None]
+    ends = rim[:, 0] * (1 - share[..., 0]) + rim[:, 1] * share[..., 0]
+    edges = np.stack([ends[:-1], ends[1:]], axis=2).reshape(-1, 2, 3)
+    middle = (edges @ view.T).mean(axis=1)
+    visible = ~hidden(middle, seen)
+    axes.add_collection(LineCollection((edges @ view.T)[visible][:, :, :2], color="#404040", linewidth=0.4))
+    towards = np.abs(across[:, 2])
+    for number in np.unique(face):
+        own = np.flatnonzero(face == number)
+        own = own[np.argsort(-towards[own])][:200]
+        free = own[~hidden(seen[own].mean(axis=1), seen)]
+        if free.size and towards[free[0]] > 0:
+            # of what is seen of it, the triangle nearest to its middle
+            centres = seen[free].mean(axis=1)[:, :2]
+            best = np.argmin(np.linalg.norm(centres - np.median(centres, axis=0), axis=1))
+            write(axes, centres[best], number)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def rims(at: np.ndarray, face: np.ndarray) -> np.ndarray:
+    """The sides of triangles that only one triangle of its face has, (sides, 2, 3)."""
+    _, node = np.unique(np.round(at.reshape(-1, 3) / (np.ptp(at) + 1e-300), 9), axis=0, return_inverse=True)
+    node = node.reshape(-1, 3)
+    sides = np.concatenate([np.column_stack([face, np.sort(node[:, [k, (k + 1) % 3]], axis=1)]) for k in range(3)])
+    places = np.concatenate([at[:, [k, (k + 1) % 3]] for k in range(3)])
+    _, first, times = np.unique(sides, axis=0, return_index=True, return_counts=True)
+    return places[first[times == 1]]
+
+
+def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Does a triangle lie between a place and the eye?"""
+    a, ab, ac = seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
+    twice = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    flat = np.abs(twice) < 1e-12 * np.ptp(seen) ** 2
+    twice = np.where(flat, np.inf, twice)
+    away = 1e-3 * np.ptp(seen)
+    answer = np.zeros(len(points), bool)
+    for k, point in enumerate(points):
+        off = point - a
+        u = (off[:, 0] * ac[:, 1] - off[:, 1] * ac[:, 0]) / twice
+        v = (ab[:, 0] * off[:, 1] - ab[:, 1] * off[:, 0]) / twice
+        depth = a[:, 2] + u * ab[:, 2] + v * ac[:, 2]
+        answer[k] = np.any((u > 0) & (v > 0) & (u + v < 1) & ~flat & (depth > point[2] + away))
+    return answer
+
+
+def write(axes, place: np.ndarray, number: int) -> None:
+    axes.annotate(str(number), place, ha="center", va="center", fontsize=6, color=style.BLACK, bbox=HALO, zorder=6)

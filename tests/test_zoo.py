@@ -1,0 +1,443 @@
+"""Geometries and meshes of any kind: each is taken as it is, or refused in one line; groups and sizes of a case.
+
+The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a few are solved.
+"""
+
+import json
+import os
+import subprocess
+from itertools import product
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute
+
+CUBOIDS = """
+DefineConstant[ brick = {0, Name "1: bricks"} ];
+Macro Cuboid
+  Point(at + 1) = {from, from, low}; Point(at + 2) = {to, from, low};
+  Point(at + 3) = {to, to, low}; Point(at + 4) = {from, to, low};
+  For k In {1 : 4}
+    Line(at + k) = {at + k, at + k % 4 + 1};
+  EndFor
+  Curve Loop(at + 1) = {at + 1 : at + 4};
+  Plane Surface(at + 1) = {at + 1};
+  Transfinite Curve{at + 1 : at + 4} = parts + 1;
+  Transfinite Surface{at + 1};
+  If (brick)
+    Recombine Surface{at + 1};
+    out() = Extrude{0, 0, high}{ Surface{at + 1}; Layers{2}; Recombine; };
+  Else
+    out() = Extrude{0, 0, high}{ Surface{at + 1}; Layers{2}; };
+  EndIf
+Return
+at = 0; from = 0; to = 4; low = 0; high = 2; parts = 4;
+Call Cuboid;
+Physical Volume("lower") = {out(1)}; Physical Surface("top") = {out(0)}; Physical Surface("base") = {1};
+at = 100; from = 1; to = 3; low = 2.01; high = 1; parts = 3;
+Call Cuboid;
+Physical Volume("upper") = {out(1)}; Physical Surface("grip") = {out(0)}; Physical Surface("foot") = {101};
+"""
+RECTANGLES = """
+DefineConstant[ brick = {0, Name "1: quadrangles"} ];
+Macro Flat
+  Point(at + 1) = {from, low, 0}; Point(at + 2) = {to, low, 0};
+  Point(at + 3) = {to, low + high, 0}; Point(at + 4) = {from, low + high, 0};
+  For k In {1 : 4}
+    Line(at + k) = {at + k, at + k % 4 + 1};
+  EndFor
+  Curve Loop(at + 1) = {at + 1 : at + 4};
+  Plane Surface(at + 1) = {at + 1};
+  Transfinite Curve{at + 1 : at + 4} = parts + 1;
+  Transfinite Surface{at + 1};
+  If (brick)
+    Recombine Surface{at + 1};
+  EndIf
+Return
+at = 0; from = 0; to = 4; low = 0; high = 2; parts = 4;
+Call Flat;
+Physical Surface("lower") = {1}; Physical Curve("top") = {3}; Physical Curve("base") = {1};
+at = 100; from = 1; to = 3; low = 2.01; high = 1; parts = 3;
+Call Flat;
+Physical Surface("upper") = {101}; Physical Curve("grip") = {103}; Physical Curve("foot") = {101};
+"""
+NAMED = """body lower E 210e3 nu 0.3
+body upper E 210e3 nu 0.3
+contact foot top
+clamp base
+move grip 0 {} -0.011
+"""
+BOXES = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 4, 4, 2};
+Box(2) = {1, 1, 2.01, 2, 2, 1};
+"""
+JOINED = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 4, 4, 2};
+Box(2) = {1, 1, 2, 2, 2, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+"""
+PICKED = """group lower volumes 1
+group upper near 2 2 3
+group foot between upper lower
+group top between lower upper
+group base plane 0 0 0  0 0 1
+group grip box 0.9 0.9 3  3.1 3.1 3.02
+size lower 1
+size contact 0.7
+"""
+AREAS = {"base": 16.0, "foot": 4.0, "grip": 4.0}
+
+
+def gmsh(folder, name, text, *options):
+    """A file of gmsh's in the folder, out of a geometry."""
+    geo = folder / "source.geo"
+    geo.write_text(text)
+    subprocess.run(["gmsh", geo, *map(str, options), "-v", "2", "-o", folder / name], check=True, capture_output=True)
+    return folder / name
+
+
+def iges(*boxes):
+    """Boxes as flat B-spline surfaces (type 128) that nothing joins, each by two opposite corners."""
+    directory, parameters = [], []
+    for low, high in boxes:
+        corner = [[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)]
+        for a, b, c, d in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 4, 5), (2, 3, 6, 7), (0, 2, 4, 6), (1, 3, 5, 7)):
+            knots = [0.0, 0.0, 1.0, 1.0] * 2
+            places = [value for k in (a, b, c, d) for value in corner[k]]
+            values = [128, 1, 1, 1, 1, 0, 0, 1, 0, 0, *knots, *[1.0] * 4, *map(float, places), 0.0, 1.0, 0.0, 1.0]
+            words, lines = [str(value) for value in values], [""]
+            for k, word in enumerate(words):
+                word += ";" if k == len(words) - 1 else ","
+                lines += [""] if len(lines[-1] + word) > 64 else []
+                lines[-1] += word
+            entry, first = len(directory) + 1, len(parameters) + 1
+            parameters += [f"{line:<64}{entry:>8}" for line in lines]
+            directory.append("".join(f"{each:>8}" for each in (128, first, 0, 0, 0, 0, 0, 0, 0)))
+            directory.append("".join(f"{each:>8}" for each in (128, 0, 0, len(lines), 0, "", "", "", 0)))
+    head = "1H,,1H;,4Hpart,8Hpart.igs,4Htest,4Htest,32,38,6,308,15,4Hpart,1.,2,2HMM,1,0.01,"
+    head += "15H20260101.000000,1e-07,100.,4Htest,4Htest,11,0,15H20260101.000000;"
+    parts = {
+        "S": ["boxes"],
+        "G": [head[k : k + 72] for k in range(0, len(head), 72)],
+        "D": directory,
+        "P": parameters,
+    }
+    parts["T"] = ["".join(f"{key}{len(lines):>7}" for key, lines in parts.items())]
+    return "".join(f"{line:<72}{key}{k:>7}\n" for key, lines in parts.items() for k, line in enumerate(lines, 1))
+
+
+def readable(folder, mesh, case, space=1, sets=""):
+    """(exit code, what is said, areas of groups, volumes of bodies) of the reader by itself."""
+    (folder / "a.case").write_text(case)
+    out = folder / "read"
+    environment = {**os.environ, "LC_ALL": "C"}
+    command = [
+        "sh",
+        "edp/bodies/readable.sh",
+        str(os.getpid()),
+        mesh,
+        out,
+        folder / "a.case",
+        str(space),
+        "solve",
+        sets,
+    ]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    why = (out / "why").read_text().strip() if (out / "why").exists() else ""
+    assert done.returncode in (0, 4) or why.count("\n") == 0
+    sizes = measure(out, space) if done.returncode == 0 else ({}, [])
+    subprocess.run(["rm", "-r", out], check=True)
+    return done.returncode, why, *sizes
+
+
+def measure(folder, space):
+    """Areas (lengths) of the groups and volumes (areas) of the regions of mesh.msh."""
+    lines = (folder / "case").read_text().splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("groups "))
+    names = [line[2:] for line in lines[first + 1 : first + 1 + int(lines[first].split()[1])]]
+    rows = (folder / "mesh.msh").read_text().splitlines()
+    nodes = rows.index("$Nodes")
+    count = int(rows[nodes + 1])
+    at = 1e-6 * np.array([row.split()[1:] for row in rows[nodes + 2 : nodes + 2 + count]], float)
+    elements = rows.index("$Elements")
+    areas, volumes = {}, {}
+    for row in rows[elements + 2 : -1]:
+        _, kind, _, group, _, *corners = map(int, row.split())
+        edges = at[np.array(corners[1:]) - 1] - at[corners[0] - 1]
+        if kind == 2 + 2 * space:
+            size = abs(np.linalg.det(edges[:, : 2 + space])) / (2 + 4 * space)
+            volumes[group] = volumes.get(group, 0) + size
+        elif group <= len(names):
+            size = np.linalg.norm(np.cross(*edges)) / 2 if space else np.linalg.norm(edges)
+            areas[names[group - 1]] = areas.get(names[group - 1], 0) + size
+    return areas, sorted(volumes.values())
+
+
+# ---------------------------------------------------------------- meshes
+
+
+MESHES = list(product((0, 1), ("msh22", "msh22 -bin", "msh41", "msh41 -bin", "inp"), (1, 2), (0, 1)))
+SHORT = [(0, "msh22 -bin", 1, 1), (1, "msh41 -bin", 2, 0), (1, "msh41", 1, 1), (1, "inp", 2, 0), (1, "msh22", 2, 1)]
+
+
+@pytest.mark.parametrize(
+    "space, form, order, brick",
+    [*SHORT, *(pytest.param(*each, marks=pytest.mark.long) for each in MESHES if each not in SHORT)],
+)
+def test_meshes(tmp_path, space, form, order, brick):
+    """Triangles and tetrahedra of either order, quadrangles and bricks of first order shall be read; others refused."""
+    name = "a.inp" if form == "inp" else "a.msh"
+    text, (kind, *rest) = CUBOIDS if space else RECTANGLES, form.split()
+    groups = ["-setnumber", "Mesh.SaveGroupsOfNodes", 1, "-setnumber", "Mesh.SaveGroupsOfElements", 1]
+    options = groups if form == "inp" else ["-format", kind, *rest]
+    mesh = gmsh(tmp_path, name, text, f"-{2 + space}", "-order", order, "-setnumber", "brick", brick, *options)
+    code, why, areas, volumes = readable(tmp_path, mesh, NAMED.format("0" if space else ""), space)
+    if brick and order == 2:
+        assert code == 1 and ("type" in why.lower()) and "allowed: " in why
+        return
+    assert code == 0, why
+    assert volumes == pytest.approx([4, 32] if space else [2, 8])
+    assert {name: areas[name] for name in AREAS} == pytest.approx(AREAS if space else {"base": 4, "foot": 2, "grip": 2})
+
+
+INP = """*HEADING
+a block by hand, as CalculiX and Abaqus write it
+*NODE, NSET=ALL
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 2.
+6, 1., 0., 2.
+7, 1., 1., 2.
+8, 0., 1., 2.
+** a comment
+*Element, type=C3D8R, elset=PART
+1, 1, 2, 3, 4,
+5, 6, 7, 8
+*ELSET, ELSET=EVERY
+PART
+*NSET, NSET=BASE, GENERATE
+1, 4, 1
+*SURFACE, NAME=TOP, TYPE=ELEMENT
+EVERY, S2
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000., 0.3
+*STEP
+*STATIC
+*END STEP
+"""
+PRESSED = "body PART E 210e3 nu 0.3\nclamp BASE\nobstacle TOP plane 0 0 1.999 0 0 -1\n"
+
+
+def test_inp(tmp_path):
+    """Node sets and surfaces of CalculiX's become groups; a case names what it uses."""
+    (tmp_path / "a.inp").write_text(INP)
+    code, why, areas, volumes = readable(tmp_path, tmp_path / "a.inp", PRESSED)
+    assert code == 0, why
+    assert areas == pytest.approx({"BASE": 1, "TOP": 1}) and volumes == pytest.approx([2])
+    code, why, *_ = readable(tmp_path, tmp_path / "a.inp", PRESSED.replace("BASE", "BAS"))
+    assert code == 3 and "line 2: BAS: no physical surface of the mesh; did you mean BASE?" in why
+
+
+@pytest.mark.parametrize(
+    "old, new, said",
+    [
+        ("C3D8R", "S4R", "line 13: *ELEMENT, TYPE=S4R: not read; allowed: C3D4, C3D10, C3D6, C3D8"),
+        ("5, 6, 7, 8\n*ELSET", "5, 6, 7, 9\n*ELSET", "line 15: element 1: a node that is missing: 9"),
+        ("EVERY, S2", "EVERY, S7", "line 21: *SURFACE: S7: no side of an element; allowed: S1 ... S6"),
+        ("*HEADING", "*INCLUDE, INPUT=b.inp", "line 1: *INCLUDE: not read; allowed: one file"),
+        ("8, 0., 1., 2.", "7, 0., 1., 2.", "line 11: the node 7 is there twice"),
+    ],
+)
+def test_inp_refused(tmp_path, old, new, said):
+    assert old in INP
+    (tmp_path / "a.inp").write_text(INP.replace(old, new))
+    code, why, *_ = readable(tmp_path, tmp_path / "a.inp", PRESSED)
+    assert code == 1 and said in why and "\n" not in why
+
+
+# ---------------------------------------------------------------- geometries
+
+
+LONG = [pytest.param(kind, marks=pytest.mark.long) for kind in ("stp", "brep", "geo")]
+
+
+@pytest.mark.parametrize("kind", ["step", "iges", *LONG])
+def test_geometries(tmp_path, kind):
+    """What CAD writes is meshed as it is, its groups picked in the case file: the same of each kind."""
+    if kind == "iges":
+        mesh = tmp_path / "a.IGES"
+        mesh.write_text(iges(((0, 0, 0), (4, 4, 2)), ((1, 1, 2.01), (3, 3, 3.01))))
+    elif kind == "geo":
+        mesh = tmp_path / "a.geo"
+        mesh.write_text(BOXES)
+    else:
+        mesh = gmsh(tmp_path, "a.step" if kind == "stp" else f"a.{kind}", BOXES, "-0")
+        mesh = mesh.rename(tmp_path / f"a.{kind}")
+    code, why, areas, volumes = readable(tmp_path, mesh, PICKED + NAMED.format("0"))
+    assert code == 0, why
+    assert volumes == pytest.approx([4, 32])
+    assert areas == pytest.approx({**AREAS, "top": 16})
+
+
+def test_faces_that_meet_become_two(tmp_path):
+    """Bodies that share a face are one part, until "between" asks for their faces: then each has its own nodes."""
+    mesh = gmsh(tmp_path, "a.brep", JOINED, "-0")
+    case = PICKED.replace("near 2 2 3", "volumes 2").replace(" 3  3.1 3.1 3.02", " 2.9  3.1 3.1 3.02")
+    code, why, areas, volumes = readable(tmp_path, mesh, case + NAMED.format("0"))
+    assert code == 0, why
+    assert volumes == pytest.approx([4, 32])
+    assert areas == pytest.approx({**AREAS, "top": 4})  # of the lower one's upper side the part that meets
+
+
+def test_plane_geometry(tmp_path):
+    flat = 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 4, 2};\nDisk(2) = {2, 3, 0, 1};\n'
+    mesh = gmsh(tmp_path, "a.step", flat, "-0")
+    case = """group block surfaces 1
+group disc near 2 4
+group top between block disc
+group round between disc block
+group base plane 0 0  0 1
+size disc 0.2
+body block E 210e3 nu 0.3
+body disc E 210e3 nu 0.3
+contact top round
+clamp base
+"""
+    code, why, areas, volumes = readable(tmp_path, mesh, case, 0)
+    assert code == 0, why
+    assert volumes == pytest.approx([np.pi, 8], rel=0.02)
+    assert areas == pytest.approx({"top": 4, "base": 4, "round": 2 * np.pi}, rel=0.01)
+
+
+def test_what_no_group_has_is_left_out(tmp_path):
+    """One body alone needs no group; of several those of no group are left out, which is said."""
+    mesh = gmsh(tmp_path, "a.step", BOXES, "-0")
+    case = "group only volumes 1\ngroup base plane 0 0 0 0 0 1\ngroup top plane 0 0 2 0 0 1\nbody only E 1 nu 0.3\n"
+    case += "clamp base\nobstacle top plane 0 0 1.9 0 0 -1\n"
+    assert readable(tmp_path, mesh, case)[3] == pytest.approx([32])
+    assert readable(tmp_path, mesh, case.replace("group only volumes 1\n", ""))[3] == pytest.approx([4, 32])
+
+
+@pytest.mark.long
+def test_sizes(tmp_path):
+    """size NAME, size contact and -set change the elements there."""
+    mesh = gmsh(tmp_path, "a.step", BOXES, "-0")
+
+    def elements(case):
+        (tmp_path / "a.case").write_text(case + NAMED.format("0"))
+        out = tmp_path / "read"
+        command = ["sh", "edp/bodies/readable.sh", str(os.getpid()), mesh, out, tmp_path / "a.case", "1", "solve"]
+        assert subprocess.run(command, cwd=ROOT, env={**os.environ, "LC_ALL": "C"}).returncode == 0
+        rows = (out / "mesh.msh").read_text().splitlines()
+        subprocess.run(["rm", "-r", out], check=True)
+        return int(rows[rows.index("$Elements") + 1])
+
+    base = PICKED.replace("size lower 1\nsize contact 0.7\n", "")
+    coarse = elements(base)
+    assert elements(base + "size upper 0.2\n") > 1.5 * coarse
+    assert elements(base + "size contact 0.2\n") > 3 * coarse
+    assert elements(base + "size base 0.2\n") > 1.5 * coarse
+
+
+@pytest.mark.parametrize(
+    "old, new, said",
+    [
+        ("volumes 1", "volumes 3", "line 1: 3: no such number of volumes; allowed: 1 2"),
+        ("volumes 1", "volume 1", "line 1: volume: unknown; did you mean volumes? allowed: group NAME faces N ..."),
+        ("volumes 1", "volumes one", "line 1: one: not the number of one of the volumes; allowed: those that -check 1"),
+        ("group lower volumes 1\n", "", "line 2: lower: no body of the geometry has this name; allowed: a line group"),
+        ("0 0 0  0 0 1", "0 0 9  0 0 1", "line 5: base: plane: no face lies there; allowed: one or more, of 1 2 3"),
+        ("0 0 0  0 0 1", "0 0 0  0 0 0", "line 5: the normal is 0 in every direction"),
+        ("near 2 2 3", "near 2 2", "line 2: the place is missing after 2"),
+        ("between upper lower", "between upper upper", "line 3: upper: twice the same body; allowed: two bodies"),
+        ("size lower 1", "size lower 0", "line 7: 0: the size is out of range; allowed: above 0"),
+        ("size lower 1", "size lowr 1", "line 7: lowr: no"),
+        ("group top between lower upper", "group foot faces 1", "line 4: group foot: stated before, in line 3"),
+    ],
+)
+def test_refused(tmp_path_factory, old, new, said, cad):
+    assert old in PICKED
+    folder = tmp_path_factory.mktemp("refused")
+    code, why, *_ = readable(folder, cad, PICKED.replace(old, new) + NAMED.format("0"))
+    assert code == 3 and said in why and "allowed: " in why, why
+
+
+@pytest.fixture(scope="module")
+def cad(tmp_path_factory):
+    return gmsh(tmp_path_factory.mktemp("cad"), "a.step", BOXES, "-0")
+
+
+def test_files_that_are_none(tmp_path, cad):
+    """What is no geometry, has no body or no groups, a size for a mesh: one line each."""
+    (tmp_path / "a.step").write_text("no geometry")
+    code, why, *_ = readable(tmp_path, tmp_path / "a.step", PRESSED)
+    assert code == 1 and why.startswith("gmsh cannot read it")
+    shell = gmsh(tmp_path, "b.brep", 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 4, 2};\n', "-0")
+    assert readable(tmp_path, shell, PRESSED)[:2] == (1, "no solid in it")
+    mesh = gmsh(tmp_path, "c.msh", CUBOIDS, "-3", "-format", "msh22")
+    code, why, *_ = readable(tmp_path, mesh, "size contact 0.1\n" + NAMED.format("0"))
+    assert code == 3 and "line 1: sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file" in why
+    code, why, *_ = readable(tmp_path, cad, PICKED + NAMED.format("0"), sets=" -setnumber radius 3")
+    assert code == 1 and why == "-set: it has no numbers to be set; allowed: with a .geo file"
+
+
+def test_numbers_of_a_geometry(tmp_path):
+    """-set NAME value is a number of a .geo file, another name refused with those that there are."""
+    geo = ROOT / "edp/examples/roller/roller.geo"
+    case = (geo.with_suffix(".case")).read_text()
+    code, why, *_ = readable(tmp_path, geo, case, 0, sets=" -setnumber size 2")
+    assert code == 0, why
+    code, why, *_ = readable(tmp_path, geo, case, 0, sets=" -setnumber sizes 2")
+    assert code == 1 and why == "-set sizes: no number of it that can be set; allowed: radius width height size"
+
+
+WORDS = {
+    "fix": "did you mean clamp (no displacement)?",
+    "Fixed": "did you mean clamp (no displacement)?",
+    "support": "did you mean clamp (no displacement)?",
+    "gravity": "did you mean weight (a force per volume on a body: density times gravity)?",
+    "tie": "bodies that share nodes are one part",
+    "friction": "contacts are frictionless",
+    "material": "did you mean body (",
+    "mesh": "did you mean size (",
+}
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_words(tmp_path, word, cad):
+    """What an engineer looks for leads to what there is, and says what that does."""
+    code, why, *_ = readable(tmp_path, cad, f"{word} base\n" + NAMED.format("0"))
+    assert code == 3 and f"line 1: {word}: unknown statement; {WORDS[word]}" in why
+
+
+# ---------------------------------------------------------------- solved
+
+
+def test_shown_without_a_case(tmp_path, cad):
+    """-check 1 shows a geometry without a case file: each face with its number; two commands lead to the picture."""
+    out = tmp_path / "out"
+    code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", cad, "-check", 1, "-out", out])
+    assert code == 0 and f"-m postprocess check {out}/check" in said
+    faces = np.genfromtxt(out / "check/check-faces.csv", delimiter=",", names=True)
+    assert sorted(set(faces["face"])) == list(range(1, 13)) and set(faces["body"]) == {1, 2}
+    code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", cad, "-out", tmp_path / "none"])
+    assert code == 10 and "-check 1 shows a geometry without" in said and not (tmp_path / "none").exists()
+    code, said = execute([".venv/bin/python", "-m", "postprocess", "check", out])
+    assert code == 0 and (out / "check/faces.png").exists() and not (out / "check/check.png").exists()
+
+
+@pytest.mark.long
+def test_step_solved(tmp_path, cad):
+    """Of a STEP file to forces: those of the same bodies out of a mesh of bricks, as far as these meshes tell."""
+    forces = []
+    bricks = gmsh(tmp_path, "b.msh", CUBOIDS, "-3", "-format", "msh41", "-setnumber", "brick", 1)
+    for mesh, case in ((cad, PICKED), (bricks, "")):
+        (tmp_path / "a.case").write_text(case + NAMED.format("0"))
+        flags = ["-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"]
+        code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", mesh, "-case", tmp_path / "a.case", *flags])
+        assert code == 0, said
+        forces.append(json.loads((tmp_path / "out/summary.json").read_text())["contacts"][0]["force"][2])
+    assert forces[0] == pytest.approx(forces[1], rel=0.05)
