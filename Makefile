@@ -281,7 +281,7 @@ $(CASES:%=$(RESULTS)/figures/%/summary.json): $(RESULTS)/figures/%/summary.json:
 $(RESULTS)/figures/%.pdf $(RESULTS)/figures/%.png: $$(addsuffix /summary.json,$$(addprefix $(RESULTS)/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | $(VENV)/run.stamp
 	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out $(RESULTS)/figures/$*.pdf $(figure.$*:%=$(RESULTS)/figures/%)
 
-# The pictures of the pages. Those of the campaigns need make bench-peers and make stability, the labs' make labs, the cut PyVista.
+# The pictures of the pages. Those of the campaigns are of the tables in tests/RESULTS.md; the labs' need make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
 pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json | $(VENV)/run.stamp ## draw the small pictures of the pages anew
 	$(SMALL) $(RESULTS)/figures/figure1.png --width 600 --out postprocess/readme-figure.png
@@ -292,8 +292,7 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	  sed -n '/^```sh/,/^```/{/^[^`]/p;}' $$page | while read -r command; do sh -c "$$command" </dev/null || exit 1; done && \
 	  $(SMALL) $(RESULTS)/parts*/$$(basename $$(dirname $$page))/$$picture --width 560 --out $$(dirname $$page)/$$picture || exit 1; \
 	done
-	$(SMALL) $(RESULTS)/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
-	$(SMALL) $(RESULTS)/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
+	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
