@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -292,7 +292,8 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	  sed -n '/^```sh/,/^```/{/^[^`]/p;}' $$page | while read -r command; do sh -c "$$command" </dev/null || exit 1; done && \
 	  $(SMALL) $(RESULTS)/parts*/$$(basename $$(dirname $$page))/$$picture --width 560 --out $$(dirname $$page)/$$picture || exit 1; \
 	done
-	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png postprocess/readme-stability.png
+	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
+	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
@@ -354,6 +355,23 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 	    case $$code in 0|20) ;; *) exit $$code;; esac; \
 	  done || exit $$?; \
 	done
+
+# The run of lab 3 is the film of the slides.
+kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
+	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
+	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
+
+# make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
+N       ?= $(filter 0 1 2 3 4 5 6 7 8 9,$(MAKECMDGOALS))
+ANSWERS ?= answers.csv
+check-lab: $(VENV)/run.stamp ## check a student's answers: make check-lab 2 ANSWERS=answers.csv, make check-lab 4 ANSWERS=mylaw.idp
+	@$(PYTHON) -m postprocess check_lab $(or $(N),none) '$(ANSWERS)'
+
+ifneq ($(filter check-lab,$(MAKECMDGOALS)),)
+.PHONY: 0 1 2 3 4 5 6 7 8 9
+0 1 2 3 4 5 6 7 8 9:
+	@:
+endif
 
 # ---------------------------------------------------------------- looking
 
