@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -360,6 +360,9 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
 	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
 	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
+
+page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
+	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
 N       ?= $(filter 0 1 2 3 4 5 6 7 8 9,$(MAKECMDGOALS))
