@@ -661,3 +661,15 @@ class TestDoctor:
         monkeypatch.setattr(doctor.shutil, "which", lambda name: None)
         assert "FreeFem-sources/releases" in doctor.hint("FreeFem++")
         assert doctor.hint("gmsh") and doctor.hint("make") and doctor.hint("python")
+
+
+def test_pictures_of_a_run(tmp_path, capsys):
+    """A run's own pictures shall be shown with it, where they have been drawn; captions lean on no other."""
+    folder = tmp_path / "results/disc"
+    run_in(ROOT, script("disc-on-block"), "-h", 2, "-estimate", 0, out=folder)
+    out = tmp_path / "index.html"
+    assert main(["report", "--out", str(out), str(tmp_path / "results")]) == 0
+    assert "postprocess state" not in out.read_text()
+    assert main(["state", str(folder)]) == 0 and main(["report", "--out", str(out), str(tmp_path / "results")]) == 0
+    assert "postprocess state" in out.read_text() and "the pressure along the contact" in out.read_text()
+    assert not [name for name, words in captions().items() if re.match("The same|As |That sphere", words)]
