@@ -48,8 +48,16 @@ endif
 # ---------------------------------------------------------------- the paper
 
 PAPER := $(RESULTS)/figures/figure1.pdf $(RESULTS)/figures/figure2.pdf
-paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, and its two figures
+PAPER_RUNS := $(foreach h,1 0.5 0.25 0.1,h-$(h) h-$(h)-d0) newton stiff stiff-d0 stiff-newton
+paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, its two figures, its claims on one page
 	@echo 'figures: $(PAPER)'
+	@for run in $(PAPER_RUNS); do \
+	  flags=$$(echo "-$$run" | sed 's/-h-\([0-9.]*\)/ -h \1/;s/-stiff/ -kappa 1e12/;s/-d0/ -T0 d0/;s/-newton/ -method newton/'); \
+	  case $$flags in *newton*) ;; *) flags="-method paper $$flags";; esac; \
+	  case $$flags in *-h*) ;; *) flags="-h 0.5 $$flags";; esac; \
+	  $(FREEFEM) edp/main.edp -order 1 $$flags -vtu 0 -estimate 0 -out $(RESULTS)/paper/$$run >/dev/null || exit 1; \
+	done
+	@test ! -e $(PYTHON) || $(PYTHON) -m postprocess paper $(RESULTS)/paper --figures $(RESULTS)/figures --out $(RESULTS)/paper/claims.html
 
 paper-run: | system
 	@$(FREEFEM) edp/main.edp -method paper -order 1 -h 0.5
