@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -170,6 +170,14 @@ run: | system python $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS
 	@$(if $(NP),$(RUN_MANY),$(RUN_ONE)); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; 30) why='out of memory or disk';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
+
+# What is begun sees the package through links: FreeFEM finds its modules, results stay outside.
+new: ## begin a law, a scene or a method of your own outside this folder: make new DIR=folder
+	@test -n '$(DIR)' || { echo 'DIR=: allowed: a folder that is not there yet'; exit 10; }; \
+	test ! -e '$(DIR)' || { echo 'DIR=$(DIR): is there already'; exit 10; }; \
+	mkdir -p '$(DIR)' && cp template/* '$(DIR)' && \
+	for name in edp meshes postprocess build freefem++.pref .venv; do ln -s '$(CURDIR)'/$$name '$(DIR)' || exit 1; done && \
+	echo 'begun: $(DIR); read its README.md, then: sh $(DIR)/test.sh'
 
 # ---------------------------------------------------------------- a place of its own
 
