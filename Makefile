@@ -43,13 +43,21 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
 PAPER := $(RESULTS)/figures/figure1.pdf $(RESULTS)/figures/figure2.pdf
-paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, and its two figures
+PAPER_RUNS := $(foreach h,1 0.5 0.25 0.1,h-$(h) h-$(h)-d0) newton stiff stiff-d0 stiff-newton
+paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, its two figures, its claims on one page
 	@echo 'figures: $(PAPER)'
+	@for run in $(PAPER_RUNS); do \
+	  flags=$$(echo "-$$run" | sed 's/-h-\([0-9.]*\)/ -h \1/;s/-stiff/ -kappa 1e12/;s/-d0/ -T0 d0/;s/-newton/ -method newton/'); \
+	  case $$flags in *newton*) ;; *) flags="-method paper $$flags";; esac; \
+	  case $$flags in *-h*) ;; *) flags="-h 0.5 $$flags";; esac; \
+	  $(FREEFEM) edp/main.edp -order 1 $$flags -vtu 0 -estimate 0 -out $(RESULTS)/paper/$$run >/dev/null || exit 1; \
+	done
+	@test ! -e $(PYTHON) || $(PYTHON) -m postprocess paper $(RESULTS)/paper --figures $(RESULTS)/figures --out $(RESULTS)/paper/claims.html
 
 paper-run: | system
 	@$(FREEFEM) edp/main.edp -method paper -order 1 -h 0.5
@@ -162,6 +170,14 @@ run: | system python $(if $(NP),mpi) ## run a scene: make run [SCENE=name] [ARGS
 	@$(if $(NP),$(RUN_MANY),$(RUN_ONE)); code=$$?; \
 	case $$code in 0) exit 0;; 10) why='refused input';; 20) why='not converged';; 21) why='accuracy not reached';; 30) why='out of memory or disk';; *) why='failed';; esac; \
 	echo "FreeFem++ ended with code $$code: $$why"; exit $$code
+
+# What is begun sees the package through links: FreeFEM finds its modules, results stay outside.
+new: ## begin a law, a scene or a method of your own outside this folder: make new DIR=folder
+	@test -n '$(DIR)' || { echo 'DIR=: allowed: a folder that is not there yet'; exit 10; }; \
+	test ! -e '$(DIR)' || { echo 'DIR=$(DIR): is there already'; exit 10; }; \
+	mkdir -p '$(DIR)' && cp template/* '$(DIR)' && \
+	for name in edp meshes postprocess build freefem++.pref .venv; do ln -s '$(CURDIR)'/$$name '$(DIR)' || exit 1; done && \
+	echo 'begun: $(DIR); read its README.md, then: sh $(DIR)/test.sh'
 
 # ---------------------------------------------------------------- a place of its own
 
@@ -281,7 +297,7 @@ $(CASES:%=$(RESULTS)/figures/%/summary.json): $(RESULTS)/figures/%/summary.json:
 $(RESULTS)/figures/%.pdf $(RESULTS)/figures/%.png: $$(addsuffix /summary.json,$$(addprefix $(RESULTS)/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | $(VENV)/run.stamp
 	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out $(RESULTS)/figures/$*.pdf $(figure.$*:%=$(RESULTS)/figures/%)
 
-# The pictures of the pages. Those of the campaigns need make bench-peers and make stability, the labs' make labs, the cut PyVista.
+# The pictures of the pages. Those of the campaigns are of the tables in tests/RESULTS.md; the labs' need make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
 pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json | $(VENV)/run.stamp ## draw the small pictures of the pages anew
 	$(SMALL) $(RESULTS)/figures/figure1.png --width 600 --out postprocess/readme-figure.png
@@ -292,8 +308,8 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	  sed -n '/^```sh/,/^```/{/^[^`]/p;}' $$page | while read -r command; do sh -c "$$command" </dev/null || exit 1; done && \
 	  $(SMALL) $(RESULTS)/parts*/$$(basename $$(dirname $$page))/$$picture --width 560 --out $$(dirname $$page)/$$picture || exit 1; \
 	done
-	$(SMALL) $(RESULTS)/bench/bench_peers.png --width 700 --out postprocess/readme-peers.png
-	$(SMALL) $(RESULTS)/stability/stability_xnewton.png --width 700 --out postprocess/readme-stability.png
+	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
+	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
@@ -355,6 +371,26 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 	    case $$code in 0|20) ;; *) exit $$code;; esac; \
 	  done || exit $$?; \
 	done
+
+# The run of lab 3 is the film of the slides.
+kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
+	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
+	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
+
+page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
+	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html
+
+# make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
+N       ?= $(filter 0 1 2 3 4 5 6 7 8 9,$(MAKECMDGOALS))
+ANSWERS ?= answers.csv
+check-lab: $(VENV)/run.stamp ## check a student's answers: make check-lab 2 ANSWERS=answers.csv, make check-lab 4 ANSWERS=mylaw.idp
+	@$(PYTHON) -m postprocess check_lab $(or $(N),none) '$(ANSWERS)'
+
+ifneq ($(filter check-lab,$(MAKECMDGOALS)),)
+.PHONY: 0 1 2 3 4 5 6 7 8 9
+0 1 2 3 4 5 6 7 8 9:
+	@:
+endif
 
 # ---------------------------------------------------------------- looking
 

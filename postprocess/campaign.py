@@ -146,7 +146,7 @@ def draw_failures(axes, x: np.ndarray, color: str) -> None:
 
 
 def heat_map(axes, counts: np.ndarray, failed: np.ndarray, colors, size: float = 7) -> None:
-    """A cell a count, annotated; a cell where a run failed is hatched, one without a run stays white.
+    """A cell a count, annotated; a cell where a run failed is hatched, one without a run has a dot.
 
     counts: (rows, columns), NaN where there is no run; failed: (rows, columns) bool. colors: (colormap, norm).
     """
@@ -169,6 +169,8 @@ def heat_map(axes, counts: np.ndarray, failed: np.ndarray, colors, size: float =
         dark = 0.299 * red + 0.587 * green + 0.114 * blue < 0.5
         color = "white" if dark else "black"
         axes.text(j, i, f"{shown[i, j]:.0f}", ha="center", va="center", fontsize=size, color=color)
+    for i, j in np.argwhere(np.isnan(counts) & ~failed):
+        axes.plot([j], [i], marker=".", markersize=2, color=style.GREY)
     axes.tick_params(length=0)
     for side in axes.spines.values():
         side.set_visible(False)

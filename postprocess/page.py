@@ -6,7 +6,8 @@ import string
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-WIDE = 1.3  # ratio of width to height above which a picture keeps its size on a phone and scrolls sideways
+WIDE = 1.3  # ratio of width to height above which a picture keeps its size on a phone and scrolls sideways,
+BROAD = 1400  # and pixels across: a picture of several panels, however high
 MANY = 4  # columns above which a table is wider than a phone
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -74,9 +75,10 @@ def picture(png: bytes, alt: str, caption: Markup) -> Markup:
     width, height = (int.from_bytes(png[start : start + 4], "big") for start in (16, 20))
     source = "data:image/png;base64," + base64.b64encode(png).decode()
     image = Markup(f"<img{listed({'src': source, 'alt': alt, 'width': width // 2, 'height': height // 2})}>")
-    if width > WIDE * height:
+    broad = width > WIDE * height or width > BROAD
+    if broad:
         image = element("div", image, class_="scroll wide", role="region", tabindex=0, aria_label="Picture")
-    return element("figure", joined([image, element("figcaption", caption)]))
+    return element("figure", joined([image, element("figcaption", caption)]), class_="broad" if broad else "narrow")
 
 
 def folded(summary: str, content: Markup) -> Markup:

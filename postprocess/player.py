@@ -1,4 +1,4 @@
-"""A movie as matplotlib's HTML player, made to work without network and for screen readers, and as GIF."""
+"""A movie as matplotlib's HTML player, made to work without network and for screen readers, as GIF, and as MP4."""
 
 import hashlib
 import html
@@ -7,7 +7,7 @@ import re
 import tempfile
 from pathlib import Path
 
-from matplotlib.animation import HTMLWriter, PillowWriter
+from matplotlib.animation import FFMpegWriter, HTMLWriter, PillowWriter
 
 from postprocess import style
 from postprocess.frames import Movie
@@ -31,29 +31,37 @@ ICONS = {
 }
 
 
-def render(movie: Movie, described: str) -> tuple[str, bytes]:
-    """Every frame drawn once: the player as a piece of HTML between BEGIN and END, and the GIF's bytes.
+def render(movie: Movie, described: str, speed: float = 1) -> tuple[str, bytes, bytes | None]:
+    """Every frame drawn once: the player as a piece of HTML between BEGIN and END, the GIF's bytes, the MP4's.
 
-    described: what the pictures show, for those who do not see them.
+    described: what the pictures show, for those who do not see them. speed: 2 is twice as fast. No MP4 without ffmpeg.
     """
     dpi = 100 if movie.count <= MANY else 72
-    rate = 1000 / MILLISECONDS
+    rate = 1000 / MILLISECONDS * speed
     web = HTMLWriter(fps=rate, embed_frames=True, default_mode="once", embed_limit=1e6)
     gif = PillowWriter(fps=rate)
+    still = [gif]
+    if FFMpegWriter.isAvailable():
+        even = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-fflags", "+bitexact"]
+        still.append(FFMpegWriter(fps=rate, codec="libx264", extra_args=even))
     with tempfile.TemporaryDirectory() as folder, style.look():
-        page, picture = Path(folder) / "player.html", Path(folder) / "movie.gif"
+        page, picture, film = (Path(folder) / name for name in ("player.html", "movie.gif", "movie.mp4"))
         web.setup(movie.figure, page, dpi=dpi)
-        gif.setup(movie.figure, picture, dpi=dpi)
+        for writer, path in zip(still, (picture, film), strict=False):
+            writer.setup(movie.figure, path, dpi=dpi)
         for index in range(movie.count):
             movie.draw(index)
             web.grab_frame()
-            gif.grab_frame()
-        for _ in range(HOLD - 1):
-            gif.grab_frame()
+            for writer in still:
+                writer.grab_frame()
+        for writer in still * (HOLD - 1):
+            writer.grab_frame()
         web.finish()
         logging.getLogger("PIL").setLevel(logging.WARNING)
-        gif.finish()
-        return adapted(page.read_text(encoding="utf-8"), described), picture.read_bytes()
+        for writer in still:
+            writer.finish()
+        moving = film.read_bytes() if film.exists() else None
+        return adapted(page.read_text(encoding="utf-8"), described), picture.read_bytes(), moving
 
 
 def adapted(player: str, described: str) -> str:

@@ -305,9 +305,21 @@ def details(tree: Tree, run: Run, index: int) -> Markup:
     if not summary["converged"]:
         parts.append(element("p", f"Not converged. {summary['message']}", class_="fail"))
     parts += [element("p", f"Warning: {text}", class_="fail") for text in summary["warnings"]]
+    parts += [picture_of_run(run, name) for name in ("state", "stress") if (run.path / f"{name}.png").exists()]
     parts.append(folded(style.count(count, "Newton step"), steps))
     parts.append(folded("Results and parameters", element("div", joined(tables), class_="columns")))
     return element("article", joined(parts), aria_labelledby=f"run-{index}")
+
+
+def picture_of_run(run: Run, name: str) -> Markup:
+    """A run's own picture, where it has been drawn."""
+    what = {
+        "state": "the deformed bodies and the pressure along the contact",
+        "stress": "the bodies by von Mises' stress",
+    }
+    seen = f"{run_words(run)}: {what[name]}"
+    made = element("code", f".venv/bin/python -m postprocess {name} {place(run.path)}")
+    return page.picture(read_png(run.path / f"{name}.png"), seen, joined([f"{what[name].capitalize()}. ", made], ""))
 
 
 def cell(value: object) -> str:

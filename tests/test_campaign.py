@@ -14,13 +14,15 @@ import campaign
 import coverage
 import numpy as np
 import peers
+import pictures
 import pytest
 import reference
 import stability
 import tables
 from campaign import Case, case, read_rows, value
+from text_boxes import faults, shown
 
-from postprocess import figures
+from postprocess import figures, style
 from postprocess.__main__ import main
 from postprocess.campaign import read_campaign
 from postprocess.references import PAPER
@@ -490,6 +492,16 @@ def test_figures(campaigns, tmp_path, name):
     out = tmp_path / f"{name}.pdf"
     assert main(["figure", name, "--out", str(out), str(campaigns / name.split("_")[0])]) == 0
     assert out.read_bytes().startswith(b"%PDF-") and out.with_suffix(".png").stat().st_size > 20000
+
+
+@pytest.mark.parametrize("name", pictures.PICTURES)
+def test_pictures_of_the_readme(name):
+    """The README's pictures of campaigns shall be legible at 85 mm: no text on another one, or below 8 points."""
+    with style.look():
+        drawn = pictures.PICTURES[name]()
+        assert faults(drawn) == []
+    assert drawn.get_figwidth() == style.COLUMN
+    assert min(text.get_fontsize() for text in shown(drawn)) >= 8
 
 
 def test_there_are_figures_of_both_campaigns():

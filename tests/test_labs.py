@@ -111,6 +111,34 @@ def commands(lab):
     return found
 
 
+@pytest.mark.parametrize("lab", LABS)
+def test_no_run_replaces_another(lab):
+    """No two commands of a lab shall write one folder: what -out names, or the method's of those without."""
+    runs = [line for line, _ in commands(lab) if line.startswith("FreeFem++")]
+    folders = [
+        (re.search(r"-out (\S+)", line) or re.search(r"-method (\S+)", line) or ["", "default"])[1]
+        for line in runs
+        if "algorithm1.edp" not in line
+    ]
+    assert len(folders) == len(set(folders))
+
+
+@pytest.mark.parametrize("lab, script_name", [("1-law", "confined-block"), ("2-newton", "confined-block")])
+def test_data_of_a_lab(lab, script_name):
+    """What a page asks to predict from shall stand on it: the data of its runs, and the stiffness that follows."""
+    data = re.search(r"\*\*Data\.\*\*(.*?)\n\n", readme(lab), re.S)[1]
+    used = run(script_name).parameters
+    given = {"E": "E", "ν": "nu", "L": "depth", "`?gap`?": "gap", "d0": "d0", "u0": "u0"}
+    for symbol, name in given.items():
+        (value,) = re.findall(rf"(?<!\w){symbol} =? ?([−\d.]*\d)", data)
+        assert float(value.replace("−", "-")) == used[name], symbol
+    if lab == "2-newton":
+        modulus = used["E"] * (1 - used["nu"]) / (1 + used["nu"]) / (1 - 2 * used["nu"])
+        found = re.findall(r"(?<!\w)[Mkδ] = ([\d.]*\d)", data)
+        expected = [modulus, modulus / used["depth"], used["u0"] - used["gap"] - used["d0"]]
+        assert list(map(float, found)) == pytest.approx(expected, rel=1e-5)
+
+
 DRAW = ".venv/bin/python -m postprocess "
 
 

@@ -158,3 +158,16 @@ def test_clean(package):
 def test_make_is_there():
     """The tests themselves need make."""
     assert shutil.which("make")
+
+
+def test_what_is_begun_outside(tmp_path):
+    """What `make new` begins shall stand its own test, which tells a spoilt law; an existing folder is refused."""
+    folder = tmp_path / "my own"
+    assert execute(["make", "new", f"DIR={folder}"], ROOT)[0] == 0
+    code, said = execute(["sh", folder / "test.sh"], tmp_path, environment())
+    assert code == 0 and said.count("ok ") == 9 and "OFF" not in said, said
+    law = folder / "mylaw.idp"
+    law.write_text(law.read_text().replace("p[i] / soft", "p[i] / soft / 3"))
+    code, said = execute(["sh", folder / "test.sh"], tmp_path, environment())
+    assert code == 1 and "OFF  inverse" in said
+    assert execute(["make", "new", f"DIR={folder}"], ROOT)[0] != 0

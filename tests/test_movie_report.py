@@ -19,6 +19,7 @@ import freefem
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, run, run_in, script, tree
+from matplotlib.animation import FFMpegWriter
 from test_scene_figures import WAVY
 from text_boxes import faults
 
@@ -30,6 +31,8 @@ from postprocess.laws import law_of, overlap_at
 from postprocess.references import PAPER, checks
 from postprocess.results import Run, read_run
 from postprocess.words import captions, command
+
+MOVIE = ["movie.html", "movie.gif", *(["movie.mp4"] if FFMpegWriter.isAvailable() else [])]
 
 
 @pytest.fixture(scope="module")
@@ -256,13 +259,36 @@ class TestMovie:
     def test_the_same_bytes_again_and_whole_or_not_at_all(self, film, tmp_path, monkeypatch, capsys):
         """The same run shall give the same files; an interruption none, and none of what was there is lost."""
         assert main(["movie", "--out", str(tmp_path), str(film)]) == 0
-        assert capsys.readouterr().out.split() == [str(tmp_path / name) for name in ("movie.html", "movie.gif")]
-        first = {name: (film / name).read_bytes() for name in ("movie.html", "movie.gif")}
+        assert capsys.readouterr().out.split() == [str(tmp_path / name) for name in MOVIE]
+        first = {name: (film / name).read_bytes() for name in MOVIE}
         assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == first
         monkeypatch.setattr(output.os, "replace", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
             output.write_files({tmp_path / "movie.html": b"new", tmp_path / "movie.gif": b"new"})
         assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == first
+
+    def test_speed_and_single_frames(self, film, tmp_path, capsys):
+        """Twice the speed, half the time; a frame alone as SVG, the same bytes again; no such frame is refused."""
+        from PIL import Image
+
+        assert main(["movie", "--speed", "2", "--out", str(tmp_path), str(film)]) == 0
+        pauses = []
+        for path in (film, tmp_path):
+            with Image.open(path / "movie.gif") as picture:
+                pauses.append(picture.info["duration"])
+        assert pauses[0] == pytest.approx(2 * pauses[1], abs=20)
+        drawn = []
+        for name in ("a", "b"):
+            assert main(["movie", "--frame", "2", "--out", str(tmp_path / name), str(film)]) == 0
+            drawn += [path.read_bytes() for path in (tmp_path / name).iterdir()]
+        assert len(drawn) == 2 and drawn[0] == drawn[1] and b"<svg" in drawn[0]
+        assert main(["movie", "--frame", "99", "--out", str(tmp_path), str(film)]) == 2
+        assert "allowed: 1 to" in capsys.readouterr().err
+
+    @pytest.mark.skipif(not FFMpegWriter.isAvailable(), reason="needs ffmpeg")
+    def test_the_mp4(self, film):
+        """Where ffmpeg is there shall be an MP4."""
+        assert b"ftyp" in (film / "movie.mp4").read_bytes()[:32]
 
     def test_a_full_disk(self, tmp_path, monkeypatch):
         def full(path, data):
@@ -661,3 +687,15 @@ class TestDoctor:
         monkeypatch.setattr(doctor.shutil, "which", lambda name: None)
         assert "FreeFem-sources/releases" in doctor.hint("FreeFem++")
         assert doctor.hint("gmsh") and doctor.hint("make") and doctor.hint("python")
+
+
+def test_pictures_of_a_run(tmp_path, capsys):
+    """A run's own pictures shall be shown with it, where they have been drawn; captions lean on no other."""
+    folder = tmp_path / "results/disc"
+    run_in(ROOT, script("disc-on-block"), "-h", 2, "-estimate", 0, out=folder)
+    out = tmp_path / "index.html"
+    assert main(["report", "--out", str(out), str(tmp_path / "results")]) == 0
+    assert "postprocess state" not in out.read_text()
+    assert main(["state", str(folder)]) == 0 and main(["report", "--out", str(out), str(tmp_path / "results")]) == 0
+    assert "postprocess state" in out.read_text() and "the pressure along the contact" in out.read_text()
+    assert not [name for name, words in captions().items() if re.match("The same|As |That sphere", words)]

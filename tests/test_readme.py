@@ -298,6 +298,15 @@ def test_doors(door, package):
     if door == "paper":
         for name in ("figure1", "figure2"):
             assert (package / f"results/figures/{name}.pdf").exists()
+        claims = (package / "results/paper/claims.html").read_text()
+        verdicts = re.findall(r'<span class="(\w+)">', claims)
+        assert len(verdicts) == 7 and verdicts.count("fail") == 1  # plain Newton does not fail on the paper's test
+        said = re.search(
+            r"plain Newton takes\s+(\d+) steps.*?takes (\d+); .*?takes (\d+) from .*? and (\d+)\s+from", README, re.S
+        )
+        counts = said.groups()
+        for name, steps in zip(("newton", "stiff-newton", "stiff", "stiff-d0"), counts, strict=True):
+            assert json.loads((package / f"results/paper/{name}/summary.json").read_text())["newton"] == int(steps)
 
 
 def test_every_figure_is_listed():

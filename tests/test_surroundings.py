@@ -647,13 +647,21 @@ def test_contact_lost_in_rounding(tmp_path):
 # ---------------------------------------------------------------- a bare system
 
 
+def test_docker_keeps_what_is_edited():
+    """The Dockerfile's head and the manual shall say the same commands: the checkout is mounted, Python's are not."""
+    head = [line[4:] for line in (ROOT / "Dockerfile").read_text().splitlines() if line.startswith("#   docker")]
+    assert "\n".join(head) in (ROOT / "edp/MANUAL.md").read_text()
+    assert head[1].split()[4:8] == ["-v", '"$PWD:/contact"', "-v", "/contact/.venv"]
+
+
 @pytest.mark.long
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
 def test_dockerfile(tmp_path):
     """In a bare Debian the Dockerfile's commands shall set all up, and `make run` run, on two processes too."""
     lines = (ROOT / "Dockerfile").read_text().splitlines()
-    words = {line.split()[0] for line in lines if not line.startswith("#")}
-    assert lines[1] == "FROM debian:12" and words == {"FROM", "RUN", "COPY", "WORKDIR", "CMD"}
+    lines = [line for line in lines if not line.startswith("#")]
+    words = {line.split()[0] for line in lines}
+    assert lines[0] == "FROM debian:12" and words == {"FROM", "RUN", "COPY", "WORKDIR", "CMD"}
     system = tmp_path / "debian"
     try:
         bootstrap("bookworm", system)

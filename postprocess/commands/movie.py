@@ -1,14 +1,17 @@
-"""draw a run's Newton steps, or its path, as a movie: a page with a player, and a GIF
+"""draw a run's Newton steps, or its path, as a movie: a page with a player, a GIF, an MP4
 
-RUN is a result folder of a run made with -states 1, or with -path. Written are DIR/movie.html and DIR/movie.gif: both,
-or neither.
+RUN is a result folder of a run made with -states 1, or with -path. Written are DIR/movie.html and DIR/movie.gif, and
+where ffmpeg is DIR/movie.mp4: all, or none. With --frame K, DIR/frame-K.svg alone.
 One frame per Newton step: the collocation points in the (overlap, pressure) plane on the law's curve with its wall,
 the pressure along the contact, and the deformed bodies; or a frame per state of the path: force against approach, and
 the pressures. The page needs no network.
 """
 
 import argparse
+import io
 from pathlib import Path
+
+from matplotlib import rc_context
 
 from postprocess import page, style
 from postprocess.commands.show import cell
@@ -23,24 +26,46 @@ from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
     parser.add_argument("--out", required=True, metavar="DIR", help="where to write; folders are created")
+    parser.add_argument("--speed", type=float, default=1.0, metavar="S", help="2: twice as fast (default: 1)")
+    parser.add_argument("--frame", type=int, metavar="K", help="write one frame as SVG; the first is 1")
     style.add_units(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Reads the run, draws the frames, writes both files and prints their paths."""
+    """Reads the run, draws the frames, writes the files and prints their paths."""
+    if not 0 < arguments.speed < 1000:
+        raise ResultsError(arguments.folder, f"--speed {arguments.speed:g}: allowed: above 0, below 1000")
     chosen = read_run(arguments.folder)
     try:
         with style.look():
             kind = Loop if along_path(chosen) else Movie
             movie = kind(chosen, style.Units(*map(style.plain, arguments.units)))
-        player, picture = render(movie, description(chosen))
+            if arguments.frame is not None:
+                contents = {
+                    Path(arguments.out) / f"frame-{arguments.frame}.svg": one_frame(chosen, movie, arguments.frame)
+                }
+        if arguments.frame is None:
+            player, picture, film = render(movie, description(chosen), arguments.speed)
     except (ValueError, OverflowError) as error:
         raise ResultsError(chosen.path, f"cannot be drawn: {brief(str(error))}") from None
     folder = Path(arguments.out)
-    contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
+    if arguments.frame is None:
+        contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
+        contents |= {folder / "movie.mp4": film} if film else {}
     enter(folder, [path.name for path in contents])
     for path in write_files(contents):
         print(path)
+
+
+def one_frame(run: Run, movie: Movie | Loop, number: int) -> bytes:
+    """A frame as SVG."""
+    if not 1 <= number <= movie.count:
+        raise ResultsError(run.path, f"--frame {number}: allowed: 1 to {movie.count}")
+    movie.draw(number - 1)
+    written = io.BytesIO()
+    with rc_context({"svg.hashsalt": run.path.name}):  # the same frame gives the same bytes
+        movie.figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None})
+    return written.getvalue()
 
 
 def description(run: Run) -> str:

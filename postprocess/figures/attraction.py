@@ -33,18 +33,24 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     figure = Figure(figsize=(style.COLUMN, 0.95 * style.COLUMN), layout="constrained")
     axes = figure.subplots()
     spheres = all(run.summary["scene"].startswith(("adhesive-sphere", "labs/7")) for run in runs)
+    drawn = []
     for index, run in enumerate(runs):
         if run.summary["parameters"].get("law") != "lennard-jones":
             raise ResultsError(run.path, "is not a run with -law lennard-jones")
         rows = read_table(run.path / "path.csv", COLUMNS, "the run needs -path")
         length = run.positive("eps0") if spheres else 1.0
         unit = np.pi * run.positive("w") * run.positive("R") if spheres else 1.0
+        whole = run.summary["parameters"].get("branch") == "unstable"
         name = rf"$\mu$ = {tabor(run):.3g}" if spheres else run.summary["scene"]
-        if run.summary["parameters"].get("branch") == "unstable":
-            name += ", all states"
+        name += ", all states" if whole else ""
         rows["approach"], rows["force"] = rows["approach"] / length, rows["force"] / unit
         rows["stiffness"] = rows["stiffness"] * length / unit
-        draw_path(axes, rows, style.CURVES[index], name)
+        drawn.append((rows, style.CURVES[index], name, whole, run))
+    names = [name for _, _, name, _, _ in drawn]
+    for rows, colour, name, whole, run in drawn:
+        if names.count(name) > 1:  # runs of one problem on several meshes
+            name += f", $h$ = {style.number(run.summary['h'])}"
+        draw_path(axes, rows, colour, name, whole)
     if spheres:
         draw_theories(axes, runs[0])
     axes.axhline(0, color=style.GREY, linewidth=0.4)
@@ -55,8 +61,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def draw_path(axes, rows: dict, colour: str, name: str) -> None:
-    """One run: pieces of equal stability, cut at jumps, which are arrows."""
+def draw_path(axes, rows: dict, colour: str, name: str, whole: bool) -> None:
+    """One run: pieces of equal stability, cut at jumps, which are arrows; one of all states broad, below the others."""
+    broad = {"linewidth": 3.2, "alpha": 0.45, "zorder": 1.5} if whole else {}
     approach, force = rows["approach"], rows["force"]
     stable, jumped = rows["stability"] >= 0, rows["jump"] > 0  # 0 at a fold, where a stable branch ends
     cuts = [0, *np.nonzero(jumped | np.append(False, stable[1:] != stable[:-1]))[0], len(force)]
@@ -65,9 +72,9 @@ def draw_path(axes, rows: dict, colour: str, name: str) -> None:
             continue
         joined = begin - 1 if begin and not jumped[begin] else begin
         piece = slice(joined, end)
-        line = "-" if stable[begin] else (0, (1, 1.5))
+        line = "-" if stable[begin] else (0, (0.6, 0.6) if whole else (1, 1.5))
         points = smooth(*(rows[column][piece] for column in ("approach", "force", "stiffness")))
-        axes.plot(*points, color=colour, linestyle=line, label=name if begin == 0 else None)
+        axes.plot(*points, color=colour, linestyle=line, label=name if begin == 0 else None, **broad)
     for row in np.nonzero(jumped)[0]:
         arrow = {
             "arrowstyle": "-|>",

@@ -33,17 +33,17 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             name = rf"$\delta/\varepsilon$ = {rows['approach'][row] / length:.2f}" + (
                 ", jumped" if rows["jump"][row] else ""
             )
-            colour = style.CURVES[index % len(style.CURVES)]
+            colour = style.shades(np.array([0.92 * (1 - index / max(len(chosen) - 1, 1))]))[0]  # darker: later
             axes.plot(table["x"][here], table["pressure"][here], color=colour, label=name)
         axes.axhline(0, color=style.GREY, linewidth=0.4)
-        axes.set_title(title)
+        axes.set_title(f"{style.panel(panel)} {title}", loc="left")
         axes.set_xlabel(f"x [{units.length}]")
-        axes.legend(loc="upper right", fontsize=6.5, ncols=2)
+        axes.legend(loc="upper right", fontsize=7.5)
     fine = run.summary["parameters"].get("fine")
     if fine is not None:
         panels[0].set_xlim(0 if run.summary["parameters"].get("geometry") == "axisymmetric" else -fine, fine)
     down, up = panels[0].get_ylim()
-    panels[0].set_ylim(down, up + 0.3 * (up - down))
+    panels[0].set_ylim(down, up + 0.15 * (up - down))
     panels[0].set_ylabel(f"pressure [{units.stress}]")
     style.name_elements(figure, runs)
     return figure

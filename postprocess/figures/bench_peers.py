@@ -13,6 +13,7 @@ READ = read_campaign
 
 CODES = ("this package", "NGSolve")
 COLORS = (style.BLUE, style.VERMILION)
+SHAPES = dict(zip(range(1, 8), style.MARKERS, strict=True))  # by degree
 COLUMNS = (
     "script flags status scene kappa m order h forceError secondsBefore "
     "seconds_assembly seconds_factorisation seconds_contact"
@@ -20,7 +21,7 @@ COLUMNS = (
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
-    """A panel per problem: a digit a run, its degree; the line joins what no run of the same code beats."""
+    """A panel per problem: a mark a run, its shape the degree; the line joins what no run of the same code beats."""
     rows = [row for row in runs[0].rows("peers", COLUMNS) if good(row) and number(row, "forceError") > 0]
     problems = list(dict.fromkeys(map(problem, rows)))
     if not problems:
@@ -45,8 +46,10 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.set_ylabel("error in force")
     for name, color in zip(CODES, COLORS, strict=True):
         grid[0, 0].plot([], [], color=color, label=name)
-    grid[0, 0].plot([], [], linestyle="", marker="$4$", color=style.GREY, label="degree")
-    figure.legend(loc="outside upper center", ncols=3)
+    for degree in sorted({round(number(row, "order")) for row in rows}):
+        look = {"marker": SHAPES[degree], "markerfacecolor": "white", "color": style.GREY, "markersize": 4}
+        grid[0, 0].plot([], [], linestyle="", label=f"degree {degree}", **look)
+    figure.legend(loc="outside upper center", ncols=3, columnspacing=1)
     name_meshes(figure, rows)
     return figure
 
@@ -76,7 +79,16 @@ def draw_code(axes, rows: list[Row], color: str) -> None:
         points.append((seconds, number(group[0], "forceError"), round(number(group[0], "order"))))
     for degree in sorted({point[2] for point in points}):
         x, y = zip(*[point[:2] for point in points if point[2] == degree], strict=True)
-        axes.plot(x, y, linestyle="", marker=f"${degree}$", color=color, markersize=4.5, markeredgewidth=0.2)
+        axes.plot(
+            x,
+            y,
+            linestyle="",
+            marker=SHAPES[degree],
+            color=color,
+            markerfacecolor="white",
+            markersize=3.5,
+            markeredgewidth=0.8,
+        )
     front = []
     for seconds, error, _ in sorted(points):
         if not front or error < front[-1][1]:

@@ -12,12 +12,14 @@ FLOOR = 1e-13  # an error of exactly 0 has no place on a logarithmic axis
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """Left, over the CPU seconds from assembly to displacement; right, over factorisations, which no machine changes.
+    """(a) over the CPU seconds from assembly to displacement; (b) what no machine changes.
 
+    That is a method's factorisations, the least to the most over its meshes; where all runs have as many, unknowns.
     Dashed, where a contact solution would cost as much as one linear elastic solve of the same mesh.
     """
     figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
-    left, right = figure.subplots(1, 2, sharey=True)
+    left, right = figure.subplots(1, 2, width_ratios=[1.25, 1])
+    alike = len({run.summary["factorisations"] for run in runs}) == 1
     groups: dict = {}
     for run in runs:
         if not run.summary["converged"]:
@@ -28,7 +30,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         look = style.curve(index) | {"markersize": 4, "linewidth": 0.9, "markerfacecolor": "white"}
         error = np.maximum([force_error(run) for run in group], FLOOR)
         left.plot([seconds(run) for run in group], error, label=label, **look)
-        right.plot([run.summary["factorisations"] for run in group], error, **look)
+        if alike:
+            right.plot([run.summary["ndof"] for run in group], error, **look)
+        else:
+            draw_factorisations(right, index, [run.summary["factorisations"] for run in group], look["color"])
     for order in sorted({run.summary["order"] for run in runs}):
         same = [run for run in runs if run.summary["order"] == order]
         meshes = sorted({run.summary["h"] for run in same})
@@ -38,15 +43,33 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             least = [max(min(force_error(run) for run in group), FLOOR) for group in at]
             left.plot(linear, least, color=style.GREY, linewidth=0.9, linestyle=(0, (4, 1.5)), zorder=1)
     left.plot([], [], color=style.GREY, linewidth=0.9, linestyle=(0, (4, 1.5)), label="one linear elastic solve")
-    for axes, what in ((left, "CPU seconds"), (right, "factorisations")):
+    for axes in (left, right):
         axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel(what)
-        axes.grid(color="0.9", linewidth=0.5)
+        axes.grid(axis="x" if axes is right and not alike else "both", color="0.9", linewidth=0.5)
+        axes.set_title(style.panel(int(axes is right)), loc="left")
+    left.set_xlabel("CPU seconds")
+    left.set_yscale("log")
     left.set_ylabel("relative error of the force")
+    right.set_xlabel("unknowns" if alike else "factorisations")
+    if alike:
+        right.sharey(left)
+        right.set_yscale("log")
+        right.tick_params(labelleft=False)
+    else:
+        right.set_yticks(range(len(groups)), list(groups))
+        right.set_ylim(len(groups) - 0.4, -0.6)
+        right.set_xlim(0.8, 4 * max(run.summary["factorisations"] for run in runs))
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     style.name_elements(figure, runs)
     return figure
+
+
+def draw_factorisations(axes, place: int, counts: list[int], colour: str) -> None:
+    """A bar from the least to the most, its numbers beside it."""
+    least, most = min(counts), max(counts)
+    axes.plot([least, most], [place, place], color=colour, linewidth=5, marker="o", markersize=5)
+    words = f"{least}" if least == most else f"{least} to {most}"
+    axes.annotate(words, (most, place), (7, -3), textcoords="offset points", fontsize=8)
 
 
 def force_error(run: Run) -> float:

@@ -44,7 +44,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     whole, close = windows(run)
 
     figure = Figure(figsize=(style.PAGE, 0.64 * style.PAGE), layout="constrained")
-    grid = figure.subplots(3, len(chosen), sharex="row", sharey="row", squeeze=False, height_ratios=[1, 0.85, 0.85])
+    grid = figure.subplots(3, len(chosen), sharex="row", squeeze=False, height_ratios=[1, 0.85, 0.85])
     for column, (state, words) in enumerate(chosen):
         for axes, window in zip(grid[:2, column], (whole, close), strict=True):
             draw_state(axes, run, edges, state, line_weight(run, window, len(chosen)))
@@ -62,10 +62,20 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         row[0].set_ylabel(label)
         row[0].xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
         row[0].yaxis.set_major_locator(MaxNLocator(nbins=4, integer=row is not grid[2]))
-    models = run.adaptations
-    low, high = run.parameter("d0"), max(table["overlap"].max() for table in models)
+    low, high = run.parameter("d0"), max(table["overlap"].max() for table in run.adaptations)
+    own = []  # the panels whose overlap is of another size: that of the prescribed motion alone
+    for place, row in enumerate(grid):
+        for axes in row:
+            if place == 2 and axes.lines[0].get_ydata().max() > 3 * high:
+                own.append(axes)
+            elif axes is not row[0]:
+                axes.sharey(row[0])
+                axes.tick_params(labelleft=False)
     grid[2, 0].set_ylim(1.4 * low, high + 0.4 * (high - low))
-    grid[2, 1].legend(loc="center", fontsize=8, handlelength=1.5, labelspacing=0.2, bbox_to_anchor=(0.5, 0.42))
+    for axes in own:
+        axes.set_ylim(1.4 * low, None)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
+    grid[2, -1].legend(loc="center", fontsize=8, handlelength=1.5, labelspacing=0.2, bbox_to_anchor=(0.5, 0.42))
     grid[2, 0].annotate(
         "$d_0$", (close[0], low), xytext=(3, 2), textcoords="offset points", fontsize=8, color=style.GREY
     )

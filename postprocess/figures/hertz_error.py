@@ -60,6 +60,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
                 axes.axhspan(0.3 * FLOOR, FLOOR, color="0.9", linewidth=0, zorder=0)
         if index < 2:
             row[0].set_ylim(0.3 * FLOOR, None)
+        else:  # over whole decades: two labels at least
+            drawn = np.log10(np.concatenate([line.get_ydata() for axes in row for line in axes.lines]))
+            row[0].set_ylim(10 ** np.floor(drawn.min()), 10 ** np.ceil(drawn.max()))
     figure.align_ylabels()
     return figure
 

@@ -13,7 +13,7 @@ COLUMNS = "step fraction approach force pressureMax overlapMax contactPoints new
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """(a) force over approach, a curve a run, steps without contact left out; (b) the share of points in contact.
+    """(a) force over approach, a curve a run, from first touch on; (b) the share of points in contact.
 
     Of one run (c) the pressure at its end over x, and of the scene rough (d) both surfaces there, heights enlarged.
     """
@@ -26,8 +26,18 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     share.sharex(force)
     for index, run in enumerate(runs):
         rows = read_table(run.path / "series.csv", COLUMNS, "the run needs -history 1")
-        rows = {name: values[rows["force"] > 0] for name, values in rows.items()}
+        touched = rows["force"] > 0
+        before = np.flatnonzero(~touched & (np.cumsum(touched) == 0))  # steps before first touch
         name = f"{run.summary['scene']}, {style.method(run)}"
+        if len(before):  # an obstacle that touches nothing comes nearer by what it is moved
+            gap = run.parameter("d0") - rows["overlapMax"][before[-1]]
+            rows = {key: np.insert(values[touched], 0, 0) for key, values in rows.items()} | {
+                "approach": np.insert(rows["approach"][touched], 0, rows["approach"][before[-1]] + gap)
+            }
+            if index == 0:
+                mark_touch(force, rows["approach"][0])
+        else:
+            rows = {key: values[touched] for key, values in rows.items()}
         force.plot(rows["approach"], rows["force"], label=name, **style.curve(index))
         share.plot(rows["approach"], 100 * rows["contactPoints"] / run.summary["points"], **style.curve(index))
     force.set_ylabel(f"force\n[{units.stress}\n× {units.length}]")
@@ -44,6 +54,12 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     figure.align_ylabels()
     style.name_elements(figure, runs)
     return figure
+
+
+def mark_touch(axes, approach: float) -> None:
+    """Where the first asperities touch, in words."""
+    axes.plot([approach], [0], marker="|", markersize=12, color=style.GREY, clip_on=False)
+    axes.text(0.03, 0.9, f"first touch at {approach:.3g}", transform=axes.transAxes, color=style.GREY, fontsize=8)
 
 
 def draw_end(panels: list, run: Run, units: style.Units) -> None:

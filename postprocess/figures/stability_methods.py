@@ -49,7 +49,7 @@ def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float 
     figure = Figure(
         figsize=(style.PAGE, style.PAGE * (0.06 + high * (0.34 if wide == 4 else 0.36))), layout="constrained"
     )
-    figure.suptitle(f"{title} (hatched: failed)", fontsize=9, x=0.01, ha="left")
+    figure.suptitle(f"{title} (hatched: failed; dot: not run)", fontsize=9, x=0.01, ha="left")
     outer = figure.add_gridspec(high, wide)
     for place, (name, rows) in enumerate(groups.items()):
         power = select(rows, law="power")

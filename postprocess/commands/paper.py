@@ -1,0 +1,150 @@
+"""write the page on which the paper's claims stand beside what comes out
+
+FOLDER holds the runs of `make paper`, one a folder: h-0.5, h-0.25-d0, newton, ...; FIGURES the paper's two figures with
+their runs. Every number of the page is read from a run; the words about it are checked by it.
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from postprocess import page
+from postprocess.output import write_files
+from postprocess.page import Markup, element, joined, section, table
+from postprocess.results import ResultsError, Run, read_run
+from postprocess.tree import read_png
+from postprocess.words import command
+
+SIZES = ("1", "0.5", "0.25", "0.1")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", metavar="FOLDER", type=Path, help="folder of the runs of make paper")
+    parser.add_argument("--figures", required=True, metavar="FIGURES", type=Path, help="folder of figure1 and figure2")
+    parser.add_argument("--out", required=True, metavar="FILE.html", type=Path, help="where to write")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Writes the page and prints its path."""
+    runs = {path.parent.name: read_run(path.parent) for path in sorted(arguments.folder.glob("*/summary.json"))}
+    wanted = [*(f"h-{h}{start}" for h in SIZES for start in ("", "-d0")), "newton"]
+    wanted += ["stiff", "stiff-d0", "stiff-newton"]
+    missing = [name for name in wanted if name not in runs]
+    if missing:
+        raise ResultsError(arguments.folder, f"has no run {missing[0]}: make paper makes them")
+    figures = {name: read_run(arguments.figures / name) for name in ("paper", "incremental")}
+    pictures = {name: read_png(arguments.figures / f"{name}.png") for name in ("figure1", "figure2")}
+    for path in write_files({arguments.out: build(runs, figures, pictures).encode()}):
+        print(path)
+
+
+def counts(run: Run) -> str:
+    """Adaptations / Newton steps."""
+    return f"{run.summary['adaptations']} / {run.summary['newton']}"
+
+
+def never_falls(run: Run) -> bool:
+    """Proposition 4.1: no threshold of a model is below that of the model before, at any point."""
+    tau = np.array([table["tau"] for table in run.adaptations])
+    return bool(np.all(np.diff(tau, axis=0) >= 0))
+
+
+def difference(one: Run, other: Run) -> float:
+    """Of two runs' pressures on one mesh, the greatest difference over the greatest pressure."""
+    a, b = one.contact["pressure"], other.contact["pressure"]
+    return float(np.abs(a - b).max() / b.max())
+
+
+def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, bytes]) -> str:
+    """The page."""
+    base, meshed = runs["h-0.5"], figures["paper"]
+    away = difference(meshed, figures["incremental"])
+    schemes = [each for name, each in runs.items() if "newton" not in name]
+    falls = [each for each in [*schemes, meshed] if not never_falls(each)]
+    adaptations = [runs[f"h-{h}{start}"].summary["adaptations"] for h in SIZES for start in ("", "-d0")]
+    fewest, most = min(adaptations), max(adaptations)
+    small = figures["incremental"].summary["newton"]
+    plain, stiff = runs["newton"].summary["newton"], runs["stiff-newton"].summary["newton"]
+    claims = [
+        (
+            "§5: the full-compliant solution after 3 adaptations with 12 Newton steps in total",
+            base,
+            f"{counts(base)}; with both bodies meshed {counts(meshed)}",
+            counts(base) == counts(meshed) == "3 / 12",
+            "P1, h = 0.5, T⁰ = 0; the paper does not name its mesh, and the count depends on it (below)",
+        ),
+        (
+            "§5, Figure 1: one load step, though the bodies pass through each other when the motion is prescribed",
+            meshed,
+            f"converged in one step: {'yes' if meshed.summary['converged'] else 'no'}",
+            bool(meshed.summary["converged"]),
+            "the figure below",
+        ),
+        (
+            "§5, Figure 2: the pressures are those of many small load steps on the full law",
+            figures["incremental"],
+            f"greatest difference {away:.1e} of the greatest pressure",
+            away < 1e-4,
+            "both solve one discrete problem; 20 load steps",
+        ),
+        (
+            "§5: very efficient compared with a classical resolution with many small steps",
+            figures["incremental"],
+            f"20 load steps: {small} Newton steps",
+            small > meshed.summary["newton"],
+            "",
+        ),
+        (
+            "§5: the classical model will probably fail in one step, its tangent being ill-conditioned",
+            runs["newton"],
+            f"plain Newton on the full law, one step: converged after {plain}",
+            plain > base.summary["newton"],
+            "it takes fewer steps than the scheme: the law of this test is soft, and models cost",
+        ),
+        (
+            "§1: the scheme is for stiff laws, which classical schemes hardly solve",
+            runs["stiff-d0"],
+            f"κ = 1e12: plain Newton {stiff}; T⁰ = 0: {counts(runs['stiff'])}; T⁰ = d0: {counts(runs['stiff-d0'])}",
+            runs["stiff-d0"].summary["newton"] < stiff,
+            "from T⁰ = d0; from T⁰ = 0 the wall is never met, and the scheme is plain Newton, which is slow, not lost",
+        ),
+        (
+            "Proposition 4.1: thresholds never decrease",
+            base,
+            f"{len(schemes) + 1} runs, every point and model: {'none falls' if not falls else 'some fall'}",
+            not falls,
+            "of τ = T − d0, as the proposition has it",
+        ),
+    ]
+    rows = [[claim, element("code", command(each)), out, verdict(well), why] for claim, each, out, well, why in claims]
+    claimed = table("Claims", ["the paper", "command", "comes out", "agrees", "why, or on what"], rows)
+    meshes = table(
+        "Adaptations / Newton steps by mesh",
+        ["h, P1", "T⁰ = 0", "T⁰ = d0"],
+        [[h, counts(runs[f"h-{h}"]), counts(runs[f"h-{h}-d0"])] for h in SIZES],
+        [1, 2],
+    )
+    words = (
+        f"The number of adaptations, {fewest} to {most} here, is not one of the scheme: a point that newly comes into "
+        "contact still has its first threshold, and a finer mesh has more such points."
+    )
+    seen = {
+        "figure1": "The paper's Figure 1: at rest, the motion prescribed, the first model solved, converged",
+        "figure2": "The paper's Figure 2: pressure by the scheme on that of 20 load steps",
+    }
+    drawn = [page.picture(pictures[name], text, Markup(text + ".")) for name, text in seen.items()]
+    parts = [
+        element("h1", "The paper's claims, and what comes out"),
+        element(
+            "p", "H. Ben Dhia, S. Du. An eXtended-Newton scheme for the solution of stiff normal contact problems."
+        ),
+        section("claims", "Claims", claimed),
+        section("meshes", "On other meshes", element("p", words), meshes),
+        section("figures", "Figures", *drawn),
+    ]
+    return page.document("The paper, reproduced", element("main", joined(parts), id="main"))
+
+
+def verdict(well: bool) -> Markup:
+    return element("span", "yes" if well else "NO", class_="pass" if well else "fail")

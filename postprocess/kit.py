@@ -1,0 +1,317 @@
+"""The teaching kit: slides with notes, handouts without answers, tables of expected values, from the labs' own pages.
+
+Sources: edp/labs/slides.md (slides between lines `---`, notes after `Notes:`), the labs' README.md and ANSWERS.md,
+edp/labs/CRIB.md, lab 0's page with edp/labs/block.txt in place of gmsh's mesh, and a run of lab 3 for the film.
+"""
+
+import base64
+import csv
+import html
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from postprocess import markdown, page, style
+from postprocess.page import Markup, element, joined
+from postprocess.results import ResultsError, Run, read_run
+
+LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
+PAGE = "0-algorithm/algorithm1.edp"
+SLIDE = (7.2, 3.3)  # inches of a drawn slide
+# Of lab 0's page: what a slide has no room for
+LEFT_OUT = re.compile(
+    r"\s*([{}].*|(cout|plot|set|matrix D|int (changes|newton|j)|real (residual|off|modelError)).*|\w+\+\+;|[TSf] = \w+;"
+    r"|(diagonal|changes|modelError) = 0;)"
+)
+
+
+def folders() -> list[Path]:
+    """The labs' folders, in their order."""
+    return sorted(path.parent for path in LABS.glob("[0-9]*/README.md"))
+
+
+def read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError:
+        raise ResultsError(path, "is not there: the kit is made of a checkout's own pages") from None
+
+
+# ---------------------------------------------------------------- pictures
+
+
+HEAD = (
+    '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+    '<link rel="icon" href="data:,">'
+)
+
+
+def whole(title: str, css: str, body: str) -> bytes:
+    """A page with a look of its own, of the folder templates."""
+    style_sheet = f"<title>{html.escape(title)}</title><style>{template_file(css)}</style>"
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{HEAD}{style_sheet}</head>\n<body>{body}</body></html>\n'.encode()
+
+
+def template_file(name: str) -> str:
+    return read(page.TEMPLATES / name).strip()
+
+
+def embedded(png: bytes) -> str:
+    return "data:image/png;base64," + base64.b64encode(png).decode()
+
+
+def image(figure: Figure, alt: str) -> Markup:
+    """A figure within a page."""
+    written = io.BytesIO()
+    figure.savefig(written, format="png", dpi=150, metadata={"Software": None})
+    return Markup(f'<img src="{embedded(written.getvalue())}" alt="{html.escape(alt, quote=True)}">')
+
+
+def laws() -> Markup:
+    """Contact laws with the same pressure at s = 0.15, and hard contact."""
+    figure = Figure(figsize=SLIDE, layout="constrained")
+    axes = figure.subplots()
+    d0, s = -0.25, np.linspace(0, 0.2495, 400)
+    shown = (
+        (r"power, $m = 2$", s**2, style.SKY),
+        (r"power, $m = 3$: the paper's", s**3, style.BLUE),
+        (r"power, $m = 10$", s**10, "#003355"),
+        (r"exponential", np.exp(20 * s) - 1, style.GREEN),
+        (r"barrier: the mean planes never meet", s / (-d0 - s), style.ORANGE),
+    )
+    for name, p, colour in shown:
+        axes.plot(s, 10 * p / np.interp(0.15, s, p), color=colour, label=name, linewidth=1.8)
+    axes.plot([-0.05, 0, 0], [0, 0, 40], color=style.VERMILION, linewidth=2.2, label="hard contact")
+    axes.set_xlim(-0.05, 0.26)
+    axes.set_ylim(0, 40)
+    axes.axvline(-d0, color=style.GREY, linewidth=0.6, linestyle=(0, (4, 2)))
+    axes.set_xlabel("overlap of the asperities $s = d - d_0$")
+    axes.set_ylabel("pressure $p$")
+    figure.legend(loc="outside right upper")
+    return image(
+        figure, "Pressure over overlap: the greater the exponent, the later and steeper; hard contact is a wall"
+    )
+
+
+def tangents() -> Markup:
+    """Newton's tangents on p = kappa s^3 from far to the right."""
+    figure = Figure(figsize=SLIDE, layout="constrained")
+    axes = figure.subplots()
+    s = np.linspace(0, 1.05, 300)
+    axes.plot(s, s**3, color=style.BLUE, linewidth=1.8)
+    axes.plot([0, 1.05], [0.03, 0.03 * (1 - 1.05 / 1.1)], color=style.GREY)
+    at = 1.0
+    for step in range(4):
+        after = (2 * at**3 + 0.03) / (3 * at**2 + 0.03 / 1.1)
+        axes.plot([at, at], [0, at**3], color=style.VERMILION, linewidth=0.7, linestyle=":")
+        axes.plot([after, at], [max(0.03 * (1 - after / 1.1), 0), at**3], color=style.VERMILION, linewidth=1.2)
+        axes.plot([at], [at**3], "o", color=style.VERMILION)
+        axes.annotate(f"{step}", (at, at**3), (5, -4), textcoords="offset points", fontsize=10)
+        at = after
+    axes.set_xticks([0, 1], ["0", r"$\delta$"])
+    axes.set_yticks([])
+    axes.set_xlabel("$s$")
+    axes.set_ylabel("pressure")
+    axes.text(0.74, 0.5, "the law", color=style.BLUE, ha="right")
+    axes.text(0.1, 0.06, "the body", color=style.GREY)
+    return image(figure, "Newton's iterates come down the law's curve, each tangent taking off the same share of s")
+
+
+def model() -> Markup:
+    """The law cut off at T by a wall."""
+    figure = Figure(figsize=SLIDE, layout="constrained")
+    axes = figure.subplots()
+    s = np.linspace(0, 0.42, 200)
+    axes.plot(s, 100 * s**3, color=style.GREY, linestyle=(0, (3, 2)), label="the law")
+    low = s[s <= 0.25]
+    axes.plot(low, 100 * low**3, color=style.BLUE, linewidth=2.2)
+    axes.plot([0.25, 0.25], [100 * 0.25**3, 8], color=style.VERMILION, linewidth=2.2)
+    axes.plot([-0.05, 0], [0, 0], color=style.BLUE, linewidth=2.2)
+    axes.annotate("", (0.257, 5), (0.257, 100 * 0.25**3), arrowprops={"arrowstyle": "<->", "color": style.BLACK})
+    axes.text(0.263, 3, r"$\lambda$", fontsize=12)
+    axes.text(0.1, 2.2, "$d < T$: the law", color=style.BLUE)
+    axes.text(0.245, 6.5, "$d = T$: the wall", color=style.VERMILION, ha="right")
+    axes.plot([0.25, 0.368], [5, 5], color=style.BLACK, linewidth=0.7, linestyle=":")
+    axes.plot([0.368, 0.368], [0, 5], color=style.BLACK, linewidth=0.7, linestyle=":")
+    axes.set_xticks([0, 0.25, 0.368], ["$d_0$", "$T$", "next $T$"])
+    axes.set_yticks([])
+    axes.set_xlim(-0.05, 0.42)
+    axes.set_ylim(0, 8)
+    axes.set_xlabel("overlap $d$")
+    axes.set_ylabel("pressure")
+    return image(
+        figure, "The law up to T, there a wall that carries the rest; the next T is where the law gives that pressure"
+    )
+
+
+def film(run: Run) -> Markup:
+    """A picture a model: overlap, threshold and pressure along x; buttons on a screen, all of them on paper."""
+    models = run.adaptations
+    reach = 1.25 * np.abs(run.contact["x"][run.contact["pressure"] > 0]).max()
+    most = max(table["pressure"].max() for table in models)
+    low = 1.3 * run.parameter("d0")
+    high = 1.6 * max(table["overlap"].max() for table in models) - 0.1 * low
+    frames = []
+    for number, table in enumerate(models, 1):
+        figure = Figure(figsize=SLIDE, layout="constrained")
+        above, below = figure.subplots(2, 1, sharex=True)
+        x, wall = table["x"], table["status"] == 2
+        above.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6)
+        above.plot(x, table["threshold"], color=style.BLUE, linestyle=(0, (4, 1.5)), label="threshold $T$")
+        above.plot(x, table["overlap"], color=style.VERMILION, label="overlap $d$")
+        above.plot(x[wall], table["overlap"][wall], "s", color=style.VERMILION, markersize=4, label="at the wall")
+        above.set_ylim(low, high)
+        above.set_ylabel("overlap")
+        words = f"{wall.sum()} points at the wall" if wall.any() else "no wall acts: this is the law"
+        above.set_title(f"model {number}: {words}", loc="left", fontsize=11)
+        below.plot(x, table["pressure"], color=style.BLACK)
+        below.set_ylim(0, 1.1 * most)
+        below.set_xlim(-reach, reach)
+        below.set_ylabel("pressure")
+        below.set_xlabel("$x$")
+        figure.legend(*above.get_legend_handles_labels(), loc="outside right upper")
+        frames.append(element("div", image(figure, f"Model {number}: {words}"), class_="frame"))
+    names = [("back", "◀ model before"), ("on", "next model ▶"), ("play", "play")]
+    buttons = joined((element("button", words, type="button", data_do=name) for name, words in names), " ")
+    return element("div", joined([*frames, element("p", buttons, class_="buttons")]), class_="film")
+
+
+def algorithm() -> Markup:
+    """The loops of lab 0's page without brackets, printing and declarations, in two columns."""
+    text = read(LABS / PAGE)
+    lines = text[text.index("while (modelError") : text.index("cout.precision")].splitlines()
+    kept = [line for line in lines if line.strip() and not LEFT_OUT.fullmatch(line)]
+    out = []
+    for line in kept:
+        code, _, words = line.partition("//")
+        number = re.match(r" line (\d+)", words)
+        out.append(f"{f'{number[1]:>2} ' if number else '   '}{code.rstrip()}")
+    return Markup(f'<pre class="algorithm">{html.escape(chr(10).join(out))}</pre>')
+
+
+# ---------------------------------------------------------------- pages
+
+
+def with_mesh() -> str:
+    """Lab 0's page with buildmesh's mesh: one file that needs FreeFEM alone."""
+    text, block = read(LABS / PAGE), read(LABS / "block.txt")
+    begin, end = text.index("// the package's mesh of the block"), text.index("// eq. (2)")
+    block = "\n".join(line for line in block.splitlines() if not line.startswith("//"))
+    text = text[:begin] + "// the block; sides of 0.5 where the disc can touch\n" + block + "\n\n" + text[end:]
+    for plugin in ("gmsh", "shell"):
+        text = text.replace(f'load "{plugin}"\n', "")
+    return text.replace("no module:", "no module, no gmsh:")
+
+
+def plain(text: str) -> str:
+    """A page without what leads to answers: a link's words stay."""
+    return "\n".join(line for line in text.splitlines() if "ANSWERS" not in line and "INSTRUCTOR" not in line)
+
+
+def picture_of(folder: Path):
+    def embed(source: str) -> str:
+        path = folder / source
+        if not path.is_file():
+            raise ResultsError(path, "is not there")
+        kind = "gif" if path.suffix == ".gif" else "png"
+        return f"data:image/{kind};base64," + base64.b64encode(path.read_bytes()).decode()
+
+    return embed
+
+
+def unlinked(target: str) -> str:
+    return target if target.startswith("http") else ""
+
+
+def sheet(title: str, text: str, folder: Path) -> bytes:
+    """A page to print."""
+    body = element("main", markdown.markup(text, unlinked, picture_of(folder)), id="main")
+    return page.document(title, body).encode()
+
+
+def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
+    """(title, content, notes) of each slide."""
+    drawn = {"laws": laws, "tangents": tangents, "model": model, "algorithm": algorithm, "film": lambda: film(run)}
+    found = []
+    with style.look():
+        for text in re.split(r"^---$", read(LABS / "slides.md"), flags=re.M):
+            shown, _, notes = text.partition("\nNotes: ")
+            title = re.search(r"^# (.*)$", shown, re.M)[1]
+            content = markdown.markup(shown, unlinked, picture_of(LABS))
+            for name in re.findall(r"<p>\{\{(\w+)\}\}</p>", content):
+                content = Markup(content.replace(f"<p>{{{{{name}}}}}</p>", drawn[name]()))
+            found.append((title, content, markdown.markup(notes, unlinked)))
+    return found
+
+
+def slide_page(found: list[tuple[str, Markup, Markup]]) -> bytes:
+    """The slides: arrow keys on a screen, a page each on paper."""
+    sections = "\n".join(
+        f'<section data-number="{place}" aria-label="{html.escape(title, quote=True)}">{content}</section>'
+        for place, (title, content, _) in enumerate(found, 1)
+    )
+    script = f"<script>{template_file('slides.js')}</script>"
+    return whole(found[0][0], "slides.css", f"\n<main>\n{sections}\n</main>\n{script}\n")
+
+
+def listing(text: str) -> bytes:
+    """A program in two columns, lines numbered."""
+    lines = "".join(
+        f'<span data-n="{place}">{html.escape(line)}</span>' for place, line in enumerate(text.splitlines(), 1)
+    )
+    title = "algorithm1.edp: Algorithm 1 on one page of plain FreeFEM"
+    return whole(title, "listing.css", f'<main class="two"><h1>{title}</h1><pre>{lines}</pre></main>')
+
+
+def template(answers: str) -> str:
+    """An answers.csv to fill in: the runs and quantities of a lab's tables, without the values."""
+    lines = io.StringIO()
+    to = csv.writer(lines, lineterminator="\n")
+    to.writerow(["flags", "quantity", "value"])
+    for head, rows in markdown.tables(answers):
+        for flags, *values in rows:
+            for name, value in zip(head[1:], values, strict=True):
+                if value != "–":
+                    to.writerow([flags.replace("`", ""), name.replace("`", ""), ""])
+    return lines.getvalue()
+
+
+def make(folder: Path) -> dict[str, bytes]:
+    """Every file of the kit by its name; `folder`: a run of lab 3."""
+    found = slides(read_run(folder))
+    files = {"slides.html": slide_page(found)}
+    notes = [joined([element("h2", f"{place}. {title}"), words]) for place, (title, _, words) in enumerate(found, 1)]
+    files["notes.html"] = page.document(
+        "Speaker's notes", element("main", joined([element("h1", "Speaker's notes"), *notes]), id="main")
+    ).encode()
+    own = with_mesh()
+    files["algorithm1.edp"] = own.encode()
+    files["algorithm1.html"] = listing(own)
+    files["crib.html"] = sheet("FreeFEM's idioms in lab 0", read(LABS / "CRIB.md"), LABS)
+    expected = []
+    for lab in folders():
+        name = lab.name
+        files[f"handout-{name}.html"] = sheet(f"Lab {name}", plain(read(lab / "README.md")), lab)
+        answers = read(lab / "ANSWERS.md")
+        files[f"answers-{name}.csv"] = template(answers).encode()
+        expected.append(answers)
+    files["expected.html"] = sheet("Expected values", "# For the teacher alone\n\n" + "\n\n".join(expected), LABS)
+    words = {
+        "slides.html": "slides: arrow keys; printed, a page each",
+        "notes.html": "the speaker's notes",
+        "algorithm1.edp": "lab 0 in one file, for FreeFEM alone, no gmsh",
+        "algorithm1.html": "the same to print, two columns",
+        "crib.html": "FreeFEM's idioms in it",
+        "expected.html": "answers and expected values: for the teacher alone",
+    }
+    words |= {f"handout-{lab.name}.html": f"handout, lab {lab.name}" for lab in folders()}
+    words |= {
+        f"answers-{lab.name}.csv": f"to fill in, then make check-lab {lab.name[0]} ANSWERS=file" for lab in folders()
+    }
+    items = (element("li", joined([element("a", name, href=name), ": ", text], "")) for name, text in words.items())
+    body = element("main", joined([element("h1", "Teaching kit"), element("ul", joined(items))]), id="main")
+    files["index.html"] = page.document("Teaching kit", body).encode()
+    return files

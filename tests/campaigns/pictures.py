@@ -1,0 +1,133 @@
+"""The README's two pictures of campaigns, from the tables that `make tables` has written: no campaign is run for them.
+
+`python tests/campaigns/pictures.py --out FILE ...` writes readme-peers.png, readme-stability.png: legible at 85 mm.
+"""
+
+import argparse
+import io
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from tables import DOCUMENT, MARKED
+
+from postprocess import style
+from postprocess.output import write_files
+
+SIZE = (style.COLUMN, 0.8 * style.COLUMN)
+DOTS = 210  # an inch: twice what a screen shows of half a page
+
+
+def cells(name: str, text: str | None = None) -> list[list[str]]:
+    """The rows of a table of tests/RESULTS.md, its head first."""
+    (table,) = [found[3] for found in MARKED.finditer(text or DOCUMENT.read_text()) if found[2] == name]
+    lines = [line for line in table.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if not line.startswith("| ---")]
+
+
+def seconds(cell: str) -> tuple[float, float]:
+    """Package's and NGSolve's, of a cell such as "0.043 P2 / 0.025 P2"; NaN where the error was not reached."""
+    both = [re.match(r"[\d.]+", part.strip()) for part in cell.split("/")]
+    return tuple(float(found[0]) if found else np.nan for found in both)
+
+
+# The table's first column: words, colour, line, and where the words stand: place along the line, points off it, side
+PROBLEMS = {
+    "1e12, 3": (r"$\kappa = 10^{12}$, $m = 3$", style.VERMILION, "-", (4, (6, -3), "left")),
+    "1e9, 3": (r"$\kappa = 10^9$, $m = 3$", style.ORANGE, "-", (4, (0, 7), "center")),
+    "1e3, 3": (r"$m = 3$", style.BLUE, "-", (5, (6, -6), "left")),
+    "1e3, 10": (r"$m = 10$", style.BLUE, "--", (5, (6, -1), "left")),
+    "1e3, 20": (r"$m = 20$", style.BLUE, ":", (5, (6, -3), "left")),
+    "sphere, 1e3, 3": ("sphere", style.GREEN, "-", (0, (4, 3), "left")),
+}
+
+
+def peers() -> Figure:
+    """NGSolve's least CPU seconds over this package's, to the same error: a line a problem."""
+    head, *rows = cells("peers")
+    errors = np.array([float(cell) for cell in head[1:]])
+    figure = Figure(figsize=SIZE, layout="constrained")
+    axes = figure.subplots()
+    axes.axhline(1, color=style.GREY, linewidth=0.8)
+    for problem, *found in rows:
+        words, colour, line, (place, away, side) = PROBLEMS[problem]
+        ours, theirs = np.array([seconds(cell) for cell in found]).T
+        ratio = theirs / ours
+        axes.plot(errors, ratio, color=colour, linestyle=line, marker="o", markersize=3.5)
+        at = min(place, int(np.flatnonzero(np.isfinite(ratio))[-1]))
+        axes.annotate(
+            words, (errors[at], ratio[at]), away, textcoords="offset points", color=colour, ha=side, fontsize=8.5
+        )
+    axes.text(6e-6, 0.215, r"$\kappa = 1000$", color=style.BLUE, ha="center", fontsize=8.5)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(4e-3, 5e-9)  # the smaller error to the right
+    axes.set_xticks([1e-3, 1e-4, 1e-5, 1e-6, 1e-7])
+    axes.xaxis.minorticks_off()
+    axes.set_yticks([0.3, 1, 3, 10], ["0.3", "1", "3", "10"])
+    axes.set_ylim(0.18, 25)
+    axes.yaxis.minorticks_off()
+    axes.set_xlabel("error in force")
+    axes.set_ylabel("NGSolve's seconds / this package's")
+    axes.text(0.98, 0.04, "NGSolve takes less", transform=axes.transAxes, ha="right", color=style.GREY, fontsize=8.5)
+    axes.text(0.02, 0.94, "this package takes less", transform=axes.transAxes, color=style.GREY, fontsize=8.5)
+    return figure
+
+
+def stability() -> Figure:
+    """Newton steps over stiffness: plain Newton by exponent, the default method's least and most over all exponents."""
+    head, *rows = cells("newton-map")
+    stiffness = [row[0] for row in rows]
+    across = np.arange(len(rows))
+    figure = Figure(figsize=SIZE, layout="constrained")
+    axes = figure.subplots()
+    shades = ("#F4B183", "#E8863C", style.VERMILION, "#8C3D00")  # exponents are ordered: one hue, ever darker
+    for column, (exponent, colour) in enumerate(zip(head[1:], shades, strict=True), 1):
+        steps = [int(row[column]) for row in rows]
+        axes.plot(across, steps, color=colour, marker="o", markersize=3.5)
+        words = exponent.removeprefix("m = ")
+        axes.annotate(
+            f"$m = {words}$", (across[-1], steps[-1]), (5, -3), textcoords="offset points", color=colour, fontsize=8.5
+        )
+    counts = np.array([[int(cell.split("/")[0]) for cell in row[1:]] for row in cells("counts-map")[1:]])
+    axes.fill_between(across, counts.min(axis=1), counts.max(axis=1), color=style.BLUE, linewidth=3)
+    axes.annotate(
+        f"default method: {counts.min()} to {counts.max()},\nany $m$ from 1.05 to 30",
+        (across[-3], counts[-3].max()),
+        (0, 1),
+        textcoords="offset points",
+        color=style.BLUE,
+        ha="left",
+        va="bottom",
+        fontsize=8.5,
+    )
+    axes.text(0.02, 0.93, "plain Newton", transform=axes.transAxes, color=shades[2], fontsize=9)
+    powers = [f"$10^{{{round(np.log10(float(text)))}}}$" for text in stiffness]
+    axes.set_xticks(across, powers)
+    axes.set_xlim(-0.2, len(rows) + 0.05)
+    axes.set_ylim(0, 90)
+    axes.set_xlabel(r"stiffness $\kappa$")
+    axes.set_ylabel("Newton steps")
+    return figure
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {"readme-peers.png": peers, "readme-stability.png": stability}
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", type=Path, nargs="+", required=True, metavar="FILE", help="readme-*.png, one or both")
+    for path in parser.parse_args(argv).out:
+        written = io.BytesIO()
+        with style.look():
+            PICTURES[path.name]().savefig(written, dpi=DOTS, facecolor="white")
+        write_files({path: written.getvalue()})
+        print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

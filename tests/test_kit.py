@@ -1,0 +1,149 @@
+"""The teaching kit: slides, handouts, lab 0 without gmsh, and what make check-lab says of answers and laws."""
+
+import base64
+import csv
+import re
+import tempfile
+
+import pytest
+from browser import CHROMIUM, Browser
+from freefem import FREEFEM, ROOT, execute, run_in
+from test_labs import BARE, LABS, answers, number_printed
+from test_readme import fences
+
+from postprocess import kit, markdown
+from postprocess.__main__ import main
+
+CHECK = "check_lab"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The kit's folder."""
+    folder = tmp_path_factory.mktemp("kit")
+    page = ROOT / "edp/labs/3-threshold/threshold.edp"
+    film = run_in(ROOT, page, "-h", 0.5, "-vtu", 0, "-estimate", 0, out=folder / "film").folder
+    assert main(["kit", str(film), "--out", str(folder / "kit")]) == 0
+    return folder / "kit"
+
+
+def test_slides(made):
+    """15 to 20 slides, a note each; the thirty lines are those of lab 0's page; no mark of Markdown is left."""
+    with_notes = re.findall(r"<h2>\d+\. ", (made / "notes.html").read_text())
+    text = (made / "slides.html").read_text()
+    assert 15 <= len(with_notes) == text.count("<section") <= 20
+    shown = re.search(r'<pre class="algorithm">(.*?)</pre>', text, re.S)[1]
+    lines = [line[3:].strip() for line in shown.splitlines()]
+    page = (ROOT / "edp/labs" / kit.PAGE).read_text().replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
+    assert len(lines) <= 30 and all(line in page for line in lines)
+    assert [int(n) for n in re.findall(r"^ ?(\d+) ", shown, re.M)] == [1, 2, 3, 4, 5, 6, 8, 9]
+    assert "{{" not in text
+    for path in made.glob("*.html"):
+        words = re.sub(r"<(pre|code|style|script).*?</\1>|<[^>]*>", "", path.read_text(), flags=re.S)
+        assert not re.search(r"\*\*|\]\(|^#|^\|", words, re.M), path
+
+
+def test_handouts(made):
+    """A handout a lab, with its pictures, without answers or a link but to what is on the net."""
+    assert sorted(path.stem for path in made.glob("handout-*.html")) == [f"handout-{lab}" for lab in LABS]
+    for path in made.glob("handout-*.html"):
+        text = path.read_text()
+        assert "data:image/png" in text and "ANSWERS" not in text
+        assert all(target.startswith(("http", "#", "data:")) for target in re.findall(r'href="([^"]*)"', text))
+
+
+def test_index(made):
+    """The first page shall name every other file."""
+    named = set(re.findall(r'href="([^#":]+)"', (made / "index.html").read_text()))
+    assert named == {path.name for path in made.iterdir()} - {"index.html"}
+
+
+def test_the_page_without_gmsh(made, tmp_path):
+    """Lab 0 in one file shall run anywhere, and have the paper's count; its force that of a like mesh."""
+    assert "gmsh" not in re.sub(r"//.*", "", (made / "algorithm1.edp").read_text())
+    code, stdout = execute([*FREEFEM, made / "algorithm1.edp"], tmp_path, BARE)
+    assert code == 0, stdout
+    assert (number_printed(stdout, "adaptations"), number_printed(stdout, "Newton steps")) == (3, 12)
+    assert number_printed(stdout, "force") == pytest.approx(152.09, rel=0.01)
+
+
+@pytest.mark.skipif(not CHROMIUM, reason="needs Chromium")
+def test_on_a_screen(made):
+    """Slides go on by keys, the film by buttons; the listing is one sheet, the slides a page each."""
+    with tempfile.TemporaryDirectory() as profile, Browser(profile) as browser:
+        page = browser.open(made / "slides.html", 1280, 720)
+        page.evaluate("dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight'}))")
+        page.wait("here() == 1")
+        page.evaluate("document.querySelector('[data-do=on]').click()")
+        shown = "[...document.querySelectorAll('.frame')].findIndex(f => f.classList.contains('now'))"
+        assert page.evaluate(shown) == 1 and page.evaluate("slides.length") >= 15
+        wide = "slides.filter(s => s.scrollWidth > innerWidth + 1).map(s => s.dataset.number)"
+        assert page.evaluate(wide) == [] and not page.messages and len(page.requests) == 1
+        for name, sheets in (("slides.html", page.evaluate("slides.length")), ("algorithm1.html", 1)):
+            page = browser.open(made / name)
+            printed = page.call("Page.printToPDF", preferCSSPageSize=True)["data"]
+            assert len(re.findall(rb"/Type /Page\b", base64.b64decode(printed))) == sheets, name
+
+
+# ---------------------------------------------------------------- answers
+
+
+def filled(lab, folder, change=lambda value: value):
+    """A lab's answers.csv with the page's own values."""
+    lines = [["flags", "quantity", "value"]]
+    for head, rows in markdown.tables(answers(lab)):
+        for flags, *cells in rows:
+            lines += [[flags, name, change(c)] for name, c in zip(head[1:], cells, strict=True) if c != "–"]
+    path = folder / "answers.csv"
+    with path.open("w") as file:
+        csv.writer(file).writerows(lines)
+    return path
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_answers(lab, made, tmp_path, capsys):
+    """The page's own values shall be well, all; those 2 % off, but zeros, none; the template asks for the same."""
+    assert main([CHECK, lab[0], str(filled(lab, tmp_path))]) == 0
+    said = capsys.readouterr().out
+    assert "OFF" not in said
+    asked = (made / f"answers-{lab}.csv").read_text().splitlines()[1:]
+    assert len(asked) == len(said.splitlines()) - 1 and all(line.endswith(",") for line in asked)
+    path = filled(lab, tmp_path, lambda cell: 1.02 * kit_number(cell))
+    with pytest.raises(SystemExit) as ended:
+        main([CHECK, lab[0], str(path)])
+    assert ended.value.code == 1 and capsys.readouterr().out.count("OFF") > 0.6 * len(asked)
+
+
+def kit_number(cell):
+    return float(cell.replace("−", "-"))
+
+
+@pytest.mark.parametrize("text, why", [("a,b\n1,2\n", "first line"), ("flags,quantity,value\n-m 2,x,\n", "no value")])
+def test_answers_refused(text, why, tmp_path, capsys):
+    """What is no answers.csv shall be refused in one line."""
+    (tmp_path / "a.csv").write_text(text)
+    assert main([CHECK, "2", str(tmp_path / "a.csv")]) == 2
+    assert why in capsys.readouterr().err
+    assert main([CHECK, "12", str(tmp_path / "a.csv")]) == 2
+    assert "allowed: 0 1 2" in capsys.readouterr().err
+
+
+def test_a_law(tmp_path, capsys):
+    """The answers' law shall be well; with a slope twice too steep that check alone is off."""
+    (law,) = fences(answers("4-own-law"), "freefem")
+    path = tmp_path / "mine.idp"
+    path.write_text(law)
+    assert main([CHECK, "4", str(path)]) == 0
+    path.write_text(law.replace("? soft : stiff)", "? 2 * soft : 2 * stiff)"))
+    capsys.readouterr()
+    with pytest.raises(SystemExit):
+        main([CHECK, "4", str(path)])
+    (off,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith("OFF")]
+    assert "slope" in off
+
+
+def test_make_check_lab(tmp_path):
+    """`make check-lab 2 ANSWERS=file` shall check that lab."""
+    path = filled("2-newton", tmp_path)
+    code, said = execute(["make", "-o", ".venv/run.stamp", "check-lab", "2", f"ANSWERS={path}"], ROOT)
+    assert code == 0 and "within tolerance" in said

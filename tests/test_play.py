@@ -1,0 +1,145 @@
+"""The page that needs nothing installed: its numbers are the package's, it is quick, works by keys and on a phone."""
+
+import json
+import re
+
+import pytest
+from browser import CHROMIUM, Browser
+from freefem import run
+
+from postprocess.__main__ import main
+
+pytestmark = pytest.mark.skipif(not CHROMIUM, reason="needs Chromium")
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The page's file."""
+    path = tmp_path_factory.mktemp("play") / "page.html"
+    assert main(["play", "--out", str(path)]) == 0
+    return path
+
+
+@pytest.fixture(scope="module")
+def page(made, tmp_path_factory):
+    """The page in a window of a desk."""
+    with Browser(tmp_path_factory.mktemp("profile")) as browser:
+        yield browser.open(made, 1280, 900)
+
+
+def solved(page, problem, method, kappa, m, threshold, tol):
+    """{models, newton, force, converged} of the page's own solver."""
+    settings = json.dumps({"kappa": kappa, "m": m, "T0": threshold, "tol": tol})
+    found = "(({models, newton, force, converged}) => ({models, newton, force, converged}))"
+    return page.evaluate(f"{found}(solve(problemOf('{problem}', DATA), {settings}, '{method}'))")
+
+
+DISC = [
+    ("disc41", "paper", 1e3, 3, 0),
+    ("disc41", "paper", 1e3, 3, -0.25),
+    ("disc41", "newton", 1e3, 3, 0),
+    ("disc41", "paper", 1e12, 3, -0.25),
+    ("disc41", "newton", 1e12, 3, 0),
+    ("disc81", "paper", 1e3, 3, 0),
+    ("disc81", "paper", 1e9, 3, -0.25),
+]
+
+
+@pytest.mark.parametrize("problem, method, kappa, m, threshold", DISC)
+def test_disc(problem, method, kappa, m, threshold, page):
+    """The paper's test: models, steps and force shall be the package's."""
+    h = 0.5 if problem == "disc41" else 0.25
+    start = ["-T0", "d0" if threshold < 0 else threshold] if method == "paper" else []
+    flags = ["-method", method, "-order", 1, "-h", h, "-kappa", kappa, "-m", m]
+    theirs = run("disc-on-block", *flags, *start)
+    ours = solved(page, problem, method, kappa, m, threshold, 1e-6)
+    assert (ours["models"], ours["newton"]) == (theirs.adaptations, theirs.newton)
+    assert ours["converged"] and ours["force"] == pytest.approx(theirs.force, rel=1e-8)
+
+
+def test_proximal(page):
+    """Proximal Newton shall come to the package's force, from no pressure in as many steps."""
+    flags = ["-start", "none", "-order", 1, "-h", 0.5, "-forcing", 1e-6, "-tol", 1e-10]
+    for kappa in (1e3, 1e12):
+        theirs, ours = (
+            run("disc-on-block", *flags, "-kappa", kappa),
+            solved(page, "disc41", "proximal", kappa, 3, 0, 1e-10),
+        )
+        assert ours["force"] == pytest.approx(theirs.force, rel=1e-9)
+        assert abs(ours["newton"] - theirs.newton) <= 1
+
+
+@pytest.mark.parametrize("method, kappa, m", [("newton", 1e9, 3), ("newton", 1e9, 8), ("paper", 1e9, 3)])
+def test_block(method, kappa, m, page):
+    """The confined block: steps and pressure shall be the package's."""
+    start = ["-T0", "d0"] if method == "paper" else []
+    flags = ["-method", method, *start, "-kappa", kappa, "-m", m, "-h", 10, "-tol", 1e-12]
+    theirs = run("confined-block", *flags)
+    ours = solved(page, "block", method, kappa, m, -0.25, 1e-12)
+    assert ours["newton"] == theirs.newton
+    assert 20 * ours["force"] == pytest.approx(theirs.force, rel=1e-9)
+
+
+def test_one_small_file(made, page):
+    """No more than 200 kB, no network, no complaint; the first picture within a second."""
+    assert made.stat().st_size <= 200_000
+    assert not page.messages and len(page.requests) == 1
+    paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 0")
+    assert paint <= 1000
+
+
+def test_sliders_answer_at_once(page):
+    """A slider's answer shall take 50 ms at most."""
+    for name, value in (("kappa", 12), ("m", 8), ("T0", -0.25), ("tol", -10), ("kappa", 3)):
+        took = (
+            f"(() => {{ const e = $('{name}'); e.value = {value}; const t = performance.now(); change();"
+            " return performance.now() - t; })()"
+        )
+        assert min(page.evaluate(took) for _ in range(5)) <= 50, name
+
+
+def test_keys_and_steps(made, tmp_path):
+    """Steps go forward and back by keys and buttons, and the pictures follow; tasks tell well from not."""
+    with Browser(tmp_path) as browser:
+        page = browser.open(made, 1280, 900)
+        before = page.evaluate("$('newtonLaw').innerHTML")
+        page.evaluate("$('step').focus()")
+        for kind in ("keyDown", "keyUp"):
+            page.call(
+                "Input.dispatchKeyEvent", type=kind, key="ArrowRight", code="ArrowRight", windowsVirtualKeyCode=39
+            )
+        page.wait("step == 1")
+        assert page.evaluate("$('newtonLaw').innerHTML") != before
+        page.evaluate("$('last').click()")
+        assert page.evaluate("step") == 12 and "3 models, 12 steps" in page.evaluate("$('paperEnd').textContent")
+        page.evaluate("$('back').click()")
+        assert page.evaluate("step") == 11
+        set_to = "for (const [k, v] of Object.entries({})) {{ $(k).value = v; }} change(); $('{}Check').click()"
+        for name, wrong, right in (
+            ("factor", {"factor": 0.66}, {"factor": 0.75}),
+            ("gain", {"kappa": 12, "T0": -0.24}, {"kappa": 12, "T0": -0.25}),
+            ("one", {"kappa": 3, "T0": 0}, {"kappa": 3, "T0": 0.05}),
+        ):
+            for values, expected in ((wrong, "fail"), (right, "pass")):
+                page.evaluate(set_to.format(json.dumps(values), name))
+                assert page.evaluate(f"$('{name}Told').className") == expected, name
+
+
+def test_on_a_phone(made, tmp_path):
+    """On a phone nothing is wider than the screen; every control has a label; colours of texts have contrast."""
+    with Browser(tmp_path) as browser:
+        page = browser.open(made, 390, 800)
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        named = "[...document.querySelectorAll('input, select')].every(e => e.labels.length == 1)"
+        assert page.evaluate(named)
+        assert page.evaluate("[...document.querySelectorAll('svg')].every(e => e.getAttribute('aria-label'))")
+    text = made.read_text()
+    for colour in set(re.findall(r"color: (#[0-9a-f]{6})", text)):
+        assert contrast(colour) >= 4.5, colour
+
+
+def contrast(colour):
+    """Of a colour on white, as WCAG has it."""
+    levels = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    light = [level / 12.92 if level <= 0.04045 else ((level + 0.055) / 1.055) ** 2.4 for level in levels]
+    return 1.05 / (0.05 + 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2])
