@@ -168,7 +168,21 @@ function readShape(v,   shape) {
   if (shape != "plane" && at < words && word[at + 1] == "inside") { at++; v[12] = 1 }
   return shape
 }
-function readObstacle(   g, v, shape, load, law, next_) {
+# friction MU [compliance c] [limit t]: a statement "friction" of its own behind the contact's or obstacle's
+function readFriction(f) {
+  if (!rubs) no("friction: read by parts-friction.edp, in space parts-friction-3d.edp; allowed here: contacts without it")
+  f[0] = number("the coefficient of friction", -1e-300, 1e6)
+  f[1] = f[2] = 0
+  while (at < words && word[at + 1] ~ /^(compliance|limit)$/)
+    if (word[++at] == "compliance") f[1] = number("the compliance", -1e-300, 1e300)
+    else f[2] = number("the limit", 0, 1e300)
+}
+function putFriction(f,   k, v) {
+  for (k = 0; k < 16; k++) v[k] = k < 3 ? f[k] : 0
+  table[++statements] = "friction " FNR " 0 0 none none none"
+  for (k = 0; k < 16; k++) table[statements] = table[statements] " " sprintf("%.17g", v[k])
+}
+function readObstacle(   g, v, f, shape, load, law, next_) {
   g = group(dim - 1)
   for (k = 0; k < 16; k++) v[k] = 0
   shape = readShape(v)
@@ -176,6 +190,7 @@ function readObstacle(   g, v, shape, load, law, next_) {
   while (at < words) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
+    else if (next_ == "friction" && !(0 in f)) readFriction(f)
     else if ((next_ == "move" || next_ == "force") && load == "none") {
       load = next_
       counted(load)
@@ -190,6 +205,7 @@ function readObstacle(   g, v, shape, load, law, next_) {
   touches[g] = FNR; slaves[g] = FNR
   measured(g, "none")
   put(g, 0, shape, load, law, v)
+  if (0 in f) putFriction(f)
 }
 # gaps of one slave, in space of all contacts, are measured in one way
 function measured(g, gap,   all) {
@@ -199,7 +215,7 @@ function measured(g, gap,   all) {
   gapOf[all] = gap
   gapLine[all] = FNR
 }
-function readContact(   a, b, v, law, gap, next_) {
+function readContact(   a, b, v, f, law, gap, next_) {
   a = group(dim - 1)
   b = group(dim - 1)
   if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
@@ -209,6 +225,7 @@ function readContact(   a, b, v, law, gap, next_) {
   while (at < words) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
+    else if (next_ == "friction" && !(0 in f)) readFriction(f)
     else if (next_ == "gap" && gap == "none") { keyword("vertical"); gap = "vertical" }
     else no(next_ ": not allowed here; " usageOf("contact"))
   }
@@ -216,6 +233,7 @@ function readContact(   a, b, v, law, gap, next_) {
   touches[a] = touches[b] = FNR
   measured(a, gap)
   put(a, b, gap, "none", law, v)
+  if (0 in f) putFriction(f)
 }
 function readBody(   g, v) {
   g = group(dim)
@@ -266,6 +284,7 @@ function single(   text, k) {
 BEGIN {
   space = ENVIRON["SPACE"] + 0
   dim = 2 + space
+  rubs = ENVIRON["RUBS"] + 0
   split("curve surface volume", kind, " ")
   kind[0] = "point"
   at3 = space ? " z" : ""
@@ -275,10 +294,11 @@ BEGIN {
   usage["body"] = "body NAME E number nu number"
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
-  usage["contact"] = "contact SLAVE MASTER [gap vertical] [law NAME ...], with its parameters: " lawNames
+  rubbing = "[friction MU [compliance c] [limit t]]"
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [law NAME ...] " rubbing ", with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
-  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [law NAME ...], SHAPE one of: " shapeNames
+  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [law NAME ...] " rubbing ", SHAPE one of: " shapeNames
   usage["clamp"] = "clamp NAME"
   usage["symmetry"] = "symmetry NAME"
   usage["move"] = "move NAME x y" at3
