@@ -145,6 +145,25 @@ function readLaw(v,   name, list, n, k, given, taken) {
 }
 # kappa m p0 beta d0, point (3), direction (3), radius, inside, the obstacle's move or force (3);  of others, in this order:
 # body: E nu;  move, force, traction, weight: a vector;  rotate: centre, axis, angle;  pressure: the pressure
+# behind the second leg on: what was stated before, as a total reached in this leg; the statement that it changes
+function changed(key,   k) {
+  if (legs < 2) return 0
+  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated there, be it as 0")
+  return base[key] + 0
+}
+function putChange(of, v,   k, line) {
+  line = "to " FNR " 0 " of " none none none"
+  for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
+  table[++statements] = line
+}
+function readLeg(   v, k) {
+  if (!rubs) no("leg: read by parts-friction.edp, in space parts-friction-3d.edp; allowed here: one load, -history 1 in steps")
+  for (k = 0; k < 16; k++) v[k] = 0
+  v[0] = number("the number of steps", 0, 100001)
+  if (v[0] != int(v[0])) no(word[at] ": no whole number of steps; " usageOf("leg"))
+  legs++
+  put(0, 0, "none", "none", "none", v)
+}
 function put(a, b, shape, load, law, v,   k, line) {
   line = word[1] " " FNR " " a " " b " " shape " " load " " law
   for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
@@ -200,7 +219,10 @@ function readObstacle(   g, v, f, shape, load, law, next_) {
   }
   shape_ = shape
   for (k = 5; k < 13; k++) shape_ = shape_ " " v[k]
-  once("obstacle" SUBSEP g SUBSEP shape_, "this obstacle of " nameOf[g])
+  key_ = "obstacle" SUBSEP g SUBSEP shape_
+  if (changed(key_) && load != "force") { putChange(base[key_] - 1, v); return }
+  base[key_] = statements + 1
+  once(key_, "this obstacle of " nameOf[g])
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
   touches[g] = FNR; slaves[g] = FNR
   measured(g, "none")
@@ -248,7 +270,10 @@ function readBody(   g, v) {
 function readOther(   g, v, what) {
   what = word[1]
   g = group(what == "weight" ? dim : dim - 1)
-  if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
+  key_ = what SUBSEP g
+  if (what !~ /^(clamp|symmetry)$/ && changed(key_)) {
+    if (what == "force") no(nameOf[g] ": a force in two legs; allowed there: move, rotate, pressure, traction, weight")
+  } else if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
   else once(what SUBSEP g, what " of " nameOf[g])
   if (what ~ /^(move|force|traction|weight)$/) { counted(what); vector("the " what, 0, v, 0) }
   if (what == "force") nonzero("the force", v, 0)
@@ -262,6 +287,8 @@ function readOther(   g, v, what) {
   if (what == "pressure") { v[0] = any("the pressure"); loadLine[g] = FNR; loadWord[g] = what }
   if (what == "traction") { loadLine[g] = FNR; loadWord[g] = what }
   if (axial && what ~ /^(force|weight)$/ && v[0] != 0) no(word[2] ": a " what " off the axis; allowed with state axisymmetric: along y")
+  if (legs > 1 && what !~ /^(clamp|symmetry)$/) { putChange(base[key_] - 1, v); return }
+  base[key_] = statements + 1
   put(g, 0, "none", "none", "none", v)
 }
 function single(   text, k) {
@@ -306,10 +333,11 @@ BEGIN {
   usage["force"] = "force NAME x y" at3
   usage["pressure"] = "pressure NAME number"
   usage["traction"] = "traction NAME x y" at3
+  usage["leg"] = "leg STEPS"
   usage["weight"] = "weight NAME x y" at3
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight"
+  statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, leg"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
   low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
@@ -339,6 +367,7 @@ FILENAME == ARGV[1] {
   else {
     if (!firstLine) firstLine = FNR
     if (word[1] == "body") readBody()
+    else if (word[1] == "leg") readLeg()
     else if (word[1] == "contact") readContact()
     else if (word[1] == "obstacle") readObstacle()
     else readOther()
