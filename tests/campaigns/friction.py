@@ -87,7 +87,7 @@ def rows() -> list[dict]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--paths", type=int, default=340, help="how many (default: %(default)s)")
+    parser.add_argument("--paths", type=int, default=380, help="how many (default: %(default)s)")
     count = parser.parse_args().paths
     FILE.parent.mkdir(parents=True, exist_ok=True)
     known = {int(row["run"]) for row in rows()}
