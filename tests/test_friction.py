@@ -196,10 +196,10 @@ def test_gross_sliding_is_named(tmp_path):
 def test_compliance_and_limit(tmp_path):
     flags = {"h": 0.2, "legs": "1 0, 1 1", "force": 0, "shear": 0, "u0": 0.1, "drag": 0.05}
     stiff = fretting(tmp_path / "a", **flags).contact
-    soft = fretting(tmp_path / "b", frictionCompliance=0.05, **flags).contact
+    soft = fretting(tmp_path / "b", compliance=0.05, **flags).contact
     assert (soft["weight"] * soft["shear"]).sum() < 0.9 * (stiff["weight"] * stiff["shear"]).sum()
     most = 0.5 * stiff["shear"].max()
-    limited = fretting(tmp_path / "c", frictionLimit=float(most), **flags).contact
+    limited = fretting(tmp_path / "c", shearLimit=float(most), **flags).contact
     assert abs(limited["shear"]).max() <= most * (1 + 1e-6)
 
 
