@@ -1,6 +1,7 @@
 """The shape's part of a number in the plane: corners, elements that follow every smooth boundary, what is unknown."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -128,7 +129,17 @@ def test_weight(tmp_path, order):
     """What the balance alone tells of a weight is as good as the shape."""
     summary, force, _ = run(tmp_path, DISC, HEAVY, "-order", order)
     assert 1e-9 < abs(force["value"] - np.pi) < force["error"] < (0.2 if order == 1 else 1e-3)
-    assert any("straight sides stand for curves" in text for text in summary["warnings"]) == (order == 1)
+    assert not any("sides" in text for text in summary["warnings"])
+
+
+def test_coarse_weight(tmp_path):
+    """Sides that make a tenth of a number are said, with a size within ten times the error; the error has it too."""
+    summary, force, _ = run(tmp_path, re.sub("0[.]\\d+}", "2}", DISC), HEAVY, "-order", 1)
+    assert abs(force["value"] - np.pi) < force["error"]
+    (share,) = re.findall(
+        r"sides stand for curves, and forces and ways may be off by ([\d.]+) %", str(summary["warnings"])
+    )
+    assert 10 < float(share) < 1000 * abs(force["value"] / np.pi - 1)
 
 
 def test_geometry_again(tmp_path):

@@ -36,6 +36,7 @@ CAUSES = re.compile(
 )
 SINGULAR = re.compile(r"singular|without bound|unbounded|sharp|\bedge\b|\bcorner", re.I)
 SIZE = re.compile(r"about ([\d.]+(?:e[+-]?\d+)?) of|([\d.]+(?:e[+-]?\d+)?) ?%", re.I)
+OF_PRESSURES = re.compile(r"pressures? (jumps|grows|are not resolved)")  # and of where they end
 OTHER_SIZE = re.compile(r"with [\d.]+ % of the force")  # not of an error
 COARSER = 1.6  # of the run that tells the truth's doubt
 TRIVIAL = 1e-6  # relative: what is prescribed, or told by the balance, has no error
@@ -215,6 +216,8 @@ def warned(name: str, value: float, error: float, record: dict) -> tuple[bool, l
         own = record["names"][index] if index < len(record["names"]) else None
     others = [each for each in record["names"] if each != own]
     mine = [w for w in record["warnings"] if (own and own in w) or not any(each in w for each in others)]
+    if np.isfinite(error) and not name.endswith(("pressureMax", "contactLength")):
+        mine = [w for w in mine if not OF_PRESSURES.search(w)]
     if np.isinf(error):
         return any(SINGULAR.search(w) for w in mine), mine
     share = error / abs(value) if value else np.inf
