@@ -351,6 +351,28 @@ REFERENCES = {
     **{"hertz-line": hertz_line, "two-cylinders": two_cylinders, "sphere-on-block": sphere_on_block, "rough": rough},
     **{"patch-test-3d": patch_test_3d, "sphere-on-plane": sphere_on_block, "two-spheres": two_spheres},
 }
+
+
+def fretting(given):
+    pulls = {f"shearForce at step {k}": share * given["shear"] for k, share in ((2, 1), (3, -1))}
+    return {"prescribed": {"force": given["force"], **pulls}}
+
+
+def fretting_bodies(given):
+    modulus = plane_modulus({"E": given["E1"], "nu": given["nu1"]})
+    force, pull, friction = given["force"], given["shear"], given["friction"]
+
+    def ahead(q):
+        left = force - q / friction
+        return 2 * friction / np.pi / modulus * (left * np.log(left / force) + q / friction)
+
+    at, share = np.polynomial.legendre.leggauss(60)
+    loop = 4 * pull * ahead(pull) - 4 * pull * (share * ahead(pull / 2 * (at + 1))).sum()
+    hertzian = {"halfWidthMoment": hertz(force, 5, modulus / 2)["halfWidthMoment"]}
+    return {"Hertz": hertzian, "Cattaneo and Mindlin": {"dissipated": loop / 4}, **fretting(given)}
+
+
+REFERENCES["fretting"], REFERENCES["fretting-bodies"], REFERENCES["fretting-3d"] = fretting, fretting_bodies, fretting
 REFERENCES["adhesive-wavy"] = lambda given: {}
 
 
