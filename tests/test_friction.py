@@ -8,7 +8,15 @@ from freefem import FREEFEM, ROOT, Run, execute, flag_text, run_in, table
 
 BLOCK = {"-force": 0, "-shear": 0, "-reach": 8, "-grading": 20, "-u0": 2, "-drag": 1, "-h": 0.25}
 TURNS = "1 0, 1 .05, 1 .2, 1 1, 1 -.2, .5 -.2, 1.25 .3"
-SMALL = {"-force": 0.08631, "-shear": 0.015536, "-reach": 0.2, "-gap": 0.001, "-grading": 400, "-h": 0.00667, "-ratio": 1}
+SMALL = {
+    "-force": 0.08631,
+    "-shear": 0.015536,
+    "-reach": 0.2,
+    "-gap": 0.001,
+    "-grading": 400,
+    "-h": 0.00667,
+    "-ratio": 1,
+}
 RADIUS, MODULUS = 10, 100 / 0.91
 
 WEDGE = """
@@ -105,7 +113,8 @@ def test_cattaneo_and_mindlin(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("friction", "inner"), [(0.4, 0.3535), *(pytest.param(*c, marks=pytest.mark.long) for c in [(0.2, 0.0471), (0.8, 0.8090)])]
+    ("friction", "inner"),
+    [(0.4, 0.3535), *(pytest.param(*c, marks=pytest.mark.long) for c in [(0.2, 0.0471), (0.8, 0.8090)])],
 )
 def test_spence(tmp_path, friction, inner):
     """A flat punch on a large block, nu = 0: it sticks in the middle, the shear changing the pressure too; to a cell."""
@@ -153,7 +162,14 @@ def moved(text, matrix, scale):
     flip = np.linalg.det(matrix) < 0
     words = [line.split() for line in elements.splitlines()]
     words = [w[:-2] + w[-2:][::-1] if flip and len(w) > 4 and w[1] == "2" else w for w in words]
-    return f"{head}$Nodes\n" + "\n".join(lines) + "\n$EndNodes\n" + "\n".join(map(" ".join, words)) + "\n$EndElements" + tail
+    return (
+        f"{head}$Nodes\n"
+        + "\n".join(lines)
+        + "\n$EndNodes\n"
+        + "\n".join(map(" ".join, words))
+        + "\n$EndElements"
+        + tail
+    )
 
 
 def test_turned_mirrored_and_in_other_units(tmp_path):
@@ -168,7 +184,9 @@ def test_turned_mirrored_and_in_other_units(tmp_path):
         folder.mkdir()
         (folder / "mesh.msh").write_text(moved(mesh, matrix, scale))
         vector = lambda *v, m=matrix, s=1: " ".join(repr(float(c)) for c in s * (m @ v))  # noqa: E731
-        text = f"body wedge E 1000 nu 0.3\nobstacle flank plane {vector(0.5, 0, s=scale)} {vector(-1, 0.3)} friction 0.4\n"
+        text = (
+            f"body wedge E 1000 nu 0.3\nobstacle flank plane {vector(0.5, 0, s=scale)} {vector(-1, 0.3)} friction 0.4\n"
+        )
         text += f"symmetry mirror\nleg 2\ntraction head {vector(0, -1)}\n"
         run = case(folder, folder / "mesh.msh", text, "-tol", 1e-12)
         rows = run.contact[np.argsort(run.contact["pressure"])]
@@ -214,8 +232,10 @@ def test_about_the_axis(tmp_path):
 def test_space_turns_with_its_load(tmp_path):
     """Along x and along y the same, turned."""
     flags = {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1}
-    along = [rub(tmp_path / name, "edp/scenes/fretting-3d.edp", {**flags, "-legs": legs}) for name, legs in
-             (("x", "1, 1 1"), ("y", "1, 1 0 1"))]
+    along = [
+        rub(tmp_path / name, "edp/scenes/fretting-3d.edp", {**flags, "-legs": legs})
+        for name, legs in (("x", "1, 1 1"), ("y", "1, 1 0 1"))
+    ]
     x, y = (run.summary["contacts"][0]["shearForce"] for run in along)
     assert x[0] == pytest.approx(y[1], rel=0.05) and x[0] > 0
     newton, products = counts(along[0])
@@ -237,7 +257,11 @@ def test_legs_of_a_case(tmp_path):
     [
         (PUNCH + "move pushed 0 -0.5\n", "line 3: friction: read by parts-friction.edp", "edp/parts.edp"),
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps", "edp/parts-friction.edp"),
-        (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first", "edp/parts-friction.edp"),
+        (
+            PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n",
+            "first stated in a leg behind the first",
+            "edp/parts-friction.edp",
+        ),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range", "edp/parts-friction.edp"),
     ],
 )

@@ -62,7 +62,9 @@ def solve(run: int) -> list[dict]:
     given = dict(zip(flags[::2], flags[1::2], strict=True))
     with tempfile.TemporaryDirectory() as folder:
         command = ["FreeFem++", "-nw", "-v", "0", "edp/scenes/fretting.edp", *flags, "-out", folder]
-        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+        done = subprocess.run(
+            command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}
+        )
         series, contact = Path(folder) / "series.csv", Path(folder) / "contact.csv"
         steps = list(csv.DictReader(open(series))) if series.exists() else []
         points = sum(1 for _ in open(contact)) - 1 if contact.exists() else 0
@@ -70,7 +72,9 @@ def solve(run: int) -> list[dict]:
     rows, before = [], (0, 0)
     for row in steps:
         now = int(row["newton"]), int(row["backsolves"])
-        rows.append(common | {"step": row["step"], "newton": now[0] - before[0], "backsolves": now[1] - before[1], "code": 0})
+        rows.append(
+            common | {"step": row["step"], "newton": now[0] - before[0], "backsolves": now[1] - before[1], "code": 0}
+        )
         before = now
     if done.returncode:
         lines = [line for line in done.stdout.splitlines() if "NOT CONVERGED" in line] or done.stdout.splitlines()[-1:]
