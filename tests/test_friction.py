@@ -238,7 +238,7 @@ def test_space_turns_with_its_load(tmp_path):
     ]
     x, y = (run.summary["contacts"][0]["shearForce"] for run in along)
     assert x[0] == pytest.approx(y[1], rel=0.05) and x[0] > 0
-    newton, products = counts(along[0])
+    newton, _ = counts(along[0])
     assert newton.max() <= 6
 
 

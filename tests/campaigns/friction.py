@@ -1,8 +1,9 @@
 """Does the step with friction come to equilibrium, and in how many linearisations? Paths of loads, drawn at random.
 
-Disc on block, P1, P2 and P4, 21 to 301 points, friction 0.01 to 1.5, laws of stiffness 1 to 1e12 and hard contact, prescribed
-approaches and forces, six legs each of any size. A row per load step in results/friction/steps.csv; interrupted and started
-again, it goes on where it was. Loads without equilibrium say so and are not counted. Exit code 1 if a step is neither.
+Disc on block, P1, P2 and P4, 21 to 301 points, friction 0.01 to 1.5, laws of stiffness 1 to 1e12 and hard contact,
+prescribed approaches and forces, six legs each of any size. A row per load step in results/friction/steps.csv; interrupted and
+started again, it goes on where it was. Loads without equilibrium say so and are not counted. Exit code 1 if a step is
+neither.
 """
 
 import argparse
@@ -66,8 +67,8 @@ def solve(run: int) -> list[dict]:
             command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}
         )
         series, contact = Path(folder) / "series.csv", Path(folder) / "contact.csv"
-        steps = list(csv.DictReader(open(series))) if series.exists() else []
-        points = sum(1 for _ in open(contact)) - 1 if contact.exists() else 0
+        steps = list(csv.DictReader(series.read_text().splitlines())) if series.exists() else []
+        points = len(contact.read_text().splitlines()) - 1 if contact.exists() else 0
     common = {"run": run, "friction": given["-friction"], "kappa": given.get("-kappa", "hard"), "points": points}
     rows, before = [], (0, 0)
     for row in steps:
