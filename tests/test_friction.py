@@ -117,7 +117,7 @@ def test_cattaneo_and_mindlin(tmp_path):
     [(0.4, 0.3535), *(pytest.param(*c, marks=pytest.mark.long) for c in [(0.2, 0.0471), (0.8, 0.8090)])],
 )
 def test_spence(tmp_path, friction, inner):
-    """A flat punch on a large block, nu = 0: it sticks in the middle, the shear changing the pressure too; to a cell."""
+    """A flat punch on a large block, nu = 0, the shear changing the pressure too: what sticks, to a cell."""
     flags = {"-law": "signorini", "-d0": 0, "-gap": 0, "-u0": 0.1, "-nu": 0, "-legs": "1", "-a": 1, "-order": 2}
     flags |= {"-h": 0.025, "-corners": 0.02, "-width": 800, "-depth": 400, "-grading": 4000, "-friction": friction}
     rows = rub(tmp_path, "tests/data/friction/flat-punch.edp", flags).contact
