@@ -1,10 +1,9 @@
 """Does the step with friction come to equilibrium, and in how many linearisations? Paths of loads, drawn at random.
 
 Disc on block, P1, P2 and P4, 21 to 301 points, friction 0.01 to 1.5, laws of stiffness 1 to 1e12 and hard contact,
-prescribed approaches and forces, six legs each of any size. A row per load step in results/friction/steps.csv; interrupted
-and
-started again, it goes on where it was. Loads without equilibrium say so and are not counted. Exit code 1 if a step is
-neither.
+prescribed approaches and forces, six legs each of any size. A row per load step in results/friction/steps.csv;
+interrupted and started again, it goes on where it was. Loads without equilibrium say so and are not counted. Exit
+code 1 if a step is neither.
 """
 
 import argparse
