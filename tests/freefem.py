@@ -35,6 +35,7 @@ SECONDS_KEYS = set("mesh assembly factorisation contact total".split())
 CONTACT_COLUMNS = tuple("x y weight overlap pressure lambda status threshold s tau".split())
 CONTACT_COLUMNS += tuple("contact chain along normalX normalY".split())
 SPACE_COLUMNS = ("x", "y", "z", *CONTACT_COLUMNS[2:], "normalZ")
+FRICTION_COLUMNS = "shear slip slide shearX shearY shearZ slipX slipY slipZ".split()
 MOVED = "two-bodies"  # no scene: a script that says what took its place
 TIMEOUT = 280  # seconds; a run that hangs is a failure, not a hanging suite
 
@@ -280,7 +281,8 @@ def check_invariants(run):
     summary, contact = run.summary, run.contact
     assert summary.keys() >= SUMMARY_KEYS
     assert summary["seconds"].keys() >= SECONDS_KEYS
-    assert contact.dtype.names in (CONTACT_COLUMNS, SPACE_COLUMNS)
+    columns = tuple(name for name in contact.dtype.names if name not in FRICTION_COLUMNS)
+    assert columns in (CONTACT_COLUMNS, SPACE_COLUMNS)
     assert len(contact) == summary["points"]
     assert summary["converged"] is True
     assert summary["residual"] <= summary["parameters"]["tol"]
@@ -362,6 +364,12 @@ def check_equilibrium(run):
     assert abs(summary["reactionY"] - force - weight_of_block(summary)) <= 1e-9 * (size + abs(weight_of_block(summary)))
     if summary["scene"] in ("patch-test", "confined-block"):
         return  # the sliding sides carry too
+    if "friction" in summary:
+        assert (
+            abs(summary["reactionX"] + summary["contacts"][0]["shearForce"][0])
+            <= 10 * summary["parameters"]["tol"] * size
+        )
+        return
     assert abs(summary["reactionX"]) <= 1e-9 * size or summary.get("rounds", 1) > 1
     assert abs(summary["reactionMoment"] + summary["contactMoment"]) <= 1e-9 * size * reach
     if summary.get("rounds", 1) == 1 and summary["parameters"].get("geometry") != "axisymmetric":
@@ -389,7 +397,7 @@ def check_equilibrium_in_space(summary, contact, force):
         symmetry = "quarter"
     left = {"whole": others, "half": ["reactionY", "reactionMomentX", "contactMomentX"], "quarter": []}[symmetry]
     assert all(summary[key] == 0 for key in others if key not in left)
-    if symmetry == "quarter" or summary["scene"] == "patch-test-3d" or block:
+    if symmetry == "quarter" or summary["scene"] == "patch-test-3d" or block or "friction" in summary:
         return  # symmetric; the sliding sides carry too; the weight has its moments
     for axis in "XY":
         assert abs(summary[f"reaction{axis}"]) <= 1e-9 * size

@@ -65,7 +65,11 @@ def test_width():
 def included(name, space=None):
     """The text of a script and of the scripts and blocks that it includes, as it is read in the plane or in space."""
     text = (ROOT / "edp" / name).read_text()
-    space = "macro threeDimensional()" in text if space is None else space
+    outer = re.findall(r'^include "(scenes/\S+)"', text, re.M)
+    if space is None:
+        space = any(
+            "macro threeDimensional()" in one for one in [text, *((ROOT / "edp" / file).read_text() for file in outer)]
+        )
     other = "!threeDimensional" if space else "threeDimensional"
     text = re.sub(rf"^ *IFMACRO\({other}\)\n.*?^ *ENDIFMACRO\n", "", text, flags=re.M | re.S)
     inner = re.findall(r'^include "(main\.edp|scenes/\S+|blocks/\S+)"', text, re.M)
@@ -153,14 +157,17 @@ GAPS["adhesive-wavy"] = lambda c, g: (
     g["amplitude"] * (1 - np.cos(2 * np.pi * c["x"] * g["waves"] / g["width"]))
     + 0.5 * g["curvature"] * c["x"] * (c["x"] - g["width"] / (3 * g["waves"]))
 )
-GAPS["hertz-line"] = GAPS["disc-on-block-ipopt"] = GAPS["disc-on-block"]
+GAPS["hertz-line"] = GAPS["disc-on-block-ipopt"] = GAPS["fretting"] = GAPS["disc-on-block"]
+GAPS["fretting-bodies"], GAPS["fretting-3d"] = GAPS["two-cylinders"], GAPS["sphere-on-block"]
 NODAL = ["-points", "nodal"]
 APART = {"hertz-line": ["-force", 0], "two-cylinders": ["-force", 0, *NODAL], "patch-test": NODAL}
+APART |= {"fretting": ["-force", 0, "-shear", 0], "fretting-bodies": ["-force", 0, "-shear", 0, *NODAL]}
 APART |= {"patch-test-3d": NODAL, "sphere-on-plane": ["-force", 0, "-layers", 1]}
 APART |= {"two-spheres": ["-force", 0, "-layers", 1, *NODAL], "wavy": ["-waves", 10], "rough": ["-modes", 20]}
 ENDS = {  # of the contact: the greatest |x| of a point
     **{"disc-on-block": 9.9, "disc-on-block-ipopt": 9.9, "meshed-disc": 9.9, "confined-block": 10, "patch-test": 10},
     **{"wavy": 20, "rough": 20, "flat-punch": 4, "hertz-line": 2, "two-cylinders": 2},
+    **{"fretting": 2, "fretting-bodies": 2},
 }
 
 
@@ -351,6 +358,28 @@ REFERENCES = {
     **{"hertz-line": hertz_line, "two-cylinders": two_cylinders, "sphere-on-block": sphere_on_block, "rough": rough},
     **{"patch-test-3d": patch_test_3d, "sphere-on-plane": sphere_on_block, "two-spheres": two_spheres},
 }
+
+
+def fretting(given):
+    pulls = {f"shearForce at step {k}": share * given["shear"] for k, share in ((2, 1), (3, -1))}
+    return {"prescribed": {"force": given["force"], **pulls}}
+
+
+def fretting_bodies(given):
+    modulus = plane_modulus({"E": given["E1"], "nu": given["nu1"]})
+    force, pull, friction = given["force"], given["shear"], given["friction"]
+
+    def ahead(q):
+        left = force - q / friction
+        return 2 * friction / np.pi / modulus * (left * np.log(left / force) + q / friction)
+
+    at, share = np.polynomial.legendre.leggauss(60)
+    loop = 4 * pull * ahead(pull) - 4 * pull * (share * ahead(pull / 2 * (at + 1))).sum()
+    hertzian = {"halfWidthMoment": hertz(force, 5, modulus / 2)["halfWidthMoment"]}
+    return {"Hertz": hertzian, "Cattaneo and Mindlin": {"dissipated": loop / 4}, **fretting(given)}
+
+
+REFERENCES["fretting"], REFERENCES["fretting-bodies"], REFERENCES["fretting-3d"] = fretting, fretting_bodies, fretting
 REFERENCES["adhesive-wavy"] = lambda given: {}
 
 

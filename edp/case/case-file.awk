@@ -244,6 +244,25 @@ function readLaw(v,   name, list, n, k, given, taken) {
 # kappa m p0 beta d0, point (3), direction (3), radius, inside, the obstacle's move or force (3);  of others, in this order:
 # body: E nu, yield stress or 0;  move, force, traction, weight: a vector;  rotate: centre, axis, angle;  pressure: the pressure;
 # line: both ends;  expand: alpha, dT;  preload: the force
+# behind the second leg on: what was stated before, as a total reached in this leg; the statement that it changes
+function changed(key,   k) {
+  if (legs < 2) return 0
+  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated there, be it as 0")
+  return base[key] + 0
+}
+function putChange(of, v,   k, line) {
+  line = "to " FNR " 0 " of " none none none"
+  for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
+  table[++statements] = line
+}
+function readLeg(   v, k) {
+  if (!rubs) no("leg: read by parts-friction.edp, in space parts-friction-3d.edp; allowed here: one load, -history 1 in steps")
+  for (k = 0; k < 16; k++) v[k] = 0
+  v[0] = number("the number of steps", 0, 100001)
+  if (v[0] != int(v[0])) no(word[at] ": no whole number of steps; " usageOf("leg"))
+  legs++
+  put(0, 0, "none", "none", "none", v)
+}
 function put(a, b, shape, load, law, v,   k, line) {
   line = word[1] " " FNR " " a " " b " " shape " " load " " law
   for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
@@ -267,7 +286,21 @@ function readShape(v,   shape) {
   if (shape != "plane" && at < words && word[at + 1] == "inside") { at++; v[12] = 1 }
   return shape
 }
-function readObstacle(   g, v, shape, load, law, next_, over) {
+# friction MU [compliance c] [limit t]: a statement "friction" of its own behind the contact's or obstacle's
+function readFriction(f) {
+  if (!rubs) no("friction: read by parts-friction.edp, in space parts-friction-3d.edp; allowed here: contacts without it")
+  f[0] = number("the coefficient of friction", -1e-300, 1e6)
+  f[1] = f[2] = 0
+  while (at < words && word[at + 1] ~ /^(compliance|limit)$/)
+    if (word[++at] == "compliance") f[1] = number("the compliance", -1e-300, 1e300)
+    else f[2] = number("the limit", 0, 1e300)
+}
+function putFriction(f,   k, v) {
+  for (k = 0; k < 16; k++) v[k] = k < 3 ? f[k] : 0
+  table[++statements] = "friction " FNR " 0 0 none none none"
+  for (k = 0; k < 16; k++) table[statements] = table[statements] " " sprintf("%.17g", v[k])
+}
+function readObstacle(   g, v, f, shape, load, law, next_, over) {
   over = 0
   g = group(dim - 1)
   for (k = 0; k < 16; k++) v[k] = 0
@@ -276,6 +309,7 @@ function readObstacle(   g, v, shape, load, law, next_, over) {
   while (at < words) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
+    else if (next_ == "friction" && !(0 in f)) readFriction(f)
     else if ((next_ == "move" || next_ == "force") && load == "none") {
       load = next_
       counted(load)
@@ -286,13 +320,17 @@ function readObstacle(   g, v, shape, load, law, next_, over) {
   }
   shape_ = shape
   for (k = 5; k < 13; k++) shape_ = shape_ " " v[k]
-  once("obstacle" SUBSEP g SUBSEP shape_, "this obstacle of " nameOf[g])
+  key_ = "obstacle" SUBSEP g SUBSEP shape_
+  if (changed(key_) && load != "force") { putChange(base[key_] - 1, v); return }
+  base[key_] = statements + 1
+  once(key_, "this obstacle of " nameOf[g])
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
   v[4] -= over
   touches[g] = FNR; slaves[g] = FNR
   pick("obstacle\t" FNR "\t" nameOf[g] "\t" shape_)
   measured(g, "none")
   put(g, 0, shape, load, law, v)
+  if (0 in f) putFriction(f)
 }
 # gaps of one slave, in space of all contacts, are measured in one way
 function measured(g, gap,   all) {
@@ -302,7 +340,7 @@ function measured(g, gap,   all) {
   gapOf[all] = gap
   gapLine[all] = FNR
 }
-function readContact(   a, b, v, law, gap, next_, over) {
+function readContact(   a, b, v, f, law, gap, next_, over) {
   over = 0
   a = group(dim - 1)
   b = group(dim - 1)
@@ -313,6 +351,7 @@ function readContact(   a, b, v, law, gap, next_, over) {
   while (at < words) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
+    else if (next_ == "friction" && !(0 in f)) readFriction(f)
     else if (next_ == "gap" && gap == "none") { keyword("vertical"); gap = "vertical" }
     else if (next_ == "interference" && !over) over = number("the interference", 0, 1e300)
     else no(next_ ": not allowed here; " usageOf("contact"))
@@ -323,6 +362,7 @@ function readContact(   a, b, v, law, gap, next_, over) {
   measured(a, gap)
   v[4] -= over
   put(a, b, gap, "none", law, v)
+  if (0 in f) putFriction(f)
 }
 function readBody(   g, v) {
   g = group(dim)
@@ -339,7 +379,10 @@ function readBody(   g, v) {
 function readOther(   g, v, what) {
   what = word[1]
   g = group(what == "weight" ? dim : dim - 1)
-  if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
+  key_ = what SUBSEP g
+  if (what !~ /^(clamp|symmetry)$/ && changed(key_)) {
+    if (what == "force") no(nameOf[g] ": a force in two legs; allowed there: move, rotate, pressure, traction, weight")
+  } else if (what ~ /^(clamp|symmetry|move|rotate|force)$/) holds(g)
   else once(what SUBSEP g, what " of " nameOf[g])
   if (what ~ /^(move|force|traction|weight)$/) { counted(what); vector("the " what, 0, v, 0) }
   if (what == "force") nonzero("the force", v, 0)
@@ -353,6 +396,8 @@ function readOther(   g, v, what) {
   if (what == "pressure") { v[0] = any("the pressure"); loadLine[g] = FNR; loadWord[g] = what }
   if (what == "traction") { loadLine[g] = FNR; loadWord[g] = what }
   if (axial && what ~ /^(force|weight)$/ && v[0] != 0) no(word[2] ": a " what " off the axis; allowed with state axisymmetric: along y")
+  if (legs > 1 && what !~ /^(clamp|symmetry)$/) { putChange(base[key_] - 1, v); return }
+  base[key_] = statements + 1
   put(g, 0, "none", "none", "none", v)
 }
 # stresses, line, expand, preload: read by the scripts of scenes/asked/
@@ -402,6 +447,7 @@ function single(   text, k) {
 BEGIN {
   space = ENVIRON["SPACE"] + 0
   dim = 2 + space
+  rubs = ENVIRON["RUBS"] + 0
   split("curve surface volume", kind, " ")
   kind[0] = "point"
   at3 = space ? " z" : ""
@@ -415,10 +461,11 @@ BEGIN {
   usage["preload"] = "preload NAME force"
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
-  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [law NAME ...], with its parameters: " lawNames
+  rubbing = "[friction MU [compliance c] [limit t]]"
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [law NAME ...] " rubbing ", with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
-  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [interference number] [law NAME ...], SHAPE one of: " shapeNames
+  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [interference number] [law NAME ...] " rubbing ", SHAPE one of: " shapeNames
   usage["clamp"] = "clamp NAME"
   usage["symmetry"] = "symmetry NAME"
   usage["move"] = "move NAME x y" at3
@@ -426,6 +473,7 @@ BEGIN {
   usage["force"] = "force NAME x y" at3
   usage["pressure"] = "pressure NAME number"
   usage["traction"] = "traction NAME x y" at3
+  usage["leg"] = "leg STEPS"
   usage["weight"] = "weight NAME x y" at3
   manyOf[1] = "curves"; manyOf[2] = space ? "faces" : "surfaces"; manyOf[3] = "volumes"
   pickWords = manyOf[dim - 1] " " manyOf[dim] " box plane near between"
@@ -436,13 +484,14 @@ BEGIN {
   usage["size"] = "size NAME number or size contact number"
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, group, size, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line"
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line, leg"
   split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
     "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
     "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
     "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
     "|size of the elements|preload a shank pulled together|expand thermal strain|units of lengths and pressures" \
-    "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it", list, "|")
+    "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it" \
+    "|leg loads and motions reached in steps", list, "|")
   for (k in list) { line = list[k]; sub(/ .*/, "", line); does[line] = substr(list[k], length(line) + 2) }
   split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|gravity acceleration density dload:weight" \
     "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
@@ -452,7 +501,7 @@ BEGIN {
     n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
     for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
   }
-  instead["friction"] = instead["mu"] = instead["coulomb"] = "contacts are frictionless, there is none: contact SLAVE MASTER"
+  instead["friction"] = instead["mu"] = instead["coulomb"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER friction 0.3"
   instead["tie"] = instead["tied"] = instead["bond"] = instead["bonded"] = instead["glue"] = instead["weld"] = \
     "bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
   instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle, and its moment is said"
@@ -489,6 +538,7 @@ FILENAME == ARGV[1] {
   else {
     if (!firstLine) firstLine = FNR
     if (word[1] == "body") readBody()
+    else if (word[1] == "leg") readLeg()
     else if (word[1] == "contact") readContact()
     else if (word[1] == "obstacle") readObstacle()
     else if (word[1] ~ /^(stresses|line|expand|preload)$/) readAsked()

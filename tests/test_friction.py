@@ -1,0 +1,286 @@
+"""Coulomb's friction: counts, closed forms, energies, symmetries, legs of a case, what is refused."""
+
+import re
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, Run, execute, flag_text, run_in, table
+
+BLOCK = {"-force": 0, "-shear": 0, "-reach": 8, "-grading": 20, "-u0": 2, "-drag": 1, "-h": 0.25}
+TURNS = "1 0, 1 .05, 1 .2, 1 1, 1 -.2, .5 -.2, 1.25 .3"
+SMALL = {
+    "-force": 0.08631,
+    "-shear": 0.015536,
+    "-reach": 0.2,
+    "-gap": 0.001,
+    "-grading": 400,
+    "-h": 0.00667,
+    "-ratio": 1,
+}
+RADIUS, MODULUS = 10, 100 / 0.91
+
+WEDGE = """
+DefineConstant[ slope = {0.3, Name "slope"} ];
+DefineConstant[ size = {0.1, Name "size"} ];
+Point(1) = {0, 0, 0, size};
+Point(2) = {0.5, 0, 0, size};
+Point(3) = {0.5 + slope, 1, 0, size};
+Point(4) = {0, 1, 0, size};
+For k In {1 : 4}
+  Line(k) = {k, k % 4 + 1};
+EndFor
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Physical Curve("tip") = {1};
+Physical Curve("flank") = {2};
+Physical Curve("head") = {3};
+Physical Curve("mirror") = {4};
+Physical Surface("wedge") = {1};
+"""
+PUNCH = """body lower E 100 nu 0.3
+body upper E 100 nu 0.3
+contact contact master gap vertical law power kappa 1e3 m 3 d0 -0.05 friction 0.3
+clamp clamped
+"""
+
+
+def rub(folder, script, flags, expect=0):
+    """A run of a scene, P2 unless the flags say so."""
+    flags = {"-vtu": 0, "-estimate": 0, **flags}
+    words = [word for pair in flags.items() for word in pair]
+    return run_in(ROOT, script, *words, out=folder, expect=expect)
+
+
+def fretting(folder, expect=0, **flags):
+    return rub(folder, "edp/scenes/fretting.edp", {f"-{name}": value for name, value in flags.items()}, expect)
+
+
+def series(run):
+    return table(run.folder / "series.csv")
+
+
+def counts(run):
+    rows = series(run)
+    return np.diff(rows["newton"], prepend=0), np.diff(rows["backsolves"], prepend=0)
+
+
+def case(folder, geometry, text, *flags, script="edp/parts-friction.edp", expect=0):
+    """A run of a case."""
+    if "\n" in str(geometry):
+        (folder / "mesh.geo").write_text(geometry)
+        geometry = folder / "mesh.geo"
+    (folder / "a.case").write_text(text)
+    words = ["-mesh", geometry, "-case", folder / "a.case", "-vtu", 0, "-estimate", 0, *flags, "-out", folder / "out"]
+    code, stdout = execute([*FREEFEM, script, *map(flag_text, words)])
+    assert code == expect, stdout[-2000:]
+    return Run(code, stdout, folder / "out")
+
+
+@pytest.mark.parametrize(
+    ("law", "friction"), [("hard", 0.3), ("1e12", 0.6), pytest.param("1", 1.5, marks=pytest.mark.long)]
+)
+def test_counts_of_a_path(tmp_path, law, friction):
+    given = {} if law == "hard" else {"law": "power", "kappa": law, "m": 3, "d0": -1e-9}
+    run = fretting(tmp_path, friction=friction, legs=TURNS, **{k[1:]: v for k, v in BLOCK.items()}, **given)
+    newton, products = counts(run)
+    assert len(newton) == 7
+    assert newton.mean() <= 3 and newton.max() <= 5
+    assert products.mean() <= 12 and products.max() <= 20
+
+
+def test_cattaneo_and_mindlin(tmp_path):
+    """Equal half-cylinders, 60 points across: no coupling."""
+    run = rub(tmp_path, "edp/scenes/fretting-bodies.edp", {**SMALL, "-legs": "1 0, 1 1, 1 -1, 1 1"})
+    force, shear, friction = 0.08631, 0.015536, 0.3
+    half = np.sqrt(4 * force * (RADIUS / 2) / (np.pi * MODULUS / 2))
+    inner = half * np.sqrt(1 - shear / friction / force)
+    rows = run.contact
+    x, weight = rows["x"], rows["weight"]
+    stick = x[rows["slide"] == 1]
+    cell = np.diff(x).min() * 2
+    assert abs(stick.max() - inner) <= cell and abs(stick.min() + inner) <= cell
+    root = lambda b: np.sqrt(np.maximum(1 - (x / b) ** 2, 0))  # noqa: E731
+    exact = friction * 2 * force / np.pi / half * (root(half) - inner / half * root(inner))
+    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.03
+    # the loop between -Q and Q
+    rate = friction * 2 / np.pi / MODULUS
+    left = lambda s: force - s / friction  # noqa: E731
+    way = lambda s: rate * (left(s) * np.log(left(s)) - left(s) - force * np.log(force) + force)  # noqa: E731
+    at, share = np.polynomial.legendre.leggauss(60)
+    loop = 4 * shear * way(shear) - 8 * shear / 2 * (share * way(shear / 2 * (at + 1))).sum()
+    done = series(run)["dissipated"]
+    assert done[3] - done[1] == pytest.approx(loop, rel=0.005)
+
+
+@pytest.mark.parametrize(
+    ("friction", "inner"),
+    [(0.4, 0.3535), *(pytest.param(*c, marks=pytest.mark.long) for c in [(0.2, 0.0471), (0.8, 0.8090)])],
+)
+def test_spence(tmp_path, friction, inner):
+    """A flat punch on a large block, nu = 0, the shear changing the pressure too: what sticks, to a cell."""
+    flags = {"-law": "signorini", "-d0": 0, "-gap": 0, "-u0": 0.1, "-nu": 0, "-legs": "1", "-a": 1, "-order": 2}
+    flags |= {"-h": 0.025, "-corners": 0.02, "-width": 800, "-depth": 400, "-grading": 4000, "-friction": friction}
+    rows = rub(tmp_path, "tests/data/friction/flat-punch.edp", flags).contact
+    last = np.flatnonzero(rows["slide"] == 1)[-1]
+    assert rows["x"][last] - 0.0125 <= inner <= rows["x"][last + 1] + 0.0125
+
+
+@pytest.mark.parametrize("friction", [pytest.param(0.1, marks=pytest.mark.long), 0.28, 0.31])
+def test_wedge_locks_above_its_slope(tmp_path, friction):
+    text = f"body wedge E 1000 nu 0.3\nobstacle flank plane 0.5 0 -1 0.3 friction {friction}\nsymmetry mirror\n"
+    text += "leg 1\ntraction head 0 -1\nleg 6\ntraction head 0 -0.05\nleg 4\ntraction head 0 -0.001\n"
+    rows = series(case(tmp_path, WEDGE, text))
+    sine, cosine = np.array([0.3, 1]) / np.hypot(0.3, 1)
+    assert rows["force"][0] == pytest.approx(0.8 / (sine + friction * cosine), rel=1e-6)
+    if friction < 0.3:
+        assert rows["force"][-1] == pytest.approx(0.0008 / (sine - friction * cosine), rel=1e-4)
+    else:
+        assert rows["force"][-1] > 0.5
+
+
+@pytest.mark.long
+def test_work_is_stored_and_dissipated(tmp_path):
+    """By ever smaller steps: the trapezoidal rule is of second order."""
+    off = []
+    for steps in (8, 32):
+        flags = {"-h": 0.4, "-legs": "1 0, 1 1, 1 -1", "-history": 1, "-steps": steps}
+        rows = series(rub(tmp_path / str(steps), "edp/scenes/fretting-bodies.edp", flags))
+        first, last = steps - 1, len(rows) - 1
+        done = {name: rows[name][last] - rows[name][first] for name in ("work", "stored", "dissipated")}
+        off.append(abs(done["work"] - done["stored"] - done["dissipated"]) / done["dissipated"])
+    assert off[1] < off[0] / 10 and off[1] < 2e-3
+
+
+def moved(text, matrix, scale):
+    """The nodes of a mesh of gmsh's turned, mirrored, scaled; triangles of a mirrored one are turned round."""
+    head, rest = text.split("$Nodes\n")
+    nodes, rest = rest.split("$EndNodes\n")
+    lines = nodes.splitlines()
+    at = [scale * matrix @ np.array(line.split()[1:3], float) for line in lines[1:]]
+    lines[1:] = [f"{k + 1} {float(px)!r} {float(py)!r} 0" for k, (px, py) in enumerate(at)]
+    elements, tail = rest.split("$EndElements")
+    flip = np.linalg.det(matrix) < 0
+    words = [line.split() for line in elements.splitlines()]
+    words = [w[:-2] + w[-2:][::-1] if flip and len(w) > 4 and w[1] == "2" else w for w in words]
+    return (
+        f"{head}$Nodes\n"
+        + "\n".join(lines)
+        + "\n$EndNodes\n"
+        + "\n".join(map(" ".join, words))
+        + "\n$EndElements"
+        + tail
+    )
+
+
+def test_turned_mirrored_and_in_other_units(tmp_path):
+    """A wedge pressed in: the same forces and slip."""
+    (tmp_path / "wedge.geo").write_text(WEDGE)
+    execute(["gmsh", "-2", "-format", "msh22", "-v", 0, tmp_path / "wedge.geo", "-o", tmp_path / "wedge.msh"])
+    mesh = (tmp_path / "wedge.msh").read_text()
+    found = []
+    turn = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
+    for k, (matrix, scale) in enumerate([(np.eye(2), 1), (turn, 1), (np.diag([-1.0, 1]), 1), (np.eye(2), 1e-3)]):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        (folder / "mesh.msh").write_text(moved(mesh, matrix, scale))
+        vector = lambda *v, m=matrix, s=1: " ".join(repr(float(c)) for c in s * (m @ v))  # noqa: E731
+        text = (
+            f"body wedge E 1000 nu 0.3\nobstacle flank plane {vector(0.5, 0, s=scale)} {vector(-1, 0.3)} friction 0.4\n"
+        )
+        text += f"symmetry mirror\nleg 2\ntraction head {vector(0, -1)}\n"
+        run = case(folder, folder / "mesh.msh", text, "-tol", 1e-12)
+        rows = run.contact[np.argsort(run.contact["pressure"])]
+        found.append((rows["pressure"], abs(rows["shear"]), rows["slip"] ** 2 / scale**2, rows["slide"]))
+    for other in found[1:]:
+        for one, two in zip(found[0], other, strict=True):
+            assert abs(one - two).max() <= 1e-9 * abs(one).max()
+
+
+def test_little_friction_is_none(tmp_path):
+    flags = {"legs": "1", "h": 0.25, "force": 0, "shear": 0, "reach": 8, "u0": 2, "grading": 20}
+    none = fretting(tmp_path / "none", friction=0, **flags)
+    assert "friction" not in none.summary and "slide" not in none.contact.dtype.names
+    little = fretting(tmp_path / "little", friction=1e-9, **flags)
+    assert little.newton <= none.newton + 1 and little.summary["sliding"] in (True, False)
+    assert little.force == pytest.approx(none.force, rel=1e-6)
+    assert abs(little.contact["pressure"] - none.contact["pressure"]).max() < 1e-5 * none.pressureMax
+
+
+def test_gross_sliding_is_named(tmp_path):
+    run = fretting(tmp_path, h=0.2, shear=2.7, expect=20)
+    assert "gross sliding" in run.message and "-shear" in run.message
+
+
+def test_compliance_and_limit(tmp_path):
+    flags = {"h": 0.2, "legs": "1 0, 1 1", "force": 0, "shear": 0, "u0": 0.1, "drag": 0.05}
+    stiff = fretting(tmp_path / "a", **flags).contact
+    soft = fretting(tmp_path / "b", compliance=0.05, **flags).contact
+    assert (soft["weight"] * soft["shear"]).sum() < 0.9 * (stiff["weight"] * stiff["shear"]).sum()
+    most = 0.5 * stiff["shear"].max()
+    limited = fretting(tmp_path / "c", shearLimit=float(most), **flags).contact
+    assert abs(limited["shear"]).max() <= most * (1 + 1e-6)
+
+
+def test_about_the_axis(tmp_path):
+    """A sphere pressed on a block: it sticks in the middle and slips outwards around it."""
+    run = fretting(tmp_path, geometry="axisymmetric", force=0, shear=0, u0=0.2, h=0.1, legs="1", friction=0.1)
+    rows = run.contact
+    assert rows["slide"][1] == 1 and rows["slide"][rows["slide"] > 0][-1] == 2
+    assert run.summary["contacts"][0]["dissipated"] > 0
+
+
+def test_space_turns_with_its_load(tmp_path):
+    """Along x and along y the same, turned."""
+    flags = {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1}
+    along = [
+        rub(tmp_path / name, "edp/scenes/fretting-3d.edp", {**flags, "-legs": legs})
+        for name, legs in (("x", "1, 1 1"), ("y", "1, 1 0 1"))
+    ]
+    x, y = (run.summary["contacts"][0]["shearForce"] for run in along)
+    assert x[0] == pytest.approx(y[1], rel=0.05) and x[0] > 0
+    newton, _ = counts(along[0])
+    assert newton.max() <= 6
+
+
+def test_legs_of_a_case(tmp_path):
+    """Pressed, then dragged: the supports carry what the contact does."""
+    text = PUNCH + "leg 1\nmove pushed 0 -0.5\nleg 2\nmove pushed 0.1 -0.5\n"
+    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", text)
+    shear = run.summary["contacts"][0]["shearForce"]
+    assert run.summary["contacts"][0]["force"][0] == pytest.approx(shear[0], rel=1e-6)
+    assert list(series(run)["leg"]) == [1, 2, 2]
+    assert run.summary["contacts"][0]["stickShare"] > 0.3
+
+
+@pytest.mark.parametrize(
+    ("text", "words", "script"),
+    [
+        (PUNCH + "move pushed 0 -0.5\n", "line 3: friction: read by parts-friction.edp", "edp/parts.edp"),
+        (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps", "edp/parts-friction.edp"),
+        (
+            PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n",
+            "first stated in a leg behind the first",
+            "edp/parts-friction.edp",
+        ),
+        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range", "edp/parts-friction.edp"),
+    ],
+)
+def test_refusals_of_a_case(tmp_path, text, words, script):
+    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", text, script=script, expect=10)
+    assert words in run.stdout
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ({"method": "paper"}, "only with -method xnewton"),
+        ({"distance": "exact"}, "-distance exact: not with friction"),
+        ({"drag": 1}, "not with -drag"),
+        ({"force": 0}, "only with a prescribed -force"),
+        ({"legs": "1 0, 1 2 3 4"}, "4 numbers in leg 2"),
+    ],
+)
+def test_refusals(tmp_path, flags, words):
+    run = fretting(tmp_path / "out", expect=10, **flags)
+    assert words in run.stdout and len(re.findall(r"\n", run.stdout.strip())) <= 1
+    assert not (tmp_path / "out" / "summary.json").exists()
