@@ -255,7 +255,7 @@ def test_legs_of_a_case(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words", "script"),
     [
-        (PUNCH + "move pushed 0 -0.5\n", "line 3: friction: read by parts-friction.edp", "edp/parts.edp"),
+        (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps", "edp/parts.edp"),
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps", "edp/parts-friction.edp"),
         (
             PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n",

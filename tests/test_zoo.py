@@ -400,7 +400,7 @@ WORDS = {
     "support": "did you mean clamp (no displacement)?",
     "gravity": "did you mean weight (a force per volume on a body: density times gravity)?",
     "tie": "bodies that share nodes are one part",
-    "friction": "contacts are frictionless",
+    "friction": "it stands behind a contact or an obstacle",
     "material": "did you mean body (",
     "mesh": "did you mean size (",
 }
