@@ -681,3 +681,17 @@ def test_soft_bed(go):
     told.holds("contacts.0.pressureMax", 20 / 3)
     told.holds("contacts.0.contactLength", 6)
     told.holds("loads.0.way", 4 / 9)
+
+
+def test_one_point_on_a_round_obstacle(go):
+    """A roller pushed down between two edges of a notch: the normals at their points are known to half an element's turn."""
+    sketch = Sketch(Draw())
+    corners = [(0, 0, 1), (6, 0, 1), (6, 8, 1), (1.2, 8, 0.6), (1.2, 5, 0.8), (0, 5, 0.8)]
+    sides, _ = sketch.outline(corners)
+    sketch.body("block", sides)
+    for name, curves in {"base": sides[:1], "lip": sides[2:4], "mid": sides[5:]}.items():
+        sketch.group(name, curves)
+    case = "state strain\nbody block E 70e3 nu 0.33\nobstacle lip circle 0 8.95 R 1.5 force 0 -150\nclamp base\nsymmetry mid\n"
+    told = go(sketch.text(), case, "-distance", "exact")
+    value, said = told.numbers["contacts.0.force"]
+    assert value > 150 and 0.01 * value < said < value
