@@ -664,7 +664,9 @@ def test_rounds_to_and_fro(go):
         sketch.body(name, rim)
         sketch.group(name + "r", rim)
     case = "body A E 2000 nu 0.3\nbody B E 3000 nu 0.3\nbody C E 1000 nu 0.3\n"
-    case += "".join(f"obstacle {b}r plane 0 0 0 1\nobstacle {b}r plane {x} 0 {n} 0\n" for b, x, n in (("A", -10, 1), ("B", 10, -1)))
+    case += "".join(
+        f"obstacle {b}r plane 0 0 0 1\nobstacle {b}r plane {x} 0 {n} 0\n" for b, x, n in (("A", -10, 1), ("B", 10, -1))
+    )
     case += "contact Cr Ar\ncontact Cr Br\nweight C 0 -0.3\nweight A 0 -0.1\nweight B 0 -0.1\n"
     go(sketch.text(), case, "-distance", "exact").holds("loads.0.way", 0.0462)
 
