@@ -678,7 +678,8 @@ def test_soft_bed(go):
     sketch.body("block", sides)
     sketch.group("sole", sides[:1])
     sketch.group("top", sides[3:4])
-    case = "state stress\nbody block E 1e9 nu 0.3\nobstacle sole plane 0 0 0 1 law power kappa 10 m 1.001 d0 -1e-6\ntraction top 0 -10\n"
+    law = "law power kappa 10 m 1.001 d0 -1e-6"
+    case = f"state stress\nbody block E 1e9 nu 0.3\nobstacle sole plane 0 0 0 1 {law}\ntraction top 0 -10\n"
     told = go(sketch.text(), case)
     told.holds("contacts.0.pressureMax", 20 / 3)
     told.holds("contacts.0.contactLength", 6)
@@ -686,14 +687,14 @@ def test_soft_bed(go):
 
 
 def test_one_point_on_a_round_obstacle(go):
-    """A roller pushed down between two edges of a notch: the normals at their points are known to half an element's turn."""
+    """A roller between two edges of a notch: the normals at their points are known to half an element's turn."""
     sketch = Sketch(Draw())
     corners = [(0, 0, 1), (6, 0, 1), (6, 8, 1), (1.2, 8, 0.6), (1.2, 5, 0.8), (0, 5, 0.8)]
     sides, _ = sketch.outline(corners)
     sketch.body("block", sides)
     for name, curves in {"base": sides[:1], "lip": sides[2:4], "mid": sides[5:]}.items():
         sketch.group(name, curves)
-    case = "state strain\nbody block E 70e3 nu 0.33\nobstacle lip circle 0 8.95 R 1.5 force 0 -150\nclamp base\nsymmetry mid\n"
+    case = "body block E 70e3 nu 0.33\nobstacle lip circle 0 8.95 R 1.5 force 0 -150\nclamp base\nsymmetry mid\n"
     told = go(sketch.text(), case, "-distance", "exact")
     value, said = told.numbers["contacts.0.force"]
     assert value > 150 and 0.01 * value < said < value
