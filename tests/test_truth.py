@@ -621,3 +621,80 @@ def test_plank_rolls(name, tmp_path):
     told = Told(tmp_path, part.geo(Draw(order=2, named=True, smooth=True)), part.case)
     assert told.summary["newton"] <= 10
     assert all(contact["contactPoints"] > 0 for contact in told.summary["contacts"])
+
+
+def bolt_head(f=1.0):
+    """A bolt's head, whose edge is a fillet of 90 degrees, on a seat, about an axis."""
+    sketch = Sketch(Draw())
+    corners = [(0, -10, 2), (4, -10, 2), (4, -0.5, 0.3), (4, 0, 0.3), (7, 0, 0.2 * f, 0.4), (7, 5, 2), (0, 5, 2)]
+    bolt, (fillet,) = sketch.outline(corners)
+    plate, _ = sketch.outline([(4.3, -8, 2), (15, -8, 2), (15, 0, 2), (5, 0, 0.3), (4.3, -0.7, 0.3)])
+    sketch.body("bolt", [*bolt[:4], fillet, *bolt[4:]])
+    sketch.body("plate", plate)
+    for name, curves in {
+        "pull": bolt[:1],
+        "head": [bolt[3], fillet],
+        "axis": bolt[6:],
+        "base": plate[:1],
+        "seat": plate[2:4],
+    }.items():
+        sketch.group(name, curves)
+    return sketch.text()
+
+
+BOLT = (
+    "state axisymmetric\nbody bolt E 210e3 nu 0.3\nbody plate E 70e3 nu 0.33\ncontact head seat\nclamp base\n"
+    "symmetry axis\ntraction pull 0 -200\n"
+)
+
+
+@pytest.mark.parametrize("f", [1, 1.5])
+def test_fillet_of_a_right_angle(go, f):
+    """Normals at the fillet's end are parallel to the seat: gaps along them are no gaps of the true distance."""
+    told = go(bolt_head(f), BOLT, "-distance", "exact")
+    told.holds("loads.0.way", 0.02152)
+    assert told.numbers["loads.0.way"][0] > 0.0205
+
+
+def test_rounds_to_and_fro(go):
+    """A disc on two others between two walls: a round overshoots more than the one before."""
+    sketch = Sketch(Draw())
+    for name, x, y in (("A", -5, 5), ("B", 5, 5), ("C", 0, 5 + 5 * np.sqrt(3))):
+        rim = sketch.oval(x, y, 5, 5, 1, 56)
+        sketch.body(name, rim)
+        sketch.group(name + "r", rim)
+    case = "body A E 2000 nu 0.3\nbody B E 3000 nu 0.3\nbody C E 1000 nu 0.3\n"
+    case += "".join(
+        f"obstacle {b}r plane 0 0 0 1\nobstacle {b}r plane {x} 0 {n} 0\n" for b, x, n in (("A", -10, 1), ("B", 10, -1))
+    )
+    case += "contact Cr Ar\ncontact Cr Br\nweight C 0 -0.3\nweight A 0 -0.1\nweight B 0 -0.1\n"
+    go(sketch.text(), case, "-distance", "exact").holds("loads.0.way", 0.0462)
+
+
+def test_soft_bed(go):
+    """A nearly rigid block on soft springs, pushed beside its middle third: p = 2 F/l over l = 3 e."""
+    sketch = Sketch(Draw())
+    sides, _ = sketch.outline([(-6, 0, 1.5), (6, 0, 1.5), (6, 4, 1.5), (5, 4, 1.5), (3, 4, 1.5), (-6, 4, 1.5)])
+    sketch.body("block", sides)
+    sketch.group("sole", sides[:1])
+    sketch.group("top", sides[3:4])
+    law = "law power kappa 10 m 1.001 d0 -1e-6"
+    case = f"state stress\nbody block E 1e9 nu 0.3\nobstacle sole plane 0 0 0 1 {law}\ntraction top 0 -10\n"
+    told = go(sketch.text(), case)
+    told.holds("contacts.0.pressureMax", 20 / 3)
+    told.holds("contacts.0.contactLength", 6)
+    told.holds("loads.0.way", 4 / 9)
+
+
+def test_one_point_on_a_round_obstacle(go):
+    """A roller between two edges of a notch: the normals at their points are known to half an element's turn."""
+    sketch = Sketch(Draw())
+    corners = [(0, 0, 1), (6, 0, 1), (6, 8, 1), (1.2, 8, 0.6), (1.2, 5, 0.8), (0, 5, 0.8)]
+    sides, _ = sketch.outline(corners)
+    sketch.body("block", sides)
+    for name, curves in {"base": sides[:1], "lip": sides[2:4], "mid": sides[5:]}.items():
+        sketch.group(name, curves)
+    case = "body block E 70e3 nu 0.33\nobstacle lip circle 0 8.95 R 1.5 force 0 -150\nclamp base\nsymmetry mid\n"
+    told = go(sketch.text(), case, "-distance", "exact")
+    value, said = told.numbers["contacts.0.force"]
+    assert value > 150 and 0.01 * value < said < value
