@@ -193,7 +193,7 @@ def test_case_is_read(plane):
         ("state axisymmetric\n" + GOOD + "rotate left 0 0 0.1", "rotate: a ring cannot turn"),
         ("state axisymmetric\n" + GOOD + "weight block 1 0", "off the axis; allowed with state axisymmetric: along y"),
         (GOOD.replace("E 100", "E -1"), "-1: Young's modulus is out of range; allowed: above 0"),
-        (GOOD.replace("0.3", "0.5"), "0.5: Poisson's ratio is out of range; allowed: between -1 and 0.5"),
+        (GOOD.replace("0.3", "0.5"), "0.5: Poisson's ratio is out of range; allowed: above -1 and below 0.5"),
         (GOOD.replace("E 100", "E 1e5x"), "1e5x: Young's modulus is no number; allowed: body NAME E number nu number"),
         (GOOD.replace("E 100", "E 0x10"), "0x10: Young's modulus is no number"),
         (GOOD.replace("E 100", "E 1e50"), "1e50: Young's modulus cannot be computed with; allowed: 0, and magnitudes"),
@@ -219,7 +219,7 @@ def test_case_is_read(plane):
         ),
         (
             GOOD + "contact left right law power kappa 1 m 0.5 d0 -1",
-            "0.5: m is out of range; allowed: between 1 and 1000",
+            "0.5: m is out of range; allowed: above 1 and below 1000",
         ),
         (GOOD + "contact left right law barrier kappa 1", "kappa: not a parameter of the law barrier; allowed: p0 d0"),
         (GOOD + "contact left right law barrier p0 1 p0 2 d0 -1", "p0: given twice"),

@@ -102,13 +102,17 @@ def test_quadratic_sides(go):
 DISC_ON_PLANE = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
 
 
-def test_weight(go):
-    """A polygon weighs less than the disc."""
+def disc():
     sketch = Sketch(Draw())
     rim = sketch.oval(0, 0, 1, 1, 0.5, bottom=0.12)
     sketch.body("disc", rim)
     sketch.group("rim", [rim[0], rim[3]])
-    go(sketch.text(), DISC_ON_PLANE).holds("contacts.0.force", np.pi)
+    return sketch.text()
+
+
+def test_weight(go):
+    """A polygon weighs less than the disc."""
+    go(disc(), DISC_ON_PLANE).holds("contacts.0.force", np.pi)
 
 
 def tooth(z, cy, direction, root):
@@ -582,3 +586,38 @@ def test_accuracy_where_nothing_touches(go):
     sketch.group("hub", hub)
     told = go(sketch.text(), APART, "-accuracy", 1e-3)
     assert told.summary["contacts"][0]["normalForce"] == 0
+
+
+# ---------------------------------------------------------------- open contacts, quarters, bodies that roll
+
+
+def test_open_contact(go):
+    """A contact that touches nowhere has no errors, and takes none from the others."""
+    told = go(disc(), DISC_ON_PLANE + "obstacle rim plane 0 -9 0 1\n")
+    assert told.numbers["contacts.1.pressureMax"] == [0, None]
+    told.holds("contacts.0.normalForce", np.pi)
+    assert "rim plane touches nowhere" in told.stdout
+
+
+def test_quarter(go):
+    """What a quarter's contact carries at one mirror is no less for the other, which its group reaches too."""
+    sketch = Sketch(Draw())
+    centre, side, low = sketch.point(0, 0, 0.3), sketch.point(1, 0, 0.1), sketch.point(0, -1, 0.01)
+    arc = sketch.curve("Circle", low, centre, side)
+    mirrors = [sketch.curve("Line", centre, low), sketch.curve("Line", side, centre)]
+    sketch.body("disc", [arc, mirrors[1], mirrors[0]])
+    for word, curve in (("rim", arc), ("upright", mirrors[0]), ("level", mirrors[1])):
+        sketch.group(word, [curve])
+    case = "body disc E 1000 nu 0.3\nsymmetry upright\nsymmetry level\nobstacle rim plane 0 -0.99 0 1\n"
+    told = go(sketch.text(), case)
+    normal, force = (told.numbers[f"contacts.0.{name}"][0] for name in ("normalForce", "force"))
+    assert normal > 1 and force == pytest.approx(normal, rel=1e-2)
+
+
+@pytest.mark.parametrize("name", ["plank 1", "plank 2"])
+def test_plank_rolls(name, tmp_path):
+    """A plank that leans on one round foot, or on none yet, shall roll on to the other, not from point to point."""
+    part = next(part for part in parts(2) if part.name == name)
+    told = Told(tmp_path, part.geo(Draw(order=2, named=True, smooth=True)), part.case)
+    assert told.summary["newton"] <= 10
+    assert all(contact["contactPoints"] > 0 for contact in told.summary["contacts"])

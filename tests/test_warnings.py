@@ -147,7 +147,7 @@ def test_few_points_in_the_plane():
     status = (done.contact["status"] > 0).astype(int)
     sizes = np.diff(np.flatnonzero(np.diff([0, *status, 0])))[::2]
     text = warned(done, "points across")
-    assert f"{np.sum(sizes < 6)} of {len(sizes)} contacts" in text
+    assert f"{np.sum(sizes < 6)} of {len(sizes)} places of contact" in text
 
 
 def test_jumping_pressure():

@@ -72,7 +72,7 @@ function number(what, low, high,   t, v, mantissa) {
   sub(/[eE].*/, "", mantissa)
   if (mantissa ~ /[1-9]/ && (v < 1e-40 && v > -1e-40 || v > 1e40 || v < -1e40))
     no(t ": " what " cannot be computed with; allowed: 0, and magnitudes from 1e-40 to 1e40")
-  if (v <= low || v >= high) no(t ": " what " is out of range; allowed: " (high < 1e300 ? "between " low " and " high : "above " low))
+  if (v <= low || v >= high) no(t ": " what " is out of range; allowed: " (low > -1e300 ? "above " low : "") (low > -1e300 && high < 1e300 ? " and " : "") (high < 1e300 ? "below " high : ""))
   return v
 }
 function any(what) { return number(what, -1e300, 1e300) }
