@@ -126,6 +126,7 @@ def test_skew_axis(solve, flags):
     assert turned == pytest.approx(1.7 * np.array(axis) / np.linalg.norm(axis), abs=0.02)
 
 
+@pytest.mark.long
 def test_lever_at_rest(solve):
     """A plank that tilts until both feet stand: statics where it stands, and how far its weight has gone."""
     geo = PLANK.replace("0.02}", "0.004}")
@@ -142,6 +143,32 @@ def test_lever_at_rest(solve):
     assert -motion[1] == pytest.approx(down, rel=2e-3)
     (way,) = summary["estimates"]["loads"]
     assert way["way"]["value"] == pytest.approx(down, rel=2e-3)
+
+
+def test_see_saw(solve):
+    """A plank on a foot near its middle that tilts until the other one stands."""
+    geo = PLANK
+    for number, old, new in ((2, "1", "3.5"), (3, "2", "4.5"), (4, "2", "4.5"), (5, "3", "5.5")):
+        geo = geo.replace(f"Point({number}) = {{{old},", f"Point({number}) = {{{new},")
+    summary, _ = solve(geo, STANDING + "weight plank 0 -1\n", "-distance", "exact")
+    area, tilt = 40 + np.pi, np.arcsin(0.3 / 3.5)
+    middle = (200 + 12.5 * np.pi / 2) / area - 4.5, (80 - 2 / 3 * 2) / area
+    right = area * (middle[0] + middle[1] * np.tan(tilt)) / 3.5
+    for number, true in enumerate((area - right, right)):
+        value, error = force(summary, number)
+        assert abs(value - true) < error < 0.02 * true
+
+
+def test_pushed_group(solve):
+    """A body that turns and has a force on a group: it follows along the force as it is, in one step or three."""
+    case = "body block E 100 nu 0.3\nobstacle bottom circle 1.785 0.209 R 1\nforce right -2 0\n{} left {}\n"
+    mesh = block(Mesh())
+    true = solve(mesh.text(rotation(0.7)), case.format("clamp", ""), "-distance", "exact")[0]
+    for steps in (1, 3):
+        told = solve(mesh.text(), case.format("rotate", "0 0 0.7"), "-distance", "exact", "-steps", steps)[0]
+        assert force(told)[0] == pytest.approx(force(true)[0], rel=1e-8)
+        ways = [run["estimates"]["loads"][0]["way"]["value"] for run in (true, told)]
+        assert ways[1] == pytest.approx(ways[0], rel=1e-8)
 
 
 def test_refused(solve):
