@@ -51,6 +51,7 @@ BEGIN {
   while ((getline line < ENVIRON["CASE"]) > 0) {
     split(line, w, " ")
     if (w[1] == "contact" || w[1] == "obstacle") touched[w[3]] = touched[w[4]] = 1
+    if (w[1] == "preload") cut[w[3]] = 1
   }
   bodyKind = space ? "tetrahedron" : "triangle"
   sideKind = space ? "triangle" : "edge"
@@ -180,6 +181,13 @@ function checkSides(   s, k, where, g) {
     g = sideGroup[s]
     where = space ? faceKey(side[s, 1], side[s, 2], side[s, 3]) : edgeKey(side[s, 1], side[s, 2])
     if (!(where in owner)) fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" that no " bodyKind " has")
+    if (g in cut) {
+      if (tip[where] != 0) fail("element " sideNumber[s] ": " sideKind " of the preload \"" name[g] "\" on the boundary; allowed: a cut through a body, whose elements on both sides share its nodes")
+      for (k = 1; k <= dim; k++) if (!((g, side[s, k]) in onCut)) { onCut[g, side[s, k]] = 1; cutAt[++cutNodes] = g " " side[s, k] }
+      has[g] = 1
+      sideGroup[s] = 0
+      continue
+    }
     if (tip[where] == 0)
       fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" inside the bodies, which share its nodes; allowed: each body's own nodes where they touch (no Coherence, BooleanFragments there)")
     if (where in isIn && isIn[where] != g)
@@ -286,7 +294,7 @@ function risesOfSurface(   line, v, n, part, here, at, facing, across, px, py, p
   }
 }
 function spot(p) { return sprintf("%.17g %.17g %.17g", x[p] * 1000000, y[p] * 1000000, (space ? z[p] : 0) * 1000000) }
-function write(   i, j, k, n, m, line, mesh, middles, known) {
+function write(   i, j, k, n, m, w, line, mesh, middles, known) {
   mesh = ENVIRON["MESH"]
   middles = ENVIRON["MIDDLES"]
   known = knowMiddles()
@@ -317,7 +325,8 @@ function write(   i, j, k, n, m, line, mesh, middles, known) {
   if (ENVIRON["SURFACE"] != "") risesOfSurface()
   if (space) print risen + 0 > ENVIRON["RISES"]
   for (k = 1; k <= risen; k++) print riseAt[k] > ENVIRON["RISES"]
-  print "parts " parts "\nmiddles " known > ENVIRON["REGIONS"]
+  print "parts " parts "\nmiddles " known "\ncuts " cutNodes + 0 > ENVIRON["REGIONS"]
+  for (k = 1; k <= cutNodes; k++) { split(cutAt[k], w, " "); print w[1], now[w[2]] - 1 > ENVIRON["REGIONS"] }
 }
 END {
   complete()

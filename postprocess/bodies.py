@@ -125,7 +125,7 @@ def write_picture(arguments: argparse.Namespace, name: str, draw: Callable) -> N
     out = Path(arguments.out) if arguments.out else chosen.path / f"{name}.pdf"
     with style.look():
         bodies = read_bodies(chosen, arguments.scale)
-        figure = draw(bodies, units_of(chosen, arguments.units), sight(*arguments.view))
+        figure = draw(bodies, units_of(chosen, arguments.units), sight(*arguments.view), arguments.slide)
         if not arguments.out:
             enter(chosen.path, [f"{name}.pdf", f"{name}.png"])
         for path in write_figure(figure, out):

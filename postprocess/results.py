@@ -34,7 +34,9 @@ WHOLE = frozenset(
     "step adaptation iteration newton contactPoints statusChanges wallPoints factorisations backsolves status "
     "a b c region state vertex".split()
 )
-MAY_BE_INFINITE = frozenset({"threshold", "tau"})  # +inf: a model without a wall
+MAY_BE_INFINITE = frozenset(
+    "threshold tau vonMisesError displacementError".split()
+)  # +inf: a model without a wall, an error not known
 
 SUMMARY = {
     "text": "scene method".split(),

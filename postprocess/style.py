@@ -87,7 +87,17 @@ def add_picture(parser, name: str) -> None:
         default=(-125.0, 22.0),
         help="in space: where the eye is, degrees from x towards y, and above; default -125 22",
     )
+    parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
     add_units(parser)
+
+
+def panels(sizes: list[float], inches: float, slide: bool, layout: str = "constrained"):
+    """A figure and its panels: one below the other, a column wide and so tall, or side by side, 16:9."""
+    if not slide:
+        figure = Figure(figsize=(COLUMN, inches), layout=layout)
+        return figure, figure.subplots(len(sizes), 1, height_ratios=sizes)
+    figure = Figure(figsize=(PAGE, PAGE * 9 / 16), layout=layout)
+    return figure, figure.subplots(1, len(sizes))
 
 
 @contextlib.contextmanager

@@ -19,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
+ASKED = "scenes/asked/parts-asked.edp", "scenes/asked/parts-3d-asked.edp"  # with all that a case may ask for
 EXAMPLES = ["scenes/slurm.sh"]
 PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
@@ -42,7 +43,7 @@ def table(kind, names):
     return "\n".join(rows) + "\n"
 
 
-EACH = re.compile(r"^macro (?:eachOption|moreOptions)\(do, what\) (.*?)//", re.M | re.S)
+EACH = re.compile(r"^macro (?:eachOption|moreOptions|askedOptions)\(do, what\) (.*?)//", re.M | re.S)
 
 
 def reads(script, space=False):
@@ -61,7 +62,7 @@ def scripts():
     found = {path.stem: str(path.relative_to(EDP)) for path in sorted(EDP.glob("scenes/*.edp"))}
     del found["two-bodies"]  # a script that says what became of it
     found["disc-on-block-ipopt"] = "scenes/ipopt/disc-on-block.edp"
-    return {"disc-on-block": "main.edp", **found, "parts": "parts.edp", "parts-3d": "parts-3d.edp"}
+    return {"disc-on-block": "main.edp", **found, "parts": ASKED[0], "parts-3d": ASKED[1]}
 
 
 def options():
@@ -97,7 +98,7 @@ def freefem(script, *flags):
 def told(script, *flags):
     """{flag: (default, unit, meaning, allowed)} as -help prints them beside other flags."""
     found = {}
-    for line in freefem(script, *flags, "-help").splitlines():
+    for line in freefem(script, *flags, "-help", "all").splitlines():
         if line.startswith("-"):
             name, default = line.split()[:2]
             late = max(len(default) - 14, 0)

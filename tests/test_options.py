@@ -37,7 +37,9 @@ def test_list():
     for name, scenes in entries.items():
         found = {scene for scene, path in SCRIPTS.items() if name in pages.reads(path)}
         assert set(scenes.split(", ")) == found or scenes == f"scenes that read the option {name}"
-    elsewhere = {flag for name in [*MODULES, *SCRIPTS.values()] for flag in flags_of(name) if not option_of(name)}
+    elsewhere = {
+        flag for name in [*MODULES, *SCRIPTS.values(), "parts.edp"] for flag in flags_of(name) if not option_of(name)
+    }
     for name in filter(option_of, MODULES):
         offered = {word for option, words, _ in OFFERS if option == option_of(name) for word in words.split(", ")}
         assert flags_of(name) <= offered | elsewhere, name

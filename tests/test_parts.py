@@ -226,7 +226,7 @@ def test_case_is_read(plane):
         (GOOD + "contact left right law table none.csv d0 -1", "none.csv: no such file, or empty"),
         (
             GOOD + "contact left right kappa 3",
-            "kappa: not allowed here; allowed: contact SLAVE MASTER [gap vertical] [law",
+            "kappa: not allowed here; allowed: contact SLAVE MASTER [gap vertical] [interference number] [law",
         ),
         (
             GOOD + "contact bottom right",

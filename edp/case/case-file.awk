@@ -144,7 +144,8 @@ function readLaw(v,   name, list, n, k, given, taken) {
   return name
 }
 # kappa m p0 beta d0, point (3), direction (3), radius, inside, the obstacle's move or force (3);  of others, in this order:
-# body: E nu;  move, force, traction, weight: a vector;  rotate: centre, axis, angle;  pressure: the pressure
+# body: E nu, yield stress or 0;  move, force, traction, weight: a vector;  rotate: centre, axis, angle;  pressure: the pressure;
+# line: both ends;  expand: alpha, dT;  preload: the force
 function put(a, b, shape, load, law, v,   k, line) {
   line = word[1] " " FNR " " a " " b " " shape " " load " " law
   for (k = 0; k < 16; k++) line = line " " sprintf("%.17g", v[k])
@@ -168,7 +169,8 @@ function readShape(v,   shape) {
   if (shape != "plane" && at < words && word[at + 1] == "inside") { at++; v[12] = 1 }
   return shape
 }
-function readObstacle(   g, v, shape, load, law, next_) {
+function readObstacle(   g, v, shape, load, law, next_, over) {
+  over = 0
   g = group(dim - 1)
   for (k = 0; k < 16; k++) v[k] = 0
   shape = readShape(v)
@@ -181,12 +183,14 @@ function readObstacle(   g, v, shape, load, law, next_) {
       counted(load)
       vector("the obstacle's " load, 0, v, 13)
       if (load == "force") nonzero("the obstacle's force", v, 13)
-    } else no(next_ ": not allowed here; " usageOf("obstacle"))
+    } else if (next_ == "interference" && !over) over = number("the interference", 0, 1e300)
+    else no(next_ ": not allowed here; " usageOf("obstacle"))
   }
   shape_ = shape
   for (k = 5; k < 13; k++) shape_ = shape_ " " v[k]
   once("obstacle" SUBSEP g SUBSEP shape_, "this obstacle of " nameOf[g])
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
+  v[4] -= over
   touches[g] = FNR; slaves[g] = FNR
   measured(g, "none")
   put(g, 0, shape, load, law, v)
@@ -199,7 +203,8 @@ function measured(g, gap,   all) {
   gapOf[all] = gap
   gapLine[all] = FNR
 }
-function readContact(   a, b, v, law, gap, next_) {
+function readContact(   a, b, v, law, gap, next_, over) {
+  over = 0
   a = group(dim - 1)
   b = group(dim - 1)
   if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
@@ -210,11 +215,13 @@ function readContact(   a, b, v, law, gap, next_) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
     else if (next_ == "gap" && gap == "none") { keyword("vertical"); gap = "vertical" }
+    else if (next_ == "interference" && !over) over = number("the interference", 0, 1e300)
     else no(next_ ": not allowed here; " usageOf("contact"))
   }
   slaves[a] = FNR
   touches[a] = touches[b] = FNR
   measured(a, gap)
+  v[4] -= over
   put(a, b, gap, "none", law, v)
 }
 function readBody(   g, v) {
@@ -224,6 +231,8 @@ function readBody(   g, v) {
   v[0] = number("Young's modulus", 0, 1e300)
   keyword("nu")
   v[1] = number("Poisson's ratio", -1, 0.5)
+  v[2] = 0
+  if (at < words && word[at + 1] == "yield") { at++; v[2] = number("the yield stress", 0, 1e300) }
   put(g, 0, "none", "none", "none", v)
 }
 # clamp, symmetry, move, rotate, force, pressure, traction, weight: a group and a few numbers
@@ -245,6 +254,33 @@ function readOther(   g, v, what) {
   if (what == "traction") { loadLine[g] = FNR; loadWord[g] = what }
   if (axial && what ~ /^(force|weight)$/ && v[0] != 0) no(word[2] ": a " what " off the axis; allowed with state axisymmetric: along y")
   put(g, 0, "none", "none", "none", v)
+}
+# stresses, line, expand, preload: read by the scripts of scenes/asked/
+function readAsked(   g, v, k, name) {
+  for (k = 0; k < 16; k++) v[k] = 0
+  name = "none"
+  if (word[1] == "stresses") once("stresses", "stresses")
+  if (word[1] == "line") {
+    if (at >= words) no("a name is missing after line; " usageOf("line"))
+    name = word[++at]
+    if (name !~ /^[A-Za-z0-9_-]+$/) no(name ": a name for files; allowed: letters, digits, - and _")
+    once("line" SUBSEP name, "line " name)
+    vector("the line's beginning", 0, v, 0)
+    vector("the line's end", 0, v, 3)
+    if (v[0] == v[3] && v[1] == v[4] && v[2] == v[5]) no("line " name ": begins where it ends; " usageOf("line"))
+  }
+  if (word[1] == "expand") {
+    g = group(dim)
+    once("expand" SUBSEP g, "expand " nameOf[g])
+    v[0] = any("the coefficient of expansion")
+    v[1] = any("the change of temperature")
+  }
+  if (word[1] == "preload") {
+    g = group(dim - 1)
+    once("preload" SUBSEP g, "preload " nameOf[g])
+    v[0] = number("the preload", 0, 1e300)
+  }
+  put(g + 0, 0, name, "none", "none", v)
 }
 function single(   text, k) {
   once(word[1], word[1])
@@ -272,13 +308,17 @@ BEGIN {
   usage["units"] = "units LENGTH PRESSURE, as units mm MPa"
   usage["state"] = "state strain, stress or axisymmetric"
   usage["thickness"] = "thickness NUMBER"
-  usage["body"] = "body NAME E number nu number"
+  usage["body"] = "body NAME E number nu number [yield number]"
+  usage["stresses"] = "stresses"
+  usage["line"] = "line NAME x y" at3 " x y" at3
+  usage["expand"] = "expand NAME alpha dT, two numbers"
+  usage["preload"] = "preload NAME force"
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
-  usage["contact"] = "contact SLAVE MASTER [gap vertical] [law NAME ...], with its parameters: " lawNames
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [law NAME ...], with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
-  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [law NAME ...], SHAPE one of: " shapeNames
+  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [interference number] [law NAME ...], SHAPE one of: " shapeNames
   usage["clamp"] = "clamp NAME"
   usage["symmetry"] = "symmetry NAME"
   usage["move"] = "move NAME x y" at3
@@ -289,7 +329,7 @@ BEGIN {
   usage["weight"] = "weight NAME x y" at3
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight"
+  statementNames = "units, state, thickness, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
   low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
@@ -321,6 +361,7 @@ FILENAME == ARGV[1] {
     if (word[1] == "body") readBody()
     else if (word[1] == "contact") readContact()
     else if (word[1] == "obstacle") readObstacle()
+    else if (word[1] ~ /^(stresses|line|expand|preload)$/) readAsked()
     else readOther()
   }
   if (at < words) no(word[at + 1] ": more than the statement takes; " usageOf(word[1]))

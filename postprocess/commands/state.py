@@ -26,12 +26,12 @@ def run(arguments: argparse.Namespace) -> None:
     write_picture(arguments, "state", draw)
 
 
-def draw(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
-    """The figure, one column of a page wide."""
-    return in_space(bodies, units, view) if bodies.grid.space else in_plane(bodies, units)
+def draw(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool = False) -> Figure:
+    """The figure, one column of a page wide, or a slide."""
+    return in_space(bodies, units, view, slide) if bodies.grid.space else in_plane(bodies, units, slide=slide)
 
 
-def in_plane(bodies: Bodies, units: style.Units, stress: bool = False) -> Figure:
+def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bool = False) -> Figure:
     """(a) the bodies, (b) what is about the greatest pressure if that is small, (c) the pressure over the arc length.
 
     With `stress` the bodies are coloured by von Mises' stress.
@@ -43,8 +43,7 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False) -> Figure
     wide = 0.68 if stress else 0.84
     tall = [min(1.0, max(0.25, np.ptp(box[:, 1]) / np.ptp(box[:, 0]))) * wide for box in windows] + [0.42]
     inches = style.COLUMN * (sum(tall) + 0.18 * len(tall))
-    figure = Figure(figsize=(style.COLUMN, inches), layout="constrained")
-    panels = figure.subplots(len(tall), 1, height_ratios=tall)
+    figure, panels = style.panels(tall, inches, slide)
     for axes, box in zip(panels, windows, strict=False):
         colours = drawn.fill_plane(axes, bodies, stress)
         drawn.stand_pressure(axes, bodies, drawn.tall(bodies, box))
@@ -54,24 +53,26 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False) -> Figure
         axes.set_xlabel(f"$x$ [{units.length}]")
         axes.set_ylabel(f"$y$ [{units.length}]")
         if colours is not None:
-            figure.colorbar(colours, ax=axes, label=f"von Mises [{units.stress}]", pad=0.01, aspect=18, shrink=0.95)
+            bar = {"location": "bottom", "pad": 0.02} if slide else {"pad": 0.01, "shrink": 0.95}
+            figure.colorbar(colours, ax=axes, label=f"von Mises [{units.stress}]", aspect=18, **bar)
     if zoom:
         size = np.ptp(close, axis=0)
         panels[0].add_patch(Rectangle(close[0], *size, fill=False, linewidth=0.6, zorder=6))
     drawn.plot_pressure(panels[-1], bodies, units)
     for index, axes in enumerate(panels):
-        drawn.title(axes, index, drawn.motion(bodies, units) if index == 0 else "")
+        drawn.title(axes, index, drawn.motion(bodies, units) if index == 0 and not slide else "")
+    if slide:
+        figure.suptitle(drawn.motion(bodies, units), x=0.02, ha="left", fontsize=8)
     return figure
 
 
-def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
+def in_space(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool = False) -> Figure:
     """(a) the bodies from outside, then the pressure on each contact's surface."""
     pressed = [contact for contact in range(len(bodies.names)) if bodies.touching(contact).any()]
     if not pressed:
         raise ResultsError(bodies.run.path / "contact.csv", "no point is in contact")
     rows = [0.8] + [0.8] * len(pressed)
-    figure = Figure(figsize=(style.COLUMN, sum(rows) * style.COLUMN), layout="compressed")
-    panels = figure.subplots(len(rows), 1, height_ratios=rows)
+    figure, panels = style.panels(rows, sum(rows) * style.COLUMN, slide, "compressed")
     drawn.draw_shell(panels[0], bodies, view, None, 1.0)
     figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
     for index, (contact, axes) in enumerate(zip(pressed, panels[1:], strict=True), start=1):

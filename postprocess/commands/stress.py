@@ -30,16 +30,15 @@ def run(arguments: argparse.Namespace) -> None:
     write_picture(arguments, "stress", draw)
 
 
-def draw(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
-    """The figure, one column of a page wide."""
-    return in_space(bodies, units, view) if bodies.grid.space else state.in_plane(bodies, units, stress=True)
+def draw(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool = False) -> Figure:
+    """The figure, one column of a page wide, or a slide."""
+    return in_space(bodies, units, view, slide) if bodies.grid.space else state.in_plane(bodies, units, True, slide)
 
 
-def in_space(bodies: Bodies, units: style.Units, view: np.ndarray) -> Figure:
+def in_space(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool = False) -> Figure:
     """(a) the surface, (b) the section, then the pressure on the surface of the contact that carries most of it."""
     most = int(bodies.table["contact"][bodies.table["pressure"].argmax()])
-    figure = Figure(figsize=(style.COLUMN, 2.3 * style.COLUMN), layout="compressed")
-    panels = figure.subplots(3, 1, height_ratios=[0.8, 0.7, 0.8])
+    figure, panels = style.panels([0.8, 0.7, 0.8], 2.3 * style.COLUMN, slide, "compressed")
     top = bodies.grid.stress.max()
     drawn.draw_shell(panels[0], bodies, view, bodies.grid.stress, top)
     colours = draw_section(panels[1], bodies, units)

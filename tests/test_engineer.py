@@ -1,0 +1,411 @@
+"""What sizes a part: stresses with errors, load curves, heat, bolts, interference, sweeps, against closed forms."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from freefem import ROOT, run_in
+from PIL import Image
+
+RING = """
+h = SIZE;
+Point(1) = {0, 0, 0}; Point(2) = {10, 0, 0, h}; Point(3) = {20, 0, 0, h}; Point(4) = {0, 20, 0, h};
+Point(5) = {0, 10, 0, h};
+Point(6) = {20, 0, 0, h}; Point(7) = {30, 0, 0, h}; Point(8) = {0, 30, 0, h}; Point(9) = {0, 20, 0, h};
+Line(1) = {2, 3}; Circle(2) = {3, 1, 4}; Line(3) = {4, 5}; Circle(4) = {5, 1, 2};
+Line(5) = {6, 7}; Circle(6) = {7, 1, 8}; Line(7) = {8, 9}; Circle(8) = {9, 1, 6};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1}; Curve Loop(2) = {5, 6, 7, 8}; Plane Surface(2) = {2};
+Physical Surface("hub") = {1}; Physical Surface("ring") = {2};
+Physical Curve("below") = {1, 5}; Physical Curve("left") = {3, 7};
+Physical Curve("seat") = {2}; Physical Curve("bore") = {8}; Physical Curve("inner") = {4};
+"""
+SLICE = """
+h = SIZE;
+Point(2) = {10, 0, 0, h}; Point(3) = {20, 0, 0, h}; Point(4) = {20, 4, 0, h}; Point(5) = {10, 4, 0, h};
+Point(6) = {20, 0, 0, h}; Point(7) = {30, 0, 0, h}; Point(8) = {30, 4, 0, h}; Point(9) = {20, 4, 0, h};
+Line(1) = {2, 3}; Line(2) = {3, 4}; Line(3) = {4, 5}; Line(4) = {5, 2};
+Line(5) = {6, 7}; Line(6) = {7, 8}; Line(7) = {8, 9}; Line(8) = {9, 6};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1}; Curve Loop(2) = {5, 6, 7, 8}; Plane Surface(2) = {2};
+Physical Surface("hub") = {1}; Physical Surface("ring") = {2};
+Physical Curve("below") = {1, 5}; Physical Curve("left") = {3, 7};
+Physical Curve("seat") = {2}; Physical Curve("bore") = {8}; Physical Curve("inner") = {4};
+"""
+BODIES = """
+body hub E 200000 nu 0.3 yield 100
+body ring E 100000 nu 0.25 yield 180
+symmetry below
+symmetry left
+"""
+A, B, C = 10.0, 20.0, 30.0  # radii
+HUB, OUTER = (200000.0, 0.3), (100000.0, 0.25)
+
+
+def lame(inside, outside, r1, r2):
+    """(a, b): radial stress a - b/r^2 of a ring under pressures."""
+    area = r2**2 - r1**2
+    return (inside * r1**2 - outside * r2**2) / area, (inside - outside) * (r1 * r2) ** 2 / area
+
+
+def moved(r, ab, material, stress):
+    """The radial displacement."""
+    modulus, nu = material
+    first = (1 - nu) if stress else (1 + nu) * (1 - 2 * nu)
+    return (first * ab[0] * r + (1 + nu) * ab[1] / r) / modulus
+
+
+def seat_pressure(over, inner, stress):
+    """Between hub and ring that overlap by so much at their seat."""
+    gap = [
+        moved(B, lame(p, 0, B, C), OUTER, stress) - moved(B, lame(inner, p, A, B), HUB, stress) - over
+        for p in (0.0, 1.0)
+    ]
+    return -gap[0] / (gap[1] - gap[0])
+
+
+def solve(folder, geo, case, *flags, scene="parts", size=2.0, expect=0):
+    (folder / "part.geo").write_text(geo.replace("SIZE", f"{size:g}"))
+    (folder / "part.case").write_text(case)
+    words = "-mesh", folder / "part.geo", "-case", folder / "part.case", *flags
+    return run_in(ROOT, f"edp/{scene}.edp", *words, out=folder / "out", expect=expect)
+
+
+def summary(folder):
+    return json.loads((folder / "out/summary.json").read_text())
+
+
+# ---------------------------------------------------------------- heat, interference
+
+
+@pytest.mark.parametrize("state", ["stress", "strain", "axisymmetric"])
+def test_shrink_fit(state, tmp_path):
+    """A ring that has cooled shall press as Lame's says: plane strain grows by 1 + nu more."""
+    ring = state == "axisymmetric"
+    line = "line r 10 2 30 2" if ring else "line r 7.0711 7.0711 21.2 21.2"
+    heat = f"state {state}\n{BODIES}contact bore seat\nexpand ring 2e-5 -50\n{line}\n"
+    solve(tmp_path, SLICE if ring else RING, heat, "-vtu", 0)
+    over = 1e-3 * B * (1 if state == "stress" else 1 + OUTER[1])
+    expected = seat_pressure(over, 0, state == "stress")
+    found = summary(tmp_path)["contacts"][0]
+    area = 2 * np.pi * B * 4 if state == "axisymmetric" else np.pi / 2 * B
+    assert found["normalForce"] / area == pytest.approx(expected, rel=1e-4)
+    table = np.genfromtxt(tmp_path / "out/line-r.csv", delimiter=",", names=True)
+    for row in table:
+        r = row["x"] if ring else np.hypot(row["x"], row["y"])
+        (a, b), (modulus, nu) = (lame(0, expected, A, B), HUB) if r < B else (lame(expected, 0, B, C), OUTER)
+        third = 0 if state == "stress" else 2 * nu * a + (r > B) * modulus * 1e-3
+        along, around = a - b / r**2, a + b / r**2
+        mises = np.sqrt(((along - around) ** 2 + (around - third) ** 2 + (third - along) ** 2) / 2)
+        assert abs(r - B) < 0.3 or abs(row["vonMises"] - mises) <= row["vonMisesError"]
+
+
+def test_interference(tmp_path):
+    """Said behind a contact it shall be the overlap of the nominal surfaces."""
+    case = f"state stress\n{BODIES}contact bore seat interference 0.02\n"
+    solve(tmp_path, RING, case, "-estimate", 0, "-vtu", 0)
+    found = summary(tmp_path)["contacts"][0]
+    assert found["normalForce"] / (np.pi / 2 * B) == pytest.approx(seat_pressure(0.02, 0, True), rel=1e-4)
+
+
+BLOCK = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 4};
+Mesh.MeshSizeMax = 0.6;
+Physical Volume("bar") = {1};
+Physical Surface("x") = {1}; Physical Surface("y") = {3}; Physical Surface("z") = {5}; Physical Surface("top") = {6};
+"""
+
+
+def test_heat_in_space(tmp_path):
+    """A bar that heat presses against a wall: E (alpha dT - gap/length), nothing across."""
+    case = "body bar E 1000 nu 0.3\nobstacle top plane 0 0 4.002 0 0 -1\nsymmetry x\nsymmetry y\nsymmetry z\n"
+    solve(tmp_path, BLOCK, f"{case}expand bar 1e-5 200\nstresses\n", scene="parts-3d")
+    found = summary(tmp_path)
+    assert found["contacts"][0]["normalForce"] == pytest.approx(1000 * (2e-3 - 5e-4), rel=1e-6)
+    assert found["stresses"][0]["vonMises"] == pytest.approx(1.5, rel=1e-5)
+    down = {one["name"]: one["force"] for one in found["supports"]}
+    assert down["symmetry z"] == pytest.approx([0, 0, 1.5], abs=1e-5)
+
+
+# ---------------------------------------------------------------- bolts
+
+BOLT = """
+h = 0.7;
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 10, 0, h}; Point(4) = {3, 10, 0, h};
+Point(5) = {3, 12, 0, h}; Point(6) = {0, 12, 0, h}; Point(7) = {0, 10, 0, h}; Point(8) = {0, 5, 0, h};
+Point(9) = {1, 5, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 9}; Line(3) = {9, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
+Line(7) = {6, 7}; Line(8) = {7, 8}; Line(9) = {8, 1}; Line(10) = {8, 9}; Line(11) = {7, 3};
+Curve Loop(1) = {1, 2, -10, 9}; Plane Surface(1) = {1}; Curve Loop(2) = {10, 3, -11, 8}; Plane Surface(2) = {2};
+Curve Loop(3) = {11, 4, 5, 6, 7}; Plane Surface(3) = {3};
+Point(11) = {1.5, 0, 0, h}; Point(12) = {3, 0, 0, h}; Point(13) = {3, 10, 0, h}; Point(14) = {1.5, 10, 0, h};
+Line(21) = {11, 12}; Line(22) = {12, 13}; Line(23) = {13, 14}; Line(24) = {14, 11};
+Curve Loop(4) = {21, 22, 23, 24}; Plane Surface(4) = {4};
+Physical Surface("shank") = {1, 2}; Physical Surface("head") = {3}; Physical Surface("sleeve") = {4};
+Physical Curve("foot") = {1, 21}; Physical Curve("axis") = {7, 8, 9}; Physical Curve("cut") = {10};
+Physical Curve("under") = {4}; Physical Curve("seat") = {23}; Physical Curve("top") = {6};
+"""
+JOINT = """
+state stress
+body shank E 1000 nu 0
+body head E 1e9 nu 0
+body sleeve E 500 nu 0
+contact seat under
+symmetry foot
+symmetry axis
+preload cut 20
+"""
+SHANK, SLEEVE = 1000 * 1 / 10, 500 * 1.5 / 10  # stiffnesses
+
+
+def joint(load):
+    """Tension of the shank and force on the seat: the joint diagram, with a rigid head."""
+    tension = 20 + load * SHANK / (SHANK + SLEEVE)
+    return (tension, tension - load) if tension > load else (load, 0.0)
+
+
+def test_joint_diagram(tmp_path):
+    """A bolt, tightened and loaded until the joint opens, step by step."""
+    solve(tmp_path, BOLT, f"{JOINT}traction top 0 20\n", "-history", 1, "-steps", 6, "-vtu", 0)
+    with (tmp_path / "out/series.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["traction top reaction"]) for row in rows] == pytest.approx([10, 20, 30, 40, 50, 60])
+    for row in rows:
+        found = float(row["preload cut force"]), float(row["seat under normal force"])
+        assert found == pytest.approx(joint(float(row["traction top reaction"])), rel=1e-4, abs=1e-4)
+    one = summary(tmp_path)["preloads"][0]
+    assert one["shortened"] == pytest.approx(20 / SHANK + 20 / SLEEVE, rel=1e-6)
+    assert one["force"] == pytest.approx(60, rel=1e-5)
+    command = [sys.executable, "-m", "postprocess", "curve", str(tmp_path / "out")]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    assert (tmp_path / "out/curve.png").stat().st_size > 10000
+
+
+def test_bolt_that_follows_a_force(tmp_path):
+    """A force on the head's top, which it follows as one."""
+    solve(tmp_path, BOLT, f"{JOINT}force top 0 9\n", "-vtu", 0)
+    one = summary(tmp_path)["preloads"][0]
+    assert one["force"] == pytest.approx(joint(9)[0], rel=1e-4)
+
+
+BOLT_IN_SPACE = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 5}; Box(2) = {0, 0, 5, 1, 1, 5}; Box(3) = {0, 0, 10, 3, 1, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2, 3}; Delete; }
+Box(4) = {1.5, 0, 0, 1.5, 1, 10};
+Mesh.MeshSizeMax = 1;
+e = 1e-3;
+axis() = Surface In BoundingBox {-e, -e, -e, e, 1 + e, 12};
+side() = Surface In BoundingBox {-e, -e, -e, 4, e, 12};
+foot() = Surface In BoundingBox {-e, -e, -e, 4, 2, e};
+cut() = Surface In BoundingBox {-e, -e, 5 - e, 4, 2, 5 + e};
+top() = Surface In BoundingBox {-e, -e, 11 - e, 4, 2, 11 + e};
+level() = Surface In BoundingBox {1 - e, -e, 10 - e, 4, 2, 10 + e};
+seat() = Surface In BoundingBox {1.5 - e, -e, 10 - e, 3 + e, 2, 10 + e};
+level() -= seat();
+Physical Volume("shank") = {1, 2}; Physical Volume("head") = {3}; Physical Volume("sleeve") = {4};
+Physical Surface("axis") = axis(); Physical Surface("side") = side(); Physical Surface("foot") = foot();
+Physical Surface("cut") = cut(); Physical Surface("top") = top(); Physical Surface("under") = level();
+Physical Surface("seat") = seat();
+"""
+
+
+def test_bolt_in_space(tmp_path):
+    """The same joint in space."""
+    case = JOINT.replace("state stress\n", "").replace("symmetry axis\n", "symmetry axis\nsymmetry side\n")
+    solve(tmp_path, BOLT_IN_SPACE, f"{case}traction top 0 0 3\n", "-vtu", 0, scene="parts-3d")
+    found = summary(tmp_path)
+    expected = joint(9)
+    assert found["preloads"][0]["force"] == pytest.approx(expected[0], rel=1e-3)
+    assert found["contacts"][0]["normalForce"] == pytest.approx(expected[1], rel=1e-3)
+
+
+# ---------------------------------------------------------------- stresses
+
+
+def fit(r, p, inner=100.0):
+    """Von Mises' stress and displacement of hub and ring in plane strain at the radii r."""
+    of_hub, of_ring = lame(inner, p, A, B), lame(p, 0, B, C)
+    found = []
+    for radius in r:
+        (a, b), (modulus, nu) = (of_hub, HUB) if radius < B else (of_ring, OUTER)
+        along, around, third = a - b / radius**2, a + b / radius**2, 2 * nu * a
+        square = ((along - around) ** 2 + (around - third) ** 2 + (third - along) ** 2) / 2
+        found.append((np.sqrt(square), moved(radius, (a, b), (modulus, nu), False)))
+    return np.array(found).T
+
+
+def test_stresses_of_lame(tmp_path):
+    """Along a line and at the greatest, errors shall hold and not be ten times the stress's; fields shall be there."""
+    case = f"{BODIES}contact bore seat interference 0.02\npressure inner 100\nline radius 7.2 7.2 21 21\n"
+    done = solve(tmp_path, RING, case, size=2.5)
+    p = seat_pressure(0.02, 100, False)
+    table = np.genfromtxt(tmp_path / "out/line-radius.csv", delimiter=",", names=True)
+    radius = np.hypot(table["x"], table["y"])
+    away = np.abs(radius - B) > 0.3
+    exact = fit(radius[away], p)
+    off = np.abs(table["vonMises"][away] - exact[0])
+    assert (off <= table["vonMisesError"][away]).all()
+    assert np.median(table["vonMisesError"][away] / exact[0]) < 0.05
+    way = np.abs(np.hypot(table["ux"], table["uy"])[away] - exact[1])
+    assert (way <= table["displacementError"][away] + 1e-9).all()
+    for found, greatest in zip(summary(tmp_path)["stresses"], fit([A, B], p)[0], strict=True):
+        assert abs(found["vonMises"] - greatest) <= found["error"] < 0.1 * greatest
+        assert found["singular"] is None
+    hub, ring = summary(tmp_path)["stresses"]
+    inside = np.linspace(A, B, 2001)[:-1]
+    above = np.trapezoid(inside * (fit(inside, p)[0] > 100), inside) / (0.5 * (B**2 - A**2))
+    assert hub["above"] == pytest.approx(above, abs=0.02) and ring["above"] == 0
+    assert "above the yield stress 100 in" in done.stdout and "nowhere above the yield stress 180" in done.stdout
+    grid = (tmp_path / "out/solution.vtu").read_bytes()
+    for name in ("XX", "YY", "ZZ", "XY", "1", "2", "3", "Scatter"):
+        assert f'Name="stress{name}[pressure]"'.encode() in grid
+    subprocess.run([sys.executable, "-m", "postprocess", "line", str(tmp_path / "out")], cwd=ROOT, check=True)
+    assert (tmp_path / "out/line-radius.png").stat().st_size > 10000
+    command = [sys.executable, "-m", "postprocess", "stress", str(tmp_path / "out"), "--slide"]
+    subprocess.run(command, cwd=ROOT, check=True)
+    with Image.open(tmp_path / "out/stress.png") as picture:
+        assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
+
+
+BEAM = """
+h = SIZE;
+Point(1) = {0, 0, 0, h}; Point(2) = {20, 0, 0, h}; Point(3) = {20, 2, 0, h}; Point(4) = {0, 2, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Physical Surface("beam") = {1}; Physical Curve("wall") = {4}; Physical Curve("upper") = {3};
+"""
+PUSHED = """
+state stress
+body beam E 200000 nu 0.3
+obstacle upper circle 18 7 R 5 force 0 -1
+clamp wall
+line section 10 0 10 2
+line top 0 2 20 2
+"""
+
+
+@pytest.mark.parametrize("order", [2, 4])
+def test_stresses_of_a_cantilever(order, tmp_path):
+    """Bending and shear across its middle, bending along its top; at the clamp's corners nothing is claimed."""
+    done = solve(tmp_path, BEAM, PUSHED, "-order", order, size=0.5)
+    inertia = 2 / 3
+    across = np.genfromtxt(tmp_path / "out/line-section.csv", delimiter=",", names=True)
+    y = across["y"] - 1
+    exact = np.sqrt((8 * y / inertia) ** 2 + 3 * ((1 - y**2) / (2 * inertia)) ** 2)
+    assert (np.abs(across["vonMises"] - exact) <= across["vonMisesError"]).all()
+    assert np.median(across["vonMisesError"]) < 0.1
+    top = np.genfromtxt(tmp_path / "out/line-top.csv", delimiter=",", names=True)
+    there = (top["x"] > 3) & (top["x"] < 15)
+    exact = (18 - top["x"][there]) / inertia
+    assert (np.abs(top["vonMises"][there] - exact) <= top["vonMisesError"][there]).all()
+    assert np.isinf(top["vonMisesError"][0])
+    assert "it has no bound" in done.stdout
+    held = {one["name"]: one["force"] for one in summary(tmp_path)["supports"]}
+    assert held["clamp wall"] == pytest.approx([0, 1], abs=1e-6)
+    assert "clamp wall: carries" in done.stdout
+
+
+BELOW = """
+Point(1) = {-30, -30, 0}; Point(2) = {30, -30, 0}; Point(3) = {30, 0, 0}; Point(4) = {-30, 0, 0};
+Point(5) = {-0.2, 0, 0}; Point(6) = {0.2, 0, 0}; Point(7) = {0, -0.1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1};
+Curve Loop(1) = {1 : 6}; Plane Surface(1) = {1};
+Field[1] = Distance; Field[1].PointsList = {7};
+Field[2] = Threshold; Field[2].InField = 1; Field[2].SizeMin = SIZE; Field[2].SizeMax = 5;
+Field[2].DistMin = 0.17; Field[2].DistMax = 30; Background Field = 2;
+Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("face") = {4};
+"""
+
+
+def test_stresses_below_a_contact(tmp_path):
+    """Hertz's line contact, down its axis: von Mises' stress, its greatest and the depth of that."""
+    case = "body block E 1000 nu 0.3\nobstacle face circle 0 10 R 10 force 0 -1\nclamp base\nline axis 0 0 0 -0.4\n"
+    solve(tmp_path, BELOW, case, "-vtu", 0, size=0.03)
+    half = np.sqrt(4 * 10 / (np.pi * 1000 / 0.91))
+    peak = 2 / (np.pi * half)
+    table = np.genfromtxt(tmp_path / "out/line-axis.csv", delimiter=",", names=True)
+    depth = -table["y"]
+    root = np.sqrt(half**2 + depth**2)
+    along, down = -peak / half * ((half**2 + 2 * depth**2) / root - 2 * depth), -peak * half / root
+    third = 0.3 * (along + down)
+    exact = np.sqrt(((along - down) ** 2 + (down - third) ** 2 + (third - along) ** 2) / 2)
+    assert (np.abs(table["vonMises"] - exact) <= table["vonMisesError"] + 1e-3 * peak).all()
+    assert np.median(table["vonMisesError"]) < 0.03 * peak
+    found = summary(tmp_path)["stresses"][0]
+    assert abs(found["vonMises"] - exact.max()) <= found["error"] + 1e-3 * peak < 0.1 * peak
+    assert -found["at"][1] / half == pytest.approx(0.7, abs=0.15)  # at a node
+
+
+# ---------------------------------------------------------------- what is asked for
+
+
+@pytest.mark.parametrize(
+    "line, words",
+    [
+        ("preload seat 20", "on the boundary"),
+        ("preload cut -1", "out of range"),
+        ("expand cut 1 1", "allowed for expand: its surfaces"),
+        ("expand head 1e-5", "the change of temperature is missing"),
+        ("line a b 0 0 1 1", "no number"),
+        ("line a 0 0 0 0", "begins where it ends"),
+        ("line a/b 0 0 1 1", "letters, digits"),
+    ],
+)
+def test_refusals(line, words, tmp_path):
+    done = solve(tmp_path, BOLT, f"{JOINT}{line}\n".replace("preload cut 20\n", ""), expect=10)
+    assert words in done.stdout and len(done.stdout.strip().splitlines()) == 1
+
+
+def test_help_in_two_parts():
+    """The user's flags, then all."""
+    short, whole = (run_in(ROOT, "edp/parts.edp", "-help", *more).stdout for more in ([], ["all"]))
+    assert "-accuracy" in short and "-axis" in short and "-preconditioner" not in short and "-help all" in short
+    assert "-preconditioner" in whole and "-method" in whole
+
+
+def test_order_of_the_screen(tmp_path):
+    """First contacts with their errors, last the solver's counts."""
+    said = solve(tmp_path, RING, f"{BODIES}contact bore seat interference 0.02\n", "-vtu", 0).stdout
+    at = [
+        said.index(words)
+        for words in ("bore seat within", "hub: moved", "symmetry below: carries", "  adaptations", "  dofs")
+    ]
+    assert at == sorted(at)
+
+
+def test_sweep(tmp_path):
+    """Runs side by side, goes on with what is missing, and refuses what belongs to another sweep."""
+    (tmp_path / "part.geo").write_text(RING.replace("SIZE", "6"))
+    (tmp_path / "part.case").write_text(
+        f"{BODIES}contact bore seat interference 0.02   # nominal\n".replace("yield 100", "")
+    )
+    words = [sys.executable, "-m", "postprocess", "sweep", "part.geo", "part.case", "--out", "all"]
+
+    def sweep(number, *values, expect=0):
+        command = [*words, "--number", number, "--values", *values, "--flags=-estimate 0"]
+        done = subprocess.run(
+            command,
+            cwd=tmp_path,
+            env={"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin"},
+            capture_output=True,
+            text=True,
+        )
+        assert done.returncode == expect, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    number = "contact bore seat interference *"
+    assert "0 of 2 runs are there" in sweep(number, "0.01:0.02:2")
+    assert "2 of 3 runs are there" in sweep(number, "0.01", "0.02", "0.03")
+    with (tmp_path / "all/sweep.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    forces = [float(row["bore seat normal force"]) for row in rows]
+    assert forces == pytest.approx([forces[0] * k for k in (1, 2, 3)], rel=1e-6)
+    assert (tmp_path / "all/sweep.png").stat().st_size > 10000
+    assert "another sweep" in sweep("body hub E *", "1", expect=2)
+    assert "0 lines begin" in sweep("force grip 0 *", "1", expect=2)
+    assert re.search(r"allowed: numbers", sweep(number, "a", expect=2))
