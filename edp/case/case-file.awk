@@ -391,7 +391,7 @@ function readOther(   g, v, what) {
     vector("the centre", 0, v, 0)
     v[3] = v[4] = 0; v[5] = 1
     if (space) { vector("the axis", 0, v, 3); nonzero("the axis", v, 3) }
-    v[6] = number("the angle", -0.5, 0.5)
+    v[6] = number("the angle", -1e6, 1e6)
   }
   if (what == "pressure") { v[0] = any("the pressure"); loadLine[g] = FNR; loadWord[g] = what }
   if (what == "traction") { loadLine[g] = FNR; loadWord[g] = what }

@@ -1,0 +1,200 @@
+"""Bodies that turn by any angle, each solved in axes of its own: as the same mesh drawn turned, as statics."""
+
+import itertools
+import json
+from itertools import count
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, flag_text
+from test_linear_gaps import PLANK, STANDING
+from test_parts import Mesh, block, cube, vector
+
+DISC = "body disc E 1e5 nu 0.3\nobstacle rim plane 0 4.99 0 -1\n"
+ROLLER = "body disc E 1e5 nu 0.3\nbody block E 2e5 nu 0.3\ncontact {}\nclamp bottom\nrotate shaft 0 0 {}\n"
+
+
+def rotation(angle, axis=(0, 0, 1)):
+    """Rodrigues' formula."""
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    across = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * across + (1 - np.cos(angle)) * across @ across
+
+
+def ring(mesh, sectors, layers=6, inner=2.0, outer=5.0, squeeze=1.0):
+    """A ring of equal sectors, or an ellipse, all cut alike: groups rim, shaft, body disc."""
+    radii = [outer - (outer - inner) * (k / layers) ** 1.5 for k in range(layers + 1)]
+    turns = 2 * np.pi * np.arange(sectors) / sectors + np.pi / 2
+    nodes = [(r * np.cos(a), (1 - (1 - squeeze) * (r == outer)) * r * np.sin(a), 0) for r in radii for a in turns]
+
+    def number(k, i):
+        return k * sectors + i % sectors
+
+    sides = [("rim", (number(0, i), number(0, i + 1))) for i in range(sectors)]
+    sides += [("shaft", (number(layers, i + 1), number(layers, i))) for i in range(sectors)]
+    bodies = []
+    for k, i in itertools.product(range(layers), range(sectors)):
+        a, b, c, d = number(k, i), number(k, i + 1), number(k + 1, i), number(k + 1, i + 1)
+        bodies += [("disc", (a, b, d)), ("disc", (a, d, c))]
+    mesh.add(nodes, sides, bodies)
+    return mesh
+
+
+@pytest.fixture
+def solve(tmp_path):
+    """solve(mesh, case, *flags) runs a case; its summary and what it printed."""
+    numbers = count()
+
+    def go(mesh, case, *flags, space=False, expect=0):
+        folder = tmp_path / str(next(numbers))
+        folder.mkdir()
+        name = "a.geo" if "Point" in mesh else "a.msh"
+        (folder / name).write_text(mesh)
+        (folder / "a.case").write_text(case)
+        script = "edp/parts-3d.edp" if space else "edp/parts.edp"
+        files = ["-mesh", folder / name, "-case", folder / "a.case", "-out", folder / "out", "-vtu", 0]
+        code, stdout = execute(list(map(flag_text, [*FREEFEM, script, *files, *flags])))
+        assert code == expect, stdout[-3000:]
+        return (json.loads((folder / "out/summary.json").read_text()) if code == 0 else {}), stdout
+
+    return go
+
+
+def force(summary, number=0):
+    """(value, error) of a contact's force."""
+    entry = summary["estimates"]["contacts"][number]["normalForce"]
+    return entry["value"], entry["error"]
+
+
+def test_equal_sectors(solve):
+    """A disc of equal sectors, turned by some of them: the same force and error, and no word of it."""
+    mesh = ring(Mesh(), 120).text()
+    for flags, turns in (((), (2, 57)), (("-distance", "exact"), (19,))):
+        true = force(solve(mesh, f"{DISC}clamp shaft\n", *flags)[0])
+        for sectors in turns:
+            angle = 2 * np.pi * sectors / 120
+            summary, stdout = solve(mesh, f"{DISC}rotate shaft 0 0 {angle!r}\n", *flags)
+            told = force(summary)
+            assert told[0] == pytest.approx(true[0], rel=1e-8) and told[1] == pytest.approx(true[1], rel=1e-5)
+            assert summary["bodies"][0]["motion"][2] == pytest.approx(angle, abs=1e-5)
+            assert "finite rotations" not in stdout and "linearised" not in stdout
+
+
+@pytest.mark.parametrize("contact", ["rim top", "top rim"])
+def test_master_or_slave(solve, contact):
+    """An elliptic ring that turns above a block, as its slave and as its master: as drawn turned."""
+    below = {"size": (4, 2), "cells": (24, 6), "at": (-2, -6.98)}
+    still = block(Mesh(), **below)
+    turned, drawn = ring(block(Mesh(), **below), 120, squeeze=0.98), ring(block(Mesh(), **below), 120, squeeze=0.98)
+    size = len(still.nodes)
+    drawn.nodes[size:] = [tuple(rotation(1.2) @ np.array(place)) for place in drawn.nodes[size:]]
+    for flags in ((), ("-distance", "exact", "-steps", 3)):
+        true = force(solve(drawn.text(), ROLLER.format(contact, 0), *(flags[:-2] if "-steps" in flags else flags))[0])
+        said = force(solve(turned.text(), ROLLER.format(contact, 1.2), *flags)[0])
+        assert true[0] > 1 and said[0] == pytest.approx(true[0], rel=1e-6 if "-steps" in flags else 1e-9)
+
+
+def test_loads_and_supports(solve):
+    """Weight and traction keep their direction, a pressure goes with its side; moments where the body is."""
+    matrix = rotation(0.7)
+    loads = "body block E 100 nu 0.3\nobstacle bottom plane 0 -9 0 1\nweight block 0.1 -0.3\n"
+    loads += "traction top 0.2 0.1\npressure right 0.4\n"
+    mesh = block(Mesh())
+    true = solve(mesh.text(matrix), f"{loads}clamp left\n")[0]
+    told = solve(mesh.text(), f"{loads}rotate left 0 0 0.7\n")[0]
+    assert told["bodies"][0]["reaction"] == pytest.approx(true["bodies"][0]["reaction"], rel=1e-9)
+
+
+SLOW = [pytest.param(flags, marks=pytest.mark.long) for flags in ((), ("-distance", "exact"))]
+
+
+@pytest.mark.parametrize("flags", [("-order", 1), *SLOW])
+def test_skew_axis(solve, flags):
+    """A box in space turned about a skew axis against a sphere: force, error and reactions of the box drawn turned."""
+    axis, matrix = (1, 2, -1.5), rotation(1.7, (1, 2, -1.5))
+    mesh = cube(Mesh(), cells=(6, 6, 3))
+    top = matrix @ np.array((1, 1, 1))
+    normal = matrix @ np.array((0, 0, 1))
+    shape = f"obstacle top sphere {' '.join(map(repr, map(float, top + 2.99 * normal)))} R 3\n"
+    case = f"body block E 100 nu 0.3\n{shape}"
+    true = solve(mesh.text(matrix), f"{case}clamp bottom\n", *flags, space=True)[0]
+    turns = f"rotate bottom 0 0 0 {vector(axis, dimension=3)} 1.7\n"
+    told = solve(mesh.text(), case + turns, *flags, space=True)[0]
+    assert force(told) == pytest.approx(force(true), rel=1e-8)
+    assert told["bodies"][0]["reaction"] == pytest.approx(true["bodies"][0]["reaction"], rel=1e-8)
+    turned = np.array(told["bodies"][0]["motion"][3:])
+    assert turned == pytest.approx(1.7 * np.array(axis) / np.linalg.norm(axis), abs=0.02)
+
+
+@pytest.mark.long
+def test_lever_at_rest(solve):
+    """A plank that tilts until both feet stand: statics where it stands, and how far its weight has gone."""
+    geo = PLANK.replace("0.02}", "0.004}")
+    summary, _ = solve(geo, STANDING + "weight plank 0 -1\n", "-distance", "exact", "-order", 4)
+    area, tilt = 40 + np.pi, np.arcsin(0.3 / 6)
+    middle = (80 - 2 / 3 * 2) / area
+    right = area * (0.5 + middle * np.tan(tilt) / 6)
+    for number, true in enumerate((area - right, right)):
+        assert force(summary, number)[0] == pytest.approx(true, rel=2e-4)
+    motion = summary["bodies"][0]["motion"]
+    assert motion[2] == pytest.approx(-tilt, rel=1e-3)
+    # the mean between the feet goes down by 0.15, the middle of the area, above it, by its tilt besides
+    down = 0.15 + (1 - np.cos(tilt)) * middle
+    assert -motion[1] == pytest.approx(down, rel=2e-3)
+    (way,) = summary["estimates"]["loads"]
+    assert way["way"]["value"] == pytest.approx(down, rel=2e-3)
+
+
+def test_see_saw(solve):
+    """A plank on a foot near its middle that tilts until the other one stands."""
+    geo = PLANK
+    for number, old, new in ((2, "1", "3.5"), (3, "2", "4.5"), (4, "2", "4.5"), (5, "3", "5.5")):
+        geo = geo.replace(f"Point({number}) = {{{old},", f"Point({number}) = {{{new},")
+    summary, _ = solve(geo, STANDING + "weight plank 0 -1\n", "-distance", "exact")
+    area, tilt = 40 + np.pi, np.arcsin(0.3 / 3.5)
+    middle = (200 + 12.5 * np.pi / 2) / area - 4.5, (80 - 2 / 3 * 2) / area
+    right = area * (middle[0] + middle[1] * np.tan(tilt)) / 3.5
+    for number, true in enumerate((area - right, right)):
+        value, error = force(summary, number)
+        assert abs(value - true) < error < 0.02 * true
+
+
+def test_pushed_group(solve):
+    """A body that turns and has a force on a group: it follows along the force as it is, in one step or three."""
+    case = "body block E 100 nu 0.3\nobstacle bottom circle 1.785 0.209 R 1\nforce right -2 0\n{} left {}\n"
+    mesh = block(Mesh())
+    true = solve(mesh.text(rotation(0.7)), case.format("clamp", ""), "-distance", "exact")[0]
+    for steps in (1, 3):
+        told = solve(mesh.text(), case.format("rotate", "0 0 0.7"), "-distance", "exact", "-steps", steps)[0]
+        assert force(told)[0] == pytest.approx(force(true)[0], rel=1e-8)
+        ways = [run["estimates"]["loads"][0]["way"]["value"] for run in (true, told)]
+        assert ways[1] == pytest.approx(ways[0], rel=1e-8)
+
+
+def test_refused(solve):
+    """Large rotations of what is held besides, and by methods that do not know them."""
+    mesh = block(Mesh()).text()
+    case = "body block E 100 nu 0.3\nobstacle top plane 0 2 0 -1\nrotate left 0 0 0.7\n"
+    for more, flags in (("clamp right\n", ()), ("", ("-method", "newton")), ("", ("-accuracy", 0.1))):
+        _, stdout = solve(mesh, case + more, *flags, expect=10)
+        assert "rotate left: the angle 0.7; allowed: between -0.5 and 0.5, or with -method xnewton" in stdout
+
+
+GEAR = (ROOT / "tests/data/gear-pair.geo", "units mm MPa\nbody pinion E 206e3 nu 0.3\nbody wheel E 206e3 nu 0.3\n")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("angle", [-0.1, 0.1])
+def test_gears(solve, angle):
+    """A pair of teeth rolls: the moments' ratio, the same in one step as in ten, eight linearisations a step."""
+    geo, bodies = GEAR
+    case = bodies + "contact wheel-flank pinion-flank\n"
+    case += f"rotate wheel-rim 0 75 {-angle * 2 / 3!r}\nrotate pinion-rim 0 -50 {angle + 0.0002!r}\n"
+    moments = {}
+    for steps in (1, 10):
+        summary, _ = solve(geo.read_text(), case, "-distance", "exact", "-steps", steps, "-history", 1)
+        wheel, pinion = (entry["moment"] for entry in summary["prescribed"])
+        assert summary["newton"] <= 8 * steps
+        assert wheel / pinion == pytest.approx(1.5, rel=1e-3)
+        moments[steps] = wheel
+    assert moments[10] == pytest.approx(moments[1], rel=1e-5)
