@@ -145,7 +145,7 @@ def test_ends(go):
 def test_sizes_of_elements(go):
     """Where -h is no flag nothing shall ask for it."""
     told = go(disc(1.2), f"{DISC}weight disc 0 -5\n")
-    assert "smaller elements" in told.warnings and not re.search(r"(^|\s)-h\b", told.stdout)
+    assert "lower sizes" in told.warnings and not re.search(r"(^|\s)-h\b", told.stdout)
 
 
 def test_shares(tmp_path):

@@ -596,7 +596,7 @@ def test_open_contact(go):
     told = go(disc(), DISC_ON_PLANE + "obstacle rim plane 0 -9 0 1\n")
     assert told.numbers["contacts.1.pressureMax"] == [0, None]
     told.holds("contacts.0.normalForce", np.pi)
-    assert "rim plane touches nowhere" in told.stdout
+    assert "rim plane at (0, -9, 0) touches nowhere" in told.stdout
 
 
 def test_quarter(go):
