@@ -108,7 +108,7 @@ CURVED = """
 real[int] unit(ndof);
 real[int] resisted(ndof);
 real[int] worst(3);
-placeNodes(true);
+placeNodes(false);
 for (int k = 0; k < 3; k++)
 {
     unit = 0;
