@@ -597,6 +597,8 @@ def test_open_contact(go):
     assert told.numbers["contacts.1.pressureMax"] == [0, None]
     told.holds("contacts.0.normalForce", np.pi)
     assert "rim plane at (0, -9, 0) touches nowhere" in told.stdout
+    way, error = told.numbers["loads.0.way"]
+    assert error < 0.1 * way
 
 
 def test_quarter(go):
