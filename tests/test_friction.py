@@ -252,6 +252,15 @@ def test_legs_of_a_case(tmp_path):
     assert run.summary["contacts"][0]["stickShare"] > 0.3
 
 
+def test_rotation_drags(tmp_path):
+    """A rotation carries the slip with it: bodies are not turned first and rubbed then."""
+    run = case(
+        tmp_path, ROOT / "edp/examples/punch/punch.geo", PUNCH + "rotate pushed 10 2 0.06\n", script="edp/parts.edp"
+    )
+    shear, normal = run.summary["contacts"][0]["shearForce"][0], run.summary["contacts"][0]["normalForce"]
+    assert 0.15 * normal < abs(shear) < 0.3 * normal
+
+
 @pytest.mark.parametrize(
     ("text", "words", "script"),
     [
