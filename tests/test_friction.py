@@ -64,7 +64,7 @@ def counts(run):
     return np.diff(rows["newton"], prepend=0), np.diff(rows["backsolves"], prepend=0)
 
 
-def case(folder, geometry, text, *flags, script="edp/parts-friction.edp", expect=0):
+def case(folder, geometry, text, *flags, script="edp/parts.edp", expect=0):
     """A run of a case."""
     if "\n" in str(geometry):
         (folder / "mesh.geo").write_text(geometry)
@@ -254,28 +254,21 @@ def test_legs_of_a_case(tmp_path):
 
 def test_rotation_drags(tmp_path):
     """A rotation carries the slip with it: bodies are not turned first and rubbed then."""
-    run = case(
-        tmp_path, ROOT / "edp/examples/punch/punch.geo", PUNCH + "rotate pushed 10 2 0.06\n", script="edp/parts.edp"
-    )
+    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", PUNCH + "rotate pushed 10 2 0.06\n")
     shear, normal = run.summary["contacts"][0]["shearForce"][0], run.summary["contacts"][0]["normalForce"]
     assert 0.15 * normal < abs(shear) < 0.3 * normal
 
 
 @pytest.mark.parametrize(
-    ("text", "words", "script"),
+    ("text", "words"),
     [
-        (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps", "edp/parts.edp"),
-        (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps", "edp/parts-friction.edp"),
-        (
-            PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n",
-            "first stated in a leg behind the first",
-            "edp/parts-friction.edp",
-        ),
-        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range", "edp/parts-friction.edp"),
+        (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
+        (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
+        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range"),
     ],
 )
-def test_refusals_of_a_case(tmp_path, text, words, script):
-    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", text, script=script, expect=10)
+def test_refusals_of_a_case(tmp_path, text, words):
+    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", text, expect=10)
     assert words in run.stdout
 
 

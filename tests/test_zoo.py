@@ -12,19 +12,23 @@ import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute
 
-CUBOIDS = """
-DefineConstant[ brick = {0, Name "1: bricks"} ];
-Macro Cuboid
-  Point(at + 1) = {from, from, low}; Point(at + 2) = {to, from, low};
-  Point(at + 3) = {to, to, low}; Point(at + 4) = {from, to, low};
-  For k In {1 : 4}
+FACE = """  For k In {1 : 4}
     Line(at + k) = {at + k, at + k % 4 + 1};
   EndFor
   Curve Loop(at + 1) = {at + 1 : at + 4};
   Plane Surface(at + 1) = {at + 1};
   Transfinite Curve{at + 1 : at + 4} = parts + 1;
   Transfinite Surface{at + 1};
-  If (brick)
+"""  # on four points
+CUBOIDS = (
+    """
+DefineConstant[ brick = {0, Name "1: bricks"} ];
+Macro Cuboid
+  Point(at + 1) = {from, from, low}; Point(at + 2) = {to, from, low};
+  Point(at + 3) = {to, to, low}; Point(at + 4) = {from, to, low};
+"""
+    + FACE
+    + """  If (brick)
     Recombine Surface{at + 1};
     out() = Extrude{0, 0, high}{ Surface{at + 1}; Layers{2}; Recombine; };
   Else
@@ -38,19 +42,16 @@ at = 100; from = 1; to = 3; low = 2.01; high = 1; parts = 3;
 Call Cuboid;
 Physical Volume("upper") = {out(1)}; Physical Surface("grip") = {out(0)}; Physical Surface("foot") = {101};
 """
-RECTANGLES = """
+)
+RECTANGLES = (
+    """
 DefineConstant[ brick = {0, Name "1: quadrangles"} ];
 Macro Flat
   Point(at + 1) = {from, low, 0}; Point(at + 2) = {to, low, 0};
   Point(at + 3) = {to, low + high, 0}; Point(at + 4) = {from, low + high, 0};
-  For k In {1 : 4}
-    Line(at + k) = {at + k, at + k % 4 + 1};
-  EndFor
-  Curve Loop(at + 1) = {at + 1 : at + 4};
-  Plane Surface(at + 1) = {at + 1};
-  Transfinite Curve{at + 1 : at + 4} = parts + 1;
-  Transfinite Surface{at + 1};
-  If (brick)
+"""
+    + FACE
+    + """  If (brick)
     Recombine Surface{at + 1};
   EndIf
 Return
@@ -61,6 +62,7 @@ at = 100; from = 1; to = 3; low = 2.01; high = 1; parts = 3;
 Call Flat;
 Physical Surface("upper") = {101}; Physical Curve("grip") = {103}; Physical Curve("foot") = {101};
 """
+)
 NAMED = """body lower E 210e3 nu 0.3
 body upper E 210e3 nu 0.3
 contact foot top

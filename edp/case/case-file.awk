@@ -256,7 +256,7 @@ function putChange(of, v,   k, line) {
   table[++statements] = line
 }
 function readLeg(   v, k) {
-  if (!rubs) no("leg: read by parts-friction.edp, in space parts-friction-3d.edp; allowed here: one load, -history 1 in steps")
+  if (!rubs) no("leg: read by parts.edp and parts-3d.edp alone; allowed here: one load, -history 1 in steps")
   for (k = 0; k < 16; k++) v[k] = 0
   v[0] = number("the number of steps", 0, 100001)
   if (v[0] != int(v[0])) no(word[at] ": no whole number of steps; " usageOf("leg"))
@@ -288,7 +288,7 @@ function readShape(v,   shape) {
 }
 # friction MU [compliance c] [limit t]: a statement "friction" of its own behind the contact's or obstacle's
 function readFriction(f) {
-  if (!rubs) no("friction: read by parts-friction.edp, in space parts-friction-3d.edp; allowed here: contacts without it")
+  if (!rubs) no("friction: read by parts.edp and parts-3d.edp alone; allowed here: contacts without it")
   f[0] = number("the coefficient of friction", -1e-300, 1e6)
   f[1] = f[2] = 0
   while (at < words && word[at + 1] ~ /^(compliance|limit)$/)

@@ -6,17 +6,16 @@ The end says how many were stable, how many said which limit they had met, and e
 """
 
 import argparse
-import csv
 import json
-import os
 import subprocess
 import tempfile
 from pathlib import Path
 
+import campaign
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-FILE = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results") / "attraction" / "loads.csv"
+FILE = campaign.RESULTS_FOLDER / "attraction" / "loads.csv"
 COLUMNS = "run tabor order perLength approach code stability newton backsolves message".split()
 MODULUS, RADIUS, GAP = 100 / 0.91, 10, 1e-3  # the scene's E/(1 - nu^2), R, eps0
 
@@ -61,28 +60,15 @@ def solve(data: dict) -> dict:
     return {**data, "code": done.returncode, **found, "message": message}
 
 
-def rows() -> list[dict]:
-    if not FILE.exists():
-        return []
-    with open(FILE, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--loads", type=int, default=200, help="how many (default: %(default)s)")
     count = parser.parse_args().loads
     FILE.parent.mkdir(parents=True, exist_ok=True)
-    known = {int(row["run"]) for row in rows()}
+    known = {int(row["run"]) for row in campaign.read_rows(FILE)}
     for run in sorted(set(range(count)) - known):
-        new = not FILE.exists()
-        result = solve(load(run))
-        with open(FILE, "a", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS)
-            if new:
-                writer.writeheader()
-            writer.writerow(result)
-    done = [row for row in rows() if int(row["run"]) < count]
+        campaign.add_rows(FILE, COLUMNS, [solve(load(run))])
+    done = [row for row in campaign.read_rows(FILE) if int(row["run"]) < count]
     stable = [row for row in done if row["code"] == "0" and float(row["stability"]) > 0]
     said = [row for row in done if row["code"] in ("10", "20") and row["message"]]
     print(f"{len(done)} loads: {len(stable)} stable, {len(said)} said which limit they met")

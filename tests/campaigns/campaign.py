@@ -26,7 +26,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
@@ -363,6 +363,15 @@ def csv_line(values: Iterable) -> str:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerow(cells)
     return text.getvalue()
+
+
+def add_rows(path: Path, columns: Sequence[str], rows: Iterable[dict]) -> None:
+    """Append rows to a CSV; a new one begins with its columns."""
+    head = [] if path.exists() else [columns]
+    with path.open("a", encoding="utf-8") as file:
+        file.write(
+            "".join(csv_line(cells) for cells in [*head, *([row.get(name) for name in columns] for row in rows)])
+        )
 
 
 class Table:

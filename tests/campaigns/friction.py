@@ -14,10 +14,11 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import campaign
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-FILE = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results") / "friction" / "steps.csv"
+FILE = campaign.RESULTS_FOLDER / "friction" / "steps.csv"
 COLUMNS = "run step newton backsolves friction kappa points code message".split()
 TURNS = [(1, 0), (1, 0.05), (1, 0.2), (1, 1), (1, -0.2), (0.5, -0.2), (1.25, 0.3)]
 TOGETHER = [(0.2 * k, 0.04 * k) for k in range(1, 6)]
@@ -83,28 +84,16 @@ def solve(run: int) -> list[dict]:
     return rows
 
 
-def rows() -> list[dict]:
-    if not FILE.exists():
-        return []
-    with open(FILE, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--paths", type=int, default=380, help="how many (default: %(default)s)")
     count = parser.parse_args().paths
     FILE.parent.mkdir(parents=True, exist_ok=True)
-    known = {int(row["run"]) for row in rows()}
+    known = {int(row["run"]) for row in campaign.read_rows(FILE)}
     with ThreadPoolExecutor(2) as pool:
         for found in pool.map(solve, sorted(set(range(count)) - known)):
-            new = not FILE.exists()
-            with open(FILE, "a", newline="") as file:
-                writer = csv.DictWriter(file, COLUMNS)
-                if new:
-                    writer.writeheader()
-                writer.writerows(found)
-    done = [row for row in rows() if int(row["run"]) < count]
+            campaign.add_rows(FILE, COLUMNS, found)
+    done = [row for row in campaign.read_rows(FILE) if int(row["run"]) < count]
     good = [row for row in done if row["code"] == "0"]
     said = [row for row in done if row["code"] == "20" and "gross sliding" in row["message"]]
     failed = [row for row in done if row not in good and row not in said]
