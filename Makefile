@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -379,6 +379,9 @@ kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, ex
 
 page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
 	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html
+
+site: $(VENV)/dev.stamp ## all pages as a site to search and to click through, from a folder, no network, into results/site/
+	@$(PYTHON) tests/documents.py --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
 N       ?= $(filter 0 1 2 3 4 5 6 7 8 9,$(MAKECMDGOALS))

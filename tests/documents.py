@@ -1,0 +1,264 @@
+"""The pages as a site, `make site`: the same Markdown, laid out by Sphinx. Opens from a folder, asks no network.
+
+Long pages are cut at their headings, a page a task; equations become MathML (equations.py). Links lead to the cut
+pages; one that no page and no file answers to ends the build, as any warning of Sphinx does.
+"""
+
+import argparse
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+import equations
+
+ROOT = Path(__file__).resolve().parent.parent
+CUT = "edp/MANUAL.md edp/THEORY.md edp/README.md edp/scenes/README.md tests/RESULTS.md".split()
+# Chapters of the site and what stands in them: a page, a section of a long page, or `PAGE#`, all its other sections.
+CHAPTERS = {
+    "Begin": [
+        "edp/MANUAL.md#set-up",
+        "edp/MANUAL.md#runs-and-pictures",
+        "edp/MANUAL.md#paraview",
+        "edp/MANUAL.md#figures",
+    ],
+    "Teach": ["edp/labs/INSTRUCTOR.md", "edp/labs/README.md", "edp/labs/CRIB.md", "edp/labs/*/README.md"],
+    "My own parts": [
+        "edp/MANUAL.md#bodies-of-your-own",
+        "edp/case/README.md",
+        "edp/examples/README.md",
+        "edp/examples/*/README.md",
+    ],
+    "Write your own": [
+        "edp/MANUAL.md#writing-a-scene",
+        "edp/MANUAL.md#adding-a-law",
+        "edp/MANUAL.md#adding-a-method",
+        "edp/MANUAL.md#adding-an-option",
+        "template/README.md",
+        "CONTRIBUTING.md",
+    ],
+    "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#"],
+    "Scenes": ["edp/scenes/README.md", "edp/scenes/README.md#"],
+    "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#"],
+    "Theory": ["edp/THEORY.md", "edp/THEORY.md#"],
+    "The code": ["edp/README.md", "edp/README.md#", "tests/data/README.md", "CHANGELOG.md"],
+}
+HIDDEN = ["edp/labs/*/ANSWERS.md"]  # reached by links alone
+LINK = re.compile(r"(!?\[(?:[^\][]|`[^`]*`|!?\[[^\]]*\](?:\([^)]*\))?)*\])\(([^)\s]+)\)")
+FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
+STYLE = """
+math {
+  font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", "DejaVu Math TeX Gyre", math;
+  font-size: 1.08em;
+}
+.equation {
+  display: flex; flex-wrap: wrap; justify-content: safe center; align-items: center;
+  gap: 0.5em 2em; margin: 0.6em 0; padding: 0.3em 0; overflow: auto hidden;
+}
+.content { width: 52em; }
+mtext { font-family: var(--font-stack); font-size: 0.9em; }
+table { font-size: 0.88em; }
+article img { background: #fff; }
+"""
+SETTINGS = {
+    "project": "Stiff normal contact in FreeFEM",
+    "extensions": "myst_parser",
+    "html_theme": "furo",
+    "html_title": "Stiff normal contact",
+    "html_static_path": "_static",
+    "html_css_files": "site.css",
+    "html_copy_source": False,
+    "html_show_sourcelink": False,
+    "html_show_copyright": False,
+    "html_show_search_summary": False,  # it would be fetched, which a browser refuses to a page of a folder
+    "html_permalinks_icon": "#",
+    "myst_heading_anchors": 6,
+    "highlight_language": "text",
+    "suppress_warnings": "misc.highlighting_failure,myst.header",
+}
+
+
+def slug(title):
+    """A heading's name in links, as GitHub has it."""
+    return re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
+
+
+def outside_code(text, change):
+    """The text with what stands outside of fenced code changed."""
+    out, at = [], 0
+    for fence in FENCE.finditer(text):
+        out += [change(text[at : fence.start()]), fence[0]]
+        at = fence.end()
+    return "".join([*out, change(text[at:])])
+
+
+def headings(text):
+    return re.findall(r"^(#+) (.*)$", FENCE.sub("", text), re.M)
+
+
+def cut(text):
+    """(title, text) of a page's head and of each of its sections."""
+    marked = outside_code(text, lambda part: re.sub(r"^## ", "\0", part, flags=re.M))
+    head, *sections = marked.split("\0")
+    return [("", head), *((section.partition("\n")[0], "# " + section) for section in sections)]
+
+
+def typeset(text):
+    """Indented blocks that are equations, as MathML; numbers in tables that no line breaks."""
+
+    def block(found):
+        lines = [line[4:] for line in found[1].splitlines()]
+        made = equations.display(lines)
+        return f"\n\n{made}\n\n" if made else found[0]
+
+    def change(part):
+        part = re.sub(r"\n\n((?:    .+\n)+)(?=\n|\Z)", block, part)
+        return re.sub(
+            r"^\|.*$",
+            lambda found: re.sub(r"(?<=[| ]\de-)(?=\d)|(?<=\.\de-)(?=\d)", "\u2060", found[0]),
+            part,
+            flags=re.M,
+        )
+
+    return outside_code(text, change)
+
+
+class Site:
+    """The pages of the site: where each stands, and what each heading's place is."""
+
+    def __init__(self, root, folder, chapters=CHAPTERS):
+        self.root, self.folder, self.chapters = root, folder, chapters
+        self.listed = {"index"}  # what the table of contents has so far
+        self.pages = {}  # place in the site, without suffix: (page, text)
+        self.places = {}  # (page, heading's name): place
+        names = ["README.md", *(name for chapter in chapters.values() for name in chapter), *HIDDEN]
+        files = [path for name in names for path in sorted(root.glob(name.partition("#")[0]))]
+        for path in dict.fromkeys(files):
+            self.add(path.relative_to(root).as_posix(), path.read_text())
+
+    def add(self, page, text):
+        place = "index" if page == "README.md" else page.removesuffix(".md")
+        parts = cut(text) if page in CUT else [("", text)]
+        for title, part in parts:
+            own = f"{place}-{slug(title)}" if title else place
+            self.pages[own] = page, part
+            for level, heading in headings(part):
+                # the page's first heading has no name of its own: the page is its place
+                self.places[page, slug(heading)] = own if (level == "#") else f"{own}.md#{slug(heading)}"
+            self.places.setdefault((page, ""), own)
+
+    def target(self, page, to):
+        """Where a link of a page leads in the site."""
+        if re.match(r"[a-z]+:", to):
+            return to
+        name, _, heading = to.partition("#")
+        path = (self.root / page).parent / name if name else self.root / page
+        if path.is_dir():
+            path = path / "README.md" if (path / "README.md").exists() else path
+        goal = path.resolve().relative_to(self.root).as_posix()
+        if (goal, heading) in self.places:
+            place = self.places[goal, heading]
+            return f"/{place}" if "#" in place else f"/{place}.md"
+        if heading or not path.exists():
+            raise SystemExit(f"{page}: {to}: there is no such page, section or file")
+        if path.is_dir():
+            return ""
+        copy = self.folder / goal
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, copy)
+        return f"/{goal}"
+
+    def linked(self, page, text):
+        def link(found):
+            words = found[1]
+            if not words.startswith("!") and "](" in words:  # a picture that is a link
+                words = LINK.sub(link, words[1:-1]).join("[]")
+            to = self.target(page, found[2])
+            return f"{words}({to})" if to else words[1:-1]
+
+        return outside_code(text, lambda part: LINK.sub(link, re.sub(r"<!--.*?-->\n?", "\n", part, flags=re.S)))
+
+    def chapter(self, names):
+        """The places of a chapter's pages, in order, each once."""
+        found = []
+        for name in names:
+            page, mark, heading = name.partition("#")
+            if heading or not mark:
+                pages = [path.relative_to(self.root).as_posix() for path in sorted(self.root.glob(page))]
+                found += [self.places[one, heading] for one in pages]
+            else:
+                found += [place for place, (of, _) in self.pages.items() if of == page]
+        return [place for place in dict.fromkeys(found) if not (place in self.listed or self.listed.add(place))]
+
+    def contents(self):
+        """The site's table of contents, for its first page; what a chapter names is not among the rest of its page."""
+        rest = {name: [one for one in names if one.endswith("#")] for name, names in self.chapters.items()}
+        named = {
+            name: self.chapter([one for one in names if one not in rest[name]]) for name, names in self.chapters.items()
+        }
+        trees = []
+        for name, places in named.items():
+            lines = "\n".join(f"/{place}" for place in places + self.chapter(rest[name]))
+            trees.append(f"```{{toctree}}\n:hidden:\n:caption: {name}\n\n{lines}\n```\n")
+        return "\n".join(trees)
+
+    def parts(self, page, place):
+        """Links to the sections of a page that was cut."""
+        own = [
+            f"- [{headings(text)[0][1]}](/{other}.md)"
+            for other, (of, text) in self.pages.items()
+            if of == page and other != place
+        ]
+        return "\n".join(own)
+
+    def write(self):
+        contents = self.contents()
+        for place, (page, text) in self.pages.items():
+            if page in CUT and self.places[page, ""] == place:
+                # the page's own list of contents gives way to links to what are pages now
+                text = re.sub(r"^\[[^]]+\]\(#(?:.|\n)*?\n\n", "\n", text, count=1, flags=re.M)
+                body = f"{self.linked(page, text)}\n\n{self.parts(page, place)}\n"
+            else:
+                body = self.linked(page, text)
+            if place == "index":
+                body += "\n" + contents
+            elif place not in self.listed:
+                body = f"---\norphan: true\n---\n{body}"
+            file = self.folder / f"{place}.md"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(typeset(body))
+        static = self.folder / "_static"
+        static.mkdir()
+        (static / "site.css").write_text(STYLE)
+
+
+def build(out, root=ROOT, chapters=CHAPTERS):
+    """Builds the site into a folder; the exit code of Sphinx."""
+    from sphinx.cmd.build import main  # a development dependency: nothing else of the package wants it
+
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder, "source")
+        source.mkdir()
+        Site(root, source, chapters).write()
+        values = [
+            word
+            for key, value in SETTINGS.items()
+            for word in ("-D", f"{key}={int(value) if isinstance(value, bool) else value}")
+        ]
+        code = main(
+            ["-q", "-W", "--keep-going", "-b", "html", "-C", *values, "-d", f"{folder}/trees", str(source), str(out)]
+        )
+    shutil.rmtree(Path(out, "_sources"), ignore_errors=True)
+    return code
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", required=True, type=Path, help="the site's folder")
+    given = parser.parse_args()
+    shutil.rmtree(given.out, ignore_errors=True)
+    given.out.parent.mkdir(parents=True, exist_ok=True)
+    if code := build(given.out):
+        sys.exit(code)
+    print(f"site: {given.out}/index.html")
