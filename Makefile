@@ -297,7 +297,7 @@ $(CASES:%=$(RESULTS)/figures/%/summary.json): $(RESULTS)/figures/%/summary.json:
 $(RESULTS)/figures/%.pdf $(RESULTS)/figures/%.png: $$(addsuffix /summary.json,$$(addprefix $(RESULTS)/figures/,$$(figure.$$*))) $(wildcard postprocess/*.py postprocess/*/*.py) | $(VENV)/run.stamp
 	$(PYTHON) -m postprocess figure $(or $(draw.$*),$*) --out $(RESULTS)/figures/$*.pdf $(figure.$*:%=$(RESULTS)/figures/%)
 
-# The pictures of the pages. Those of the campaigns are of the tables in tests/RESULTS.md; the labs' need make labs, the cut PyVista.
+# The pictures of the pages. Those of the campaigns are of the tables in tests/RESULTS.md and COST.md; the labs' need make labs, the cut PyVista.
 SMALL := $(PYTHON) -m postprocess small
 pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json | $(VENV)/run.stamp ## draw the small pictures of the pages anew
 	$(SMALL) $(RESULTS)/figures/figure1.png --width 600 --out postprocess/readme-figure.png
@@ -358,7 +358,7 @@ coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold,
 	@$(PYTHON) tests/campaigns/coverage.py
 	@$(PYTHON) tests/campaigns/foreign.py
 
-tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md
+tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
 # ---------------------------------------------------------------- labs

@@ -5,6 +5,8 @@ pages; one that no page and no file answers to ends the build, as any warning of
 """
 
 import argparse
+import contextlib
+import io
 import re
 import shutil
 import sys
@@ -14,15 +16,11 @@ from pathlib import Path
 import equations
 
 ROOT = Path(__file__).resolve().parent.parent
-CUT = "edp/MANUAL.md edp/THEORY.md edp/README.md edp/scenes/README.md tests/RESULTS.md".split()
+CUT = [f"edp/{name}.md" for name in "SETUP PICTURES MANUAL WRITING PAPER THEORY README scenes/README".split()]
+CUT += ["tests/RESULTS.md", "tests/COST.md"]
 # Chapters of the site and what stands in them: a page, a section of a long page, or `PAGE#`, all its other sections.
 CHAPTERS = {
-    "Begin": [
-        "edp/MANUAL.md#set-up",
-        "edp/MANUAL.md#runs-and-pictures",
-        "edp/MANUAL.md#paraview",
-        "edp/MANUAL.md#figures",
-    ],
+    "Begin": ["edp/SETUP.md", "edp/SETUP.md#", "edp/PICTURES.md", "edp/PICTURES.md#"],
     "Teach": ["edp/labs/INSTRUCTOR.md", "edp/labs/README.md", "edp/labs/CRIB.md", "edp/labs/*/README.md"],
     "My own parts": [
         "edp/MANUAL.md#bodies-of-your-own",
@@ -30,18 +28,11 @@ CHAPTERS = {
         "edp/examples/README.md",
         "edp/examples/*/README.md",
     ],
-    "Write your own": [
-        "edp/MANUAL.md#writing-a-scene",
-        "edp/MANUAL.md#adding-a-law",
-        "edp/MANUAL.md#adding-a-method",
-        "edp/MANUAL.md#adding-an-option",
-        "template/README.md",
-        "CONTRIBUTING.md",
-    ],
     "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#"],
     "Scenes": ["edp/scenes/README.md", "edp/scenes/README.md#"],
-    "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#"],
-    "Theory": ["edp/THEORY.md", "edp/THEORY.md#"],
+    "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
+    "The paper and the theory": ["edp/PAPER.md", "edp/PAPER.md#", "edp/THEORY.md", "edp/THEORY.md#"],
+    "Write your own": ["template/README.md", "edp/WRITING.md", "edp/WRITING.md#", "CONTRIBUTING.md"],
     "The code": ["edp/README.md", "edp/README.md#", "tests/data/README.md", "CHANGELOG.md"],
 }
 HIDDEN = ["edp/labs/*/ANSWERS.md"]  # reached by links alone
@@ -246,9 +237,22 @@ def build(out, root=ROOT, chapters=CHAPTERS):
             for key, value in SETTINGS.items()
             for word in ("-D", f"{key}={int(value) if isinstance(value, bool) else value}")
         ]
-        code = main(
-            ["-q", "-W", "--keep-going", "-b", "html", "-C", *values, "-d", f"{folder}/trees", str(source), str(out)]
-        )
+        words = [
+            "-q",
+            "-W",
+            "--keep-going",
+            "-b",
+            "html",
+            "-C",
+            *values,
+            "-d",
+            f"{folder}/trees",
+            str(source),
+            str(out),
+        ]
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            code = main(words)
+    print("".join(dict.fromkeys(said.getvalue().splitlines(keepends=True))), end="", file=sys.stderr)  # each once
     shutil.rmtree(Path(out, "_sources"), ignore_errors=True)
     return code
 

@@ -394,7 +394,7 @@ TEXT = "before\n<!-- table: {} -->\nold\n<!-- end -->\nbetween\n<!-- table: peer
 
 def test_markers_of_the_tables():
     """Every marker of the results shall be a table that there is, opened and closed once; none shall be missing."""
-    text = tables.DOCUMENT.read_text()
+    text = "".join(document.read_text() for document in tables.DOCUMENTS)
     names = [found.group(2) for found in tables.MARKED.finditer(text)]
     assert sorted(names) == sorted(tables.TABLES)
     assert text.count("<!-- table:") == text.count("<!-- end -->") == len(names)
@@ -414,7 +414,7 @@ def test_only_what_is_between_markers_is_written():
 def test_tables_are_written(campaigns, tmp_path, capsys):
     """From whole tables all shall be written, alike whatever the order of rows; from a part only when that is asked."""
     document, results = tmp_path / "RESULTS.md", tmp_path / "results"
-    kept = tables.MARKED.sub(r"\1\4", tables.DOCUMENT.read_text())
+    kept = tables.MARKED.sub(r"\1\4", "".join(document.read_text() for document in tables.DOCUMENTS))
     document.write_text(kept)
     options = ["--document", str(document), "--results"]
     assert tables.main([*options, str(campaigns)]) == 0

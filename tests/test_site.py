@@ -68,6 +68,7 @@ def test_every_page_has_its_place(tmp_path):
     site.write()  # ends the test where a link leads nowhere
     contents = re.findall(r"^/(.*)$", (tmp_path / "index.md").read_text(), re.M)
     assert len(contents) == len(set(contents)) > 90
+    assert all(re.search(r"^# ", path.read_text(), re.M) for path in tmp_path.rglob("*.md"))
     answers = {place for place in site.pages if place.endswith("ANSWERS")}
     assert {"index", *contents, *answers} == site.pages.keys()
     pages = [path.relative_to(ROOT) for path in ROOT.rglob("*.md") if not {".venv", "results"} & {*path.parts}]

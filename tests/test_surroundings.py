@@ -650,7 +650,7 @@ def test_contact_lost_in_rounding(tmp_path):
 def test_docker_keeps_what_is_edited():
     """The Dockerfile's head and the manual shall say the same commands: the checkout is mounted, Python's are not."""
     head = [line[4:] for line in (ROOT / "Dockerfile").read_text().splitlines() if line.startswith("#   docker")]
-    assert "\n".join(head) in (ROOT / "edp/MANUAL.md").read_text()
+    assert "\n".join(head) in (ROOT / "edp/SETUP.md").read_text()
     assert head[1].split()[4:8] == ["-v", '"$PWD:/contact"', "-v", "/contact/.venv"]
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from tables import DOCUMENT, MARKED
+from tables import DOCUMENTS, MARKED
 
 from postprocess import style
 from postprocess.output import write_files
@@ -22,8 +22,9 @@ DOTS = 210  # an inch: twice what a screen shows of half a page
 
 
 def cells(name: str, text: str | None = None) -> list[list[str]]:
-    """The rows of a table of tests/RESULTS.md, its head first."""
-    (table,) = [found[3] for found in MARKED.finditer(text or DOCUMENT.read_text()) if found[2] == name]
+    """The rows of a table of tests/RESULTS.md or tests/COST.md, its head first."""
+    text = text or "".join(document.read_text() for document in DOCUMENTS)
+    (table,) = [found[3] for found in MARKED.finditer(text) if found[2] == name]
     lines = [line for line in table.splitlines() if line.startswith("|")]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if not line.startswith("| ---")]
 

@@ -1,8 +1,8 @@
 """The documentation's tables of the campaigns, written from their CSV files: `make tables`.
 
-A table stands in tests/RESULTS.md between `<!-- table: NAME -->` and `<!-- end -->`, NAME one of TABLES; nothing else
-is touched. One whose CSV is not there, or has not been run whole, is left as it is, and said so: `--partial` writes it
-all the same.
+A table stands in tests/RESULTS.md or tests/COST.md between `<!-- table: NAME -->` and `<!-- end -->`, NAME one of
+TABLES; nothing else is touched. One whose CSV is not there, or has not been run whole, is left as it is, and said so:
+`--partial` writes it all the same.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import coverage
 import peers
 import stability
 
-DOCUMENT = campaign.ROOT / "tests" / "RESULTS.md"
+DOCUMENTS = [campaign.ROOT / "tests" / name for name in ("RESULTS.md", "COST.md")]
 MARKED = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->)", re.S)
 
 Rows = list[dict[str, str]]
@@ -88,19 +88,24 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--partial", action="store_true", help="also from a CSV that has not been run whole")
     parser.add_argument("--results", type=Path, default=campaign.RESULTS_FOLDER, help="folder of the CSV files")
-    parser.add_argument("--document", type=Path, default=DOCUMENT, help="the text that has the markers")
+    parser.add_argument("--document", type=Path, nargs="+", default=DOCUMENTS, help="the texts that have the markers")
     arguments = parser.parse_args(argv)
-    text = arguments.document.read_text(encoding="utf-8")
+    return max([write(document, arguments.results, arguments.partial) for document in arguments.document])
+
+
+def write(document: Path, results: Path, partial: bool) -> int:
+    """The tables of one document; 1 if it names one that is not known."""
+    text = document.read_text(encoding="utf-8")
     tables: dict[str, str] = {}
     wanted = [found.group(2) for found in MARKED.finditer(text)]
     for csv in dict.fromkeys(TABLES[name][0] for name in wanted if name in TABLES):
         order = {item.key: place for place, item in enumerate(LISTS[csv](campaign.ROOT))}
-        rows = campaign.read_rows(arguments.results / f"{csv}.csv")
+        rows = campaign.read_rows(results / f"{csv}.csv")
         rows = sorted(
             (row for row in rows if campaign.key_of(row) in order), key=lambda row: order[campaign.key_of(row)]
         )
         whole = len(order)
-        if not rows or (len(rows) < whole and not arguments.partial):
+        if not rows or (len(rows) < whole and not partial):
             print(f"{csv}.csv: {len(rows)} of {whole} runs: its tables are left as they are", file=sys.stderr)
             continue
         for name in wanted:
@@ -109,11 +114,11 @@ def main(argv: list[str] | None = None) -> int:
     try:
         new = written(text, tables)
     except ValueError as error:
-        print(f"{arguments.document.name}: {error}", file=sys.stderr)
+        print(f"{document.name}: {error}", file=sys.stderr)
         return 1
     if new != text:
-        arguments.document.write_text(new, encoding="utf-8")
-    print(f"{arguments.document.name}: {len(tables)} of {len(wanted)} tables written")
+        document.write_text(new, encoding="utf-8")
+    print(f"{document.name}: {len(tables)} of {len(wanted)} tables written")
     return 0
 
 
