@@ -42,7 +42,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
 def place_legend(axes) -> None:
     """The legend at the top within the axes, whose upper end is raised until no curve is behind it."""
-    legend = axes.legend(loc="upper right", labelspacing=0.3, borderaxespad=0.1)
+    white = {"frameon": True, "facecolor": "white", "edgecolor": "none", "framealpha": 1}  # over the adaptations' lines
+    legend = axes.legend(loc="upper right", labelspacing=0.3, borderaxespad=0.1, **white)
     axes.figure.draw_without_rendering()
     bottom, top = np.log10(axes.dataLim.y0) - 0.5, np.log10(axes.dataLim.y1) + 0.5
     covered = min(0.8, legend.get_window_extent().height / axes.get_window_extent().height + 0.03)
