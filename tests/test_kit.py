@@ -13,6 +13,7 @@ from test_readme import fences
 
 from postprocess import kit, markdown
 from postprocess.__main__ import main
+from postprocess.commands import check_lab
 
 CHECK = "check_lab"
 
@@ -126,6 +127,23 @@ def test_answers_refused(text, why, tmp_path, capsys):
     assert why in capsys.readouterr().err
     assert main([CHECK, "12", str(tmp_path / "a.csv")]) == 2
     assert "allowed: 0 1 2" in capsys.readouterr().err
+
+
+def test_answers_of_a_spreadsheet(tmp_path, capsys):
+    """Semicolons, commas in numbers, another case of the head, rows cut short: as spreadsheets write them."""
+    rows = ["Flags; Quantity ;Value", "-m 2;first ratio;0,49997", "-m 2;Newton steps;18,0", "-m 3;Newton steps", ""]
+    (tmp_path / "a.csv").write_bytes("\r\n".join(rows).encode("utf-8-sig"))
+    assert main([CHECK, "2", str(tmp_path / "a.csv")]) == 0
+    assert capsys.readouterr().out.endswith("2 of 2 within tolerance\n")
+
+
+def test_a_law_without_end(tmp_path, capsys, monkeypatch):
+    """A law that loops for ever shall be stopped and said, no process be left."""
+    monkeypatch.setattr(check_lab, "SECONDS", 1)
+    (tmp_path / "mine.idp").write_text("int endless = 0;\nwhile (endless >= 0) endless = 1;\n")
+    with pytest.raises(SystemExit):
+        main([CHECK, "4", str(tmp_path / "mine.idp")])
+    assert "does not end: stopped after 1 seconds" in capsys.readouterr().out
 
 
 def test_a_law(tmp_path, capsys):
