@@ -140,7 +140,8 @@ def test_answers_of_a_spreadsheet(tmp_path, capsys):
 def test_a_law_without_end(tmp_path, capsys, monkeypatch):
     """A law that loops for ever shall be stopped and said, no process be left."""
     monkeypatch.setattr(check_lab, "SECONDS", 1)
-    (tmp_path / "mine.idp").write_text("int endless = 0;\nwhile (endless >= 0) endless = 1;\n")
+    law = (ROOT / "edp/labs/4-own-law/mylaw.idp").read_text()
+    (tmp_path / "mine.idp").write_text(law + "\nint endless = 0;\nwhile (endless >= 0) endless = 1;\n")
     with pytest.raises(SystemExit):
         main([CHECK, "4", str(tmp_path / "mine.idp")])
     assert "does not end: stopped after 1 seconds" in capsys.readouterr().out
