@@ -18,7 +18,7 @@ near() # words, one, other, share
     else echo "OFF $1: $2, $3"; failed=1; fi
 }
 mkdir -p results/test
-.venv/bin/python -m postprocess check_lab 4 mylaw.idp || failed=1
+.venv/bin/python -m postprocess check_lab 4 mylaw.idp || exit 1
 for name in xnewton newton mymethod; do run -h 0.5 -method $name -tol 1e-8; done
 name=finer; run -h 0.25 -method xnewton
 near 'newton finds the force of xnewton' "$(value newton force)" "$(value xnewton force)" 1e-6

@@ -150,17 +150,20 @@ def arrows(hooks=False):
 
 
 @cache
-def unit(path):
-    """Of a module in parts for plane and space, which it reads by readTwin or which bear its name: the whole."""
+def units():
+    """{part for plane or space, read by readTwin or of a module's name: the whole}; the first whole counts."""
+    found = {}
     for name, text in sources().items():
-        parts = {
-            f"{twin}-{where}.idp"
-            for twin in re.findall(r"^readTwin\((\S+)\)", text, re.M)
-            for where in ("plane", "space")
-        }
-        if path in parts or (path != name and re.fullmatch(re.escape(name[:-4]) + r"-(plane|space|of-\w+)\.idp", path)):
-            return name
-    return path
+        twins = re.findall(r"^readTwin\((\S+)\)", text, re.M)
+        parts = [f"{twin}-{where}.idp" for twin in twins for where in ("plane", "space")]
+        of_name = re.compile(re.escape(name[:-4]) + r"-(plane|space|of-\w+)\.idp")
+        for part in (*parts, *(path for path in sources() if path != name and of_name.fullmatch(path))):
+            found.setdefault(part, name)
+    return found
+
+
+def unit(path):
+    return units().get(path, path)
 
 
 def whole(graph):
@@ -196,18 +199,21 @@ def within(knot, graph):
     return [f"{path} uses {', '.join(sorted(graph[path][other]))} of {other}" for path, other in pairs]
 
 
+# A name that is assigned, counted or given another size: at each place anew, for one may stand within another
+WRITTEN = re.compile(
+    r"(?<![\w.])(?=([A-Za-z_]\w*)(?:(?:\[[^\]=]*\]|\([^)=;]*\))?\s*(?:[-+*/]?=(?!=)|\+\+|--)|\.resize))"
+    r"|(?:\+\+|--)([A-Za-z_]\w*)"
+)
+
+
 @cache
 def writers():
-    """{name: files outside its module that write it}: assigned, counted up or down, given another size."""
-    found = {}
-    for name in {name for path in modules() for name in variables(path)}:
-        at = rf"(?<![\w.]){name}"
-        place = r"(?:\[[^\]=]*\]|\([^)=;]*\))?"
-        written = re.compile(rf"{at}{place}\s*(?:[-+*/]?=(?!=)|\+\+|--)|{at}\.resize|(?:\+\+|--){name}\b")
-        for path in modules():
-            code = re.sub(r"//.*", "", sources()[path])
-            if name in code and name not in declared(path) | local(path) and written.search(code):
-                found.setdefault(name, set()).add(path)
+    """{name: files outside its module that write it}."""
+    found, every = {}, {name for path in modules() for name in variables(path)}
+    for path in modules():
+        written = {name for names in WRITTEN.findall(re.sub(r"//.*", "", sources()[path])) for name in names}
+        for name in (written & every) - declared(path) - local(path):
+            found.setdefault(name, set()).add(path)
     return found
 
 
