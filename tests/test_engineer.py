@@ -11,6 +11,8 @@ import pytest
 from freefem import ROOT, run_in
 from PIL import Image
 
+from postprocess.__main__ import main
+
 RING = """
 h = SIZE;
 Point(1) = {0, 0, 0}; Point(2) = {10, 0, 0, h}; Point(3) = {20, 0, 0, h}; Point(4) = {0, 20, 0, h};
@@ -179,8 +181,7 @@ def test_joint_diagram(tmp_path):
     one = summary(tmp_path)["preloads"][0]
     assert one["shortened"] == pytest.approx(20 / SHANK + 20 / SLEEVE, rel=1e-6)
     assert one["force"] == pytest.approx(60, rel=1e-5)
-    command = [sys.executable, "-m", "postprocess", "curve", str(tmp_path / "out")]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    assert main(["curve", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out/curve.png").stat().st_size > 10000
 
 
@@ -263,10 +264,9 @@ def test_stresses_of_lame(tmp_path):
     grid = (tmp_path / "out/solution.vtu").read_bytes()
     for name in ("XX", "YY", "ZZ", "XY", "1", "2", "3", "Scatter"):
         assert f'Name="stress{name}[pressure]"'.encode() in grid
-    subprocess.run([sys.executable, "-m", "postprocess", "line", str(tmp_path / "out")], cwd=ROOT, check=True)
+    assert main(["line", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out/line-radius.png").stat().st_size > 10000
-    command = [sys.executable, "-m", "postprocess", "stress", str(tmp_path / "out"), "--slide"]
-    subprocess.run(command, cwd=ROOT, check=True)
+    assert main(["stress", str(tmp_path / "out"), "--slide"]) == 0
     with Image.open(tmp_path / "out/stress.png") as picture:
         assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
@@ -378,28 +378,26 @@ def test_order_of_the_screen(tmp_path):
     assert at == sorted(at)
 
 
-def test_sweep(tmp_path):
+def test_sweep(tmp_path, monkeypatch, capsys):
     """Runs side by side, goes on with what is missing, and refuses what belongs to another sweep."""
     (tmp_path / "part.geo").write_text(RING.replace("SIZE", "6"))
     (tmp_path / "part.case").write_text(
         f"{BODIES}contact bore seat interference 0.02   # nominal\n".replace("yield 100", "")
     )
-    words = [sys.executable, "-m", "postprocess", "sweep", "part.geo", "part.case", "--out", "all"]
+    monkeypatch.chdir(tmp_path)
+    words = ["sweep", "part.geo", "part.case", "--out", "all", "--flags=-estimate 0"]
 
     def sweep(number, *values, expect=0):
-        command = [*words, "--number", number, "--values", *values, "--flags=-estimate 0"]
-        done = subprocess.run(
-            command,
-            cwd=tmp_path,
-            env={"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin"},
-            capture_output=True,
-            text=True,
-        )
-        assert done.returncode == expect, done.stdout + done.stderr
-        return done.stdout + done.stderr
+        code = main([*words, "--number", number, "--values", *values])
+        said = "".join(capsys.readouterr())
+        assert code == expect, said
+        return said
 
     number = "contact bore seat interference *"
-    assert "0 of 2 runs are there" in sweep(number, "0.01:0.02:2")
+    command = [sys.executable, "-m", "postprocess", *words, "--number", number, "--values", "0.01:0.02:2"]
+    bare = {"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin"}
+    first = subprocess.run(command, env=bare, capture_output=True, text=True)
+    assert first.returncode == 0 and "0 of 2 runs are there" in first.stdout + first.stderr, first
     assert "2 of 3 runs are there" in sweep(number, "0.01", "0.02", "0.03")
     with (tmp_path / "all/sweep.csv").open() as file:
         rows = list(csv.DictReader(file))
