@@ -381,7 +381,7 @@ page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: 
 	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html
 
 site: $(VENV)/dev.stamp ## all pages as a site to search and to click through, from a folder, no network, into results/site/
-	@$(PYTHON) tests/documents.py --out $(RESULTS)/site
+	@PYTHONPATH=. $(PYTHON) tests/documents.py --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
 N       ?= $(filter 0 1 2 3 4 5 6 7 8 9,$(MAKECMDGOALS))

@@ -1,4 +1,4 @@
-"""The Markdown of the package's pages as HTML: headings, paragraphs, lists, tables, pictures, code; nothing more.
+"""The Markdown of the package's pages as HTML: headings, paragraphs, lists, tables, pictures, code, equations; no more.
 
 What a page writes in another way comes out as plain text, which a test looks for.
 """
@@ -7,6 +7,7 @@ import html
 import re
 from collections.abc import Callable
 
+from postprocess import equations
 from postprocess.page import Markup
 
 INLINE = re.compile(
@@ -61,7 +62,10 @@ def markup(text: str, link: Place = lambda target: target, image: Place = lambda
             pieces.append(f"<pre>{html.escape(chr(10).join(code))}</pre>")
         elif line.startswith("    "):
             code = [each[4:] for each in take(lambda each: each.startswith("    "))]
-            pieces.append(f"<pre>{html.escape(chr(10).join(code))}</pre>")
+            made = equations.display(code)
+            pieces.append(
+                f'<div class="equations">{made}</div>' if made else f"<pre>{html.escape(chr(10).join(code))}</pre>"
+            )
         elif heading:
             lines.pop(0)
             level = len(heading[1])

@@ -1,6 +1,6 @@
 """The pages as a site, `make site`: the same Markdown, laid out by Sphinx. Opens from a folder, asks no network.
 
-Long pages are cut at their headings, a page a task; equations become MathML (equations.py). Links lead to the cut
+Long pages are cut at their headings, a page a task; equations become MathML (postprocess/equations.py). Links lead to the cut
 pages; one that no page and no file answers to ends the build, as any warning of Sphinx does.
 """
 
@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-import equations
+from postprocess import equations
 
 ROOT = Path(__file__).resolve().parent.parent
 CUT = [f"edp/{name}.md" for name in "SETUP PICTURES MANUAL WRITING PAPER THEORY README scenes/README".split()]

@@ -6,10 +6,11 @@ from html.parser import HTMLParser
 from urllib.parse import unquote
 
 import documents
-import equations
 import pytest
 from browser import CHROMIUM, Browser
 from freefem import ROOT
+
+from postprocess import equations
 
 MATHML = "{http://www.w3.org/1998/Math/MathML}"
 pytestmark = pytest.mark.filterwarnings("ignore:.*Check CHANGES for Sphinx")
