@@ -1,7 +1,7 @@
 """The pages as a site, `make site`: the same Markdown, laid out by Sphinx. Opens from a folder, asks no network.
 
-Long pages are cut at their headings, a page a task; equations become MathML (postprocess/equations.py). Links lead to the cut
-pages; one that no page and no file answers to ends the build, as any warning of Sphinx does.
+Long pages are cut at their headings, a page a task; equations become MathML (postprocess/equations.py). Links lead to
+the cut pages; one that no page and no file answers to ends the build, as any warning of Sphinx does.
 """
 
 import argparse
