@@ -115,11 +115,18 @@ def typeset(text):
     return outside_code(text, change)
 
 
+def toctree(places, *options):
+    """MyST's directive: links to pages, and their place in the site's contents."""
+    lines = [*(f":{option}:" if ":" not in option else f":{option}" for option in options), ""]
+    return "\n".join(["```{toctree}", *lines, *(f"/{place}" for place in places), "```", ""])
+
+
 class Site:
     """The pages of the site: where each stands, and what each heading's place is."""
 
     def __init__(self, root, folder, chapters=CHAPTERS):
         self.root, self.folder, self.chapters = root, folder, chapters
+        self.below = {}  # {long page: the places of its sections}
         self.listed = {"index"}  # what the table of contents has so far
         self.pages = {}  # place in the site, without suffix: (page, text)
         self.places = {}  # (page, heading's name): place
@@ -183,25 +190,18 @@ class Site:
         return [place for place in dict.fromkeys(found) if not (place in self.listed or self.listed.add(place))]
 
     def contents(self):
-        """The site's table of contents, for its first page; what a chapter names is not among the rest of its page."""
-        rest = {name: [one for one in names if one.endswith("#")] for name, names in self.chapters.items()}
-        named = {
-            name: self.chapter([one for one in names if one not in rest[name]]) for name, names in self.chapters.items()
-        }
-        trees = []
-        for name, places in named.items():
-            lines = "\n".join(f"/{place}" for place in places + self.chapter(rest[name]))
-            trees.append(f"```{{toctree}}\n:hidden:\n:caption: {name}\n\n{lines}\n```\n")
+        """The site's table of contents, for its first page; the other sections of a long page stand below that page."""
+        chapters = {name: [one for one in names if not one.endswith("#")] for name, names in self.chapters.items()}
+        trees = [toctree(self.chapter(names), "hidden", f"caption: {name}") for name, names in chapters.items()]
+        for name in (name for names in self.chapters.values() for name in names if name.endswith("#")):
+            self.below[name[:-1]] = self.chapter([name])
         return "\n".join(trees)
 
     def parts(self, page, place):
-        """Links to the sections of a page that was cut."""
-        own = [
-            f"- [{headings(text)[0][1]}](/{other}.md)"
-            for other, (of, text) in self.pages.items()
-            if of == page and other != place
-        ]
-        return "\n".join(own)
+        """The sections of a page that was cut, also those that stand in another chapter."""
+        own = [other for other, (of, _) in self.pages.items() if of == page and other != place]
+        away = [f"- [{headings(self.pages[one][1])[0][1]}](/{one}.md)" for one in own if one not in self.below[page]]
+        return "\n".join([toctree(self.below[page], "maxdepth: 1"), *away])
 
     def write(self):
         contents = self.contents()
