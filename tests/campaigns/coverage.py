@@ -104,7 +104,7 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
         name = problem_name(family, flags)
         fine = {key: word for key, word in shared.items() if key != "method"}
         found.append(case(f"{name}: reference", scene, weight=5, order=4, h=size / FINEST.get(family, 16), **fine))
-        for order in (1, 2, 4):
+        for order in (1, 2, 3, 4):
             for halved in range(3):
                 found.append(case(name, scene, order=order, h=size * order / 4 / 2**halved, **shared))
     return found
@@ -114,7 +114,7 @@ def pin_files() -> dict[str, str]:
     """Meshes and cases of the pins, for the campaign's folder."""
     geo = EXAMPLE.with_suffix(".geo").read_text().replace("half = {500,", "half = {100,")
     case_file = EXAMPLE.with_suffix(".case").read_text()
-    sizes = {PIN_SIZE * order / 4 / 2**halved for order in (1, 2, 4) for halved in range(3)} | {PIN_SIZE / 12}
+    sizes = {PIN_SIZE * order / 4 / 2**halved for order in (1, 2, 3, 4) for halved in range(3)} | {PIN_SIZE / 12}
     files = {f"pin-{size:g}.geo": geo.replace("size = {0.28,", f"size = {{{size:g},") for size in sizes}
     for name, (force, law) in PINS.items():
         text = case_file.replace("0 -1000", force).replace("bore pin-surface", "bore pin-surface" + law)
@@ -127,7 +127,7 @@ def cases_of_pins(root: Path = campaign.ROOT) -> list[campaign.Case]:
     for name in PINS:
         shared = {"case": f"pin-{name.replace(' ', '-')}.case", "tol": 1e-8}
         for order, size, kind in [(4, PIN_SIZE / 12, ": reference")] + [
-            (order, PIN_SIZE * order / 4 / 2**halved, "") for order in (1, 2, 4) for halved in range(3)
+            (order, PIN_SIZE * order / 4 / 2**halved, "") for order in (1, 2, 3, 4) for halved in range(3)
         ]:
             flags = {"mesh": f"pin-{size:g}.geo", "order": order, **shared}
             found.append(case(f"pin in a hole {name}{kind}", "parts", weight=5 if kind else 1, **flags))
@@ -227,7 +227,7 @@ def table(numbers: list[dict]) -> str:
     """Coverage and ratios by quantity and order; of all, and apart on the disc, on which constants were fitted."""
     lines = []
     for quantity in QUANTITIES:
-        for order in ("1", "2", "4"):
+        for order in ("1", "2", "3", "4"):
             these = [n for n in numbers if n["quantity"] == quantity and n["row"]["order"] == order]
             if these:
                 lines.append([quantity, f"P{order}", *statistics(these)])
