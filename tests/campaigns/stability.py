@@ -588,7 +588,7 @@ PARTS = {
     "same answer": "the paper's test, to a residual of 1e-10",
     "counts in space": "`sphere-on-block`, `two-spheres` over κ and m",
 }
-DEGREES = ("1", "2", "4")
+DEGREES = ("1", "2", "3", "4")
 
 
 def degree(row: dict[str, str]) -> str:
