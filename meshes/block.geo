@@ -82,6 +82,7 @@ If (corners > 0)
     Call Singular;
   EndIf
   atY = depth;
+  slope = 0.6;                           // pressures are asked for there
   If (sharp)
     atX = b;
     Call Singular;

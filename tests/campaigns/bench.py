@@ -50,9 +50,10 @@ SPHERE = "sphere-on-block"
 PLANE = [
     ({"order": 1}, (1.0, 0.5, 0.25, 0.1, 0.05)),
     ({"order": 2}, (1.0, 0.5, 0.25, 0.1, 0.05)),
+    ({"order": 3, "grading": 60}, (2.0, 1.0, 0.5, 0.25)),
     ({"order": 4, "grading": 60}, (2.0, 1.0, 0.5, 0.25)),
 ]
-PLANE_SHORT = [({"order": 2}, PLANE[1][1][:-1]), PLANE[2]]
+PLANE_SHORT = [({"order": 2}, PLANE[1][1][:-1]), *PLANE[2:]]
 SPACE = [
     ({"order": 1}, (1.0, 0.6, 0.4, 0.3)),
     ({"order": 2, "layers": 1, "grading": 10}, (2.0, 1.5, 1.0, 0.75)),

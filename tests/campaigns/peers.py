@@ -31,12 +31,15 @@ LAWS = [(1e3, 3), (1e9, 3), (1e12, 3), (1e3, 10), (1e3, 20)]  # kappa, m
 # Series of runs: flags, and the sizes h (length) that they are run with. A further element or mesh is a further line.
 PACKAGE_PLANE = [
     ({"order": 2}, (0.5, 0.25)),
-    ({"order": 4, "grading": 60, "corners": 0.1}, (1, 0.5, 0.25)),
+    ({"order": 3, "grading": 60, "corners": 0.1}, (2, 1, 0.5)),
+    ({"order": 3, "grading": 60}, (0.5, 0.25)),
+    ({"order": 4, "grading": 60, "corners": 0.1}, (1, 0.5)),
     ({"order": 4, "grading": 120, "corners": 0.1}, (0.5,)),
-    ({"order": 4, "grading": 60}, (0.5,)),
+    ({"order": 4, "grading": 60}, (0.5, 0.25)),
 ]
 # With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
 PACKAGE_PLANE_ENDS = [
+    ({"order": 3, "grading": 60, "corners": 0.1}, (1, 0.5)),
     ({"order": 4, "grading": 60, "corners": 0.1}, (1.5, 1)),
     ({"order": 4, "grading": 60, "corners": 0.02}, (1.5, 0.5)),
     ({"order": 4, "grading": 120, "corners": 0.02}, (0.5,)),
