@@ -294,9 +294,11 @@ tell("y", pointY);
 tell("weight", weight);
 fespace Uh(Th, ELEMENT);
 Uh [a1, a2] = [100 + x, 10 * x + y];
-real[int] trace = a1[](pointDof);
+real[int] trace(points);
+overlapOf(a1[], trace);
 tell("trace", trace);
 """
+INSIDE = {1: [], 2: [0], 3: [-np.sqrt(1 / 5), np.sqrt(1 / 5)], 4: [-np.sqrt(3 / 7), 0, np.sqrt(3 / 7)]}  # of an edge from -1 to 1
 
 
 @pytest.mark.parametrize(
@@ -304,20 +306,21 @@ tell("trace", trace);
     [
         (1, "[P1, P1]", np.array([1, 2, 2, 2, 1]) / 2),
         (2, "[P2, P2]", np.array([1, 4, 2, 4, 2, 4, 2, 4, 1]) / 6),
-        (4, "[P4, P4]", np.array([7, 32, 12, 32, *[14, 32, 12, 32] * 3, 7]) / 90),
+        (3, "[P3, P3]", np.array([1, 5, 5, *[2, 5, 5] * 3, 1]) / 12),
+        (4, "[P4, P4]", np.array([9, 49, 64, 49, *[18, 49, 64, 49] * 3, 9]) / 180),
     ],
 )
 def test_slave_points(tmp_path, order, element, weights):
-    """The points shall be the slave's nodes from left to right, with the trapezoidal, Simpson's or Boole's weights."""
+    """The points shall be the slave's nodes, of P3 and P4 Lobatto's points, from left to right, with the rules' weights."""
     values = told(
         snippet(tmp_path, scene_text("confined-block") + POINTS.replace("ELEMENT", element), *BLOCK, "-order", order)
     )
-    n = len(weights)
-    np.testing.assert_allclose(values["x"], np.linspace(-2, 2, n), atol=1e-14)
+    x = np.append((np.arange(-2, 2)[:, None] + 0.5 + 0.5 * np.array([-1, *INSIDE[order]])).ravel(), 2)
+    np.testing.assert_allclose(values["x"], x, atol=1e-14)
     np.testing.assert_allclose(values["y"], 2, rtol=1e-14)
     np.testing.assert_allclose(values["weight"], weights, rtol=1e-13)
     assert abs(values["weight"].sum() - 4) < 1e-13
-    np.testing.assert_allclose(values["trace"], 10 * np.linspace(-2, 2, n) + 2, atol=1e-13)
+    np.testing.assert_allclose(values["trace"], 10 * x + 2, atol=1e-13)
 
 
 # ---------------------------------------------------------------- surface/pair-plane.idp
