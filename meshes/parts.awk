@@ -248,6 +248,11 @@ function rise(p, q, mx, my, mz,   where) {
   riseAt[++risen] = rises[where]
 }
 function place(px, py, pz) { return sprintf("%.17g %.17g %.17g", px, py, pz) }
+function bends(p, q, m,   ax, ay, az, mx, my, mz) {
+  ax = x[q] - x[p]; ay = y[q] - y[p]; az = z[q] - z[p]
+  mx = x[m] - (x[p] + x[q]) / 2; my = y[m] - (y[p] + y[q]) / 2; mz = z[m] - (z[p] + z[q]) / 2
+  return mx * mx + my * my + mz * mz > 1e-16 * (ax * ax + ay * ay + az * az)
+}
 function risesOfElements(   s, w, v, i, k, n, on, ends) {
   # gmsh: its nodes behind the corners, between which corners
   split("1 2 2 3 3 1 4 1 3 4 2 4", ends, " ")
@@ -260,6 +265,15 @@ function risesOfElements(   s, w, v, i, k, n, on, ends) {
     for (k = 1; k <= 6; k++)
       if ((v[n + ends[2 * k - 1]] in on) && (v[n + ends[2 * k]] in on)) {
         i = v[n + 4 + k]
+        rise(v[n + ends[2 * k - 1]] + 0, v[n + ends[2 * k]] + 0, x[i], y[i], z[i])
+      }
+  }
+  # inside bodies those that are curved: between materials, or moved to keep elements from folding
+  for (s in nodesOfElement) {
+    n = split(nodesOfElement[s], v, " ") - 10
+    for (k = 1; k <= 6; k++)
+      if (bends(v[n + ends[2 * k - 1]] + 0, v[n + ends[2 * k]] + 0, v[n + 4 + k] + 0)) {
+        i = v[n + 4 + k] + 0
         rise(v[n + ends[2 * k - 1]] + 0, v[n + ends[2 * k]] + 0, x[i], y[i], z[i])
       }
   }

@@ -43,15 +43,15 @@ def table(kind, names):
     return "\n".join(rows) + "\n"
 
 
-EACH = re.compile(r"^macro (?:eachOption|moreOptions|askedOptions)\(do, what\) (.*?)//", re.M | re.S)
+EACH = re.compile(r"^macro (?:eachOption|moreOptions|askedOptions|inSpace)\(do, what\) (.*?)//", re.M | re.S)
 
 
 def reads(script, space=False):
     """The options that a script of edp/ reads: by its own line, or by that of a script that it includes."""
     text = (EDP / script).read_text()
     space = space or "macro threeDimensional" in text
-    if space:
-        text = re.sub(r"^IFMACRO\(!threeDimensional\)\n.*?^ENDIFMACRO\n", "", text, flags=re.M | re.S)
+    without = "!" if space else ""
+    text = re.sub(rf"^IFMACRO\({without}threeDimensional\)\n.*?^ENDIFMACRO\n", "", text, flags=re.M | re.S)
     own = re.findall(r"do\((\w+), what\)", "".join(EACH.findall(text)))
     inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
     return set(own).union(*(reads(name, space) for name in inner))

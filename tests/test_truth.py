@@ -218,7 +218,7 @@ def test_column(go, order, sides):
 @pytest.mark.long
 def test_accuracy_of_a_column(go):
     """Its circles have 12 sides on every mesh: that is said, and no digits are claimed."""
-    told = go(column(1), COLUMN, "-accuracy", 1e-3, space=True, expect=21)
+    told = go(column(1), COLUMN, "-accuracy", 1e-5, space=True, expect=21)
     told.holds("contacts.0.force", 5 * np.pi)
     assert "sides on curves as long as before" in told.summary["accuracy"]["why"]
 

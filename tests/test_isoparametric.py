@@ -1,0 +1,226 @@
+"""P2's elements in space that follow curved surfaces: linear fields, volumes, what stays straight, closed forms."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, snippet, told
+
+BALL = """SetFactory("OpenCASCADE"); Sphere(1) = {{0, 0, 0, 1}};
+Mesh.MeshSizeMin = {size}; Mesh.MeshSizeMax = {size}; Mesh.ElementOrder = {order};
+Physical Volume("ball") = {{1}}; Physical Surface("skin") = {{1}};
+"""
+ON_PLANE = "body ball E 1000 nu 0.3\nobstacle skin plane 0 0 -1 0 0 1\n"
+BULK3 = 1000 / (1 - 2 * 0.3)  # three times the bulk modulus
+
+
+def gmsh(folder, geo, name="a.msh"):
+    (folder / "a.geo").write_text(geo)
+    code, stdout = execute(["gmsh", "-3", "-v", "1", "-format", "msh22", folder / "a.geo", "-o", folder / name])
+    assert code == 0, stdout
+    return (folder / name).read_text()
+
+
+def skin(text):
+    """Places of the six nodes of the second-order triangles of a mesh file: corners, middles of sides 1-2, 2-3, 3-1."""
+    lines = iter(text.splitlines())
+    place, faces = {}, []
+    for line in lines:
+        if line == "$Nodes":
+            for _ in range(int(next(lines))):
+                number, *at = next(lines).split()
+                place[int(number)] = np.array(at, float)
+        elif line == "$Elements":
+            for _ in range(int(next(lines))):
+                _, kind, tags, *rest = map(int, next(lines).split())
+                if kind == 9:
+                    faces.append([place[node] for node in rest[tags:]])
+    return np.array(faces)
+
+
+def volume_and_area(faces):
+    """Inside quadratic patches, by the divergence theorem; Gauss's rule on the square, one side drawn together."""
+    at, weight = np.polynomial.legendre.leggauss(6)
+    at, weight = (at + 1) / 2, weight / 2
+    volume = area = 0
+    for a, wa in zip(at, weight, strict=True):
+        for b, wb in zip(at, weight, strict=True):
+            m, n = a, b * (1 - a)
+            k = 1 - m - n
+            N = [k * (2 * k - 1), m * (2 * m - 1), n * (2 * n - 1), 4 * k * m, 4 * m * n, 4 * n * k]
+            by_m = [1 - 4 * k, 4 * m - 1, 0, 4 * (k - m), 4 * n, -4 * n]
+            by_n = [1 - 4 * k, 0, 4 * n - 1, -4 * m, 4 * m, 4 * (k - n)]
+            normal = np.cross(np.einsum("j,ejc->ec", by_m, faces), np.einsum("j,ejc->ec", by_n, faces))
+            volume += wa * wb * (1 - a) * np.einsum("j,ejc,ec->", N, faces, normal) / 3
+            area += wa * wb * (1 - a) * np.linalg.norm(normal, axis=1).sum()
+    return abs(volume), area
+
+
+FIELDS = """
+real[int] u(ndof);
+real[int] f(ndof);
+real[int] sums(4);
+macro field(name, first, second, third)
+u = 0;
+for (int i = 0; i < nodes; i++) u[nodeDof(i, 0)] = first;
+for (int i = 0; i < nodes; i++) u[nodeDof(i, 1)] = second;
+for (int i = 0; i < nodes; i++) u[nodeDof(i, 2)] = third;
+f = elasticStiffness * u;
+tell(name, f.linfty); //
+field("moved", 1, 2, 3)
+field("turned", -2 * nodeAt(i, 1) + nodeAt(i, 2), 2 * nodeAt(i, 0), -nodeAt(i, 0))
+field("swollen", nodeAt(i, 0), nodeAt(i, 1), nodeAt(i, 2))
+f -= wholeLoad;
+tell("patch", f.linfty);
+sums = 0;
+for (int c = 0; c < 3; c++) for (int i = 0; i < nodes; i++) sums[c] += wholeLoad[nodeDof(i, c)];
+sums[3] = bentElements;
+tell("sums", sums);
+tell("weight", weight.sum);
+"""
+
+
+def fields(folder, mesh, case, script="edp/parts-3d.edp"):
+    (folder / "a.msh").write_text(mesh)
+    (folder / "a.case").write_text(case)
+    space, whole = ((ROOT / name).read_text() for name in (script, "edp/parts.edp"))
+    text = re.sub(r'include "parts.*', "", space) + 'macro threeDimensional() 1 //\nstring scene = "parts-3d";\n'
+    text = text if "asked" in script else re.sub(r'include "parts.*', "", space)
+    return told(snippet(folder, text + whole.split("sayCase();")[0] + FIELDS, "-mesh", "a.msh", "-case", "a.case"))
+
+
+@pytest.fixture(scope="module")
+def ball(tmp_path_factory):
+    return gmsh(tmp_path_factory.mktemp("ball"), BALL.format(size=0.6, order=2))
+
+
+def test_linear_fields(tmp_path, ball):
+    """Rigid motions cost nothing, and a field that swells is in balance with its pressure, to rounding."""
+    found = fields(tmp_path, ball, ON_PLANE + f"pressure skin {-BULK3!r}\n")
+    assert found["sums"][3] > 100 and found["swollen"] > 100
+    assert max(found["moved"], found["turned"], found["patch"]) < 1e-10 * found["swollen"]
+
+
+@pytest.mark.long
+def test_heat(tmp_path, ball):
+    """A warmer body swells without stress."""
+    script = "edp/scenes/asked/parts-3d-asked.edp"
+    found = fields(tmp_path, ball, f"{ON_PLANE}expand ball 1e-3 1000\n", script)
+    assert found["patch"] < 1e-10 * found["swollen"]
+
+
+def test_volume_and_area(tmp_path, ball):
+    """Weights, tractions and the points' areas are those of the second-order mesh."""
+    volume, area = volume_and_area(skin(ball))
+    found = fields(tmp_path, ball, f"{ON_PLANE}weight ball 0 0 -1\ntraction skin 0 1 0\n")
+    assert found["sums"][2] == pytest.approx(-volume, rel=1e-10)
+    assert found["sums"][1] == pytest.approx(area, rel=1e-5)
+    assert found["weight"] == pytest.approx(area, rel=1e-3)
+    assert volume == pytest.approx(4 / 3 * np.pi, rel=2e-3)
+
+
+def run(folder, mesh, case, *flags):
+    """summary.json, and what was printed."""
+    name = folder / ("a.msh" if mesh.startswith("$") else "part.geo")
+    name.write_text(mesh)
+    (folder / "a.case").write_text(case)
+    command = [*FREEFEM, "edp/parts-3d.edp", "-mesh", name, "-case", folder / "a.case", "-out", folder / "out"]
+    code, stdout = execute([*command, "-vtu", "0", *flags], ROOT)
+    assert code == 0, stdout[-2000:]
+    return json.loads((folder / "out/summary.json").read_text()), stdout
+
+
+def within(summary, number, truth, most):
+    """Value and error of a force of the first contact: the truth is in it."""
+    force = summary["estimates"]["contacts"][0][number]
+    assert abs(force["value"] - truth) < force["error"], (force, truth)
+    assert abs(force["value"] / truth - 1) < most
+    return force
+
+
+def test_folded(tmp_path, ball):
+    """A face that is dented by nearly its element's height: what would be folded stays straight, and that is said."""
+    lines = ball.split("\n")
+    first = lines.index("$Nodes") + 2
+    faces = lines.index("$Elements") + 2
+    face = next(line.split() for line in lines[faces + 10 :] if line.split()[1] == "9")
+    nodes = [int(node) for node in face[-6:]]
+    place = {node: np.array(lines[first + node - 1].split()[1:], float) for node in nodes}
+    for k in range(3):
+        ends = place[nodes[k]], place[nodes[(k + 1) % 3]]
+        middle = (ends[0] + ends[1]) / 2 * (1 - 0.45 * np.linalg.norm(ends[0] - ends[1]))
+        lines[first + nodes[3 + k] - 1] = " ".join([str(nodes[3 + k]), *(repr(float(x)) for x in middle)])
+    summary, _ = run(tmp_path, "\n".join(lines), ON_PLANE + "weight ball 0 0 -1\n")
+    assert any(
+        "elements would be folded if they followed curved surfaces, one near (" in w for w in summary["warnings"]
+    )
+    within(summary, "force", 4 / 3 * np.pi, 0.02)
+
+
+@pytest.mark.parametrize("order, most", [(2, 1e-3), pytest.param(1, 0.2, marks=pytest.mark.long)])
+def test_ball(tmp_path, order, most):
+    """The weight of a ball of about 200 triangles."""
+    mesh = gmsh(tmp_path, BALL.format(size=0.45, order=order))
+    summary, _ = run(tmp_path, mesh, ON_PLANE + "weight ball 0 0 -1\n")
+    within(summary, "force", 4 / 3 * np.pi, most)
+
+
+PIPE = """Point(1) = {{0, 0, 0}}; Macro Sector
+q = newl; p = newp;
+Point(p) = {{r1, 0, 0}}; Point(p+1) = {{r2, 0, 0}}; Point(p+2) = {{0, r2, 0}}; Point(p+3) = {{0, r1, 0}};
+Line(q) = {{p, p+1}}; Circle(q+1) = {{p+1, 1, p+2}}; Line(q+2) = {{p+2, p+3}}; Circle(q+3) = {{p+3, 1, p}};
+Transfinite Curve {{q+1}} = n2 + 1; Transfinite Curve {{q+3}} = n1 + 1; Transfinite Curve {{q, q+2}} = 6;
+Curve Loop(q) = {{q, q+1, q+2, q+3}}; Plane Surface(q) = {{q}};
+e[] = Extrude{{0, 0, 2}} {{Surface{{q}}; Layers{{2}};}}; Return
+r1 = 7; r2 = 10.01; n1 = {sides}; n2 = {sides}; Call Sector;
+Physical Volume("inner") = {{e[1]}}; Physical Surface("pin") = {{e[3]}};
+Physical Surface("mirrors0") = {{q, e[0]}}; Physical Surface("x0") = {{e[4]}}; Physical Surface("y0") = {{e[2]}};
+r1 = 10; r2 = 14; n1 = {more}; n2 = {sides}; Call Sector;
+Physical Volume("outer") = {{e[1]}}; Physical Surface("bore") = {{e[5]}};
+Physical Surface("mirrors1") = {{q, e[0]}}; Physical Surface("x1") = {{e[4]}}; Physical Surface("y1") = {{e[2]}};
+Mesh.ElementOrder = {order};
+"""
+PIPES = "body inner E 1000 nu 0.3\nbody outer E 1000 nu 0.3\ncontact bore pin\n" + "".join(
+    f"symmetry {name}{k}\n" for name in ("mirrors", "x", "y") for k in (0, 1)
+)
+
+
+def lame(inner=7.0, radius=10.0, outer=14.0, overlap=0.01, height=2.0):
+    """Integral of the pressure over a quarter of the bore, plane strain."""
+    pin = radius + overlap
+    bends = (pin**2 + inner**2) / (pin**2 - inner**2) + (outer**2 + radius**2) / (outer**2 - radius**2)
+    return np.pi / 2 * radius * height * overlap / radius * 1000 / (1 - 0.3**2) / bends
+
+
+@pytest.mark.parametrize(
+    "order, sides, more, most",
+    [
+        (2, 8, 10, 1e-3),
+        pytest.param(2, 5, 7, 3e-3, marks=pytest.mark.long),
+        pytest.param(1, 8, 10, 0.05, marks=pytest.mark.long),
+    ],
+)
+def test_press_fit(tmp_path, order, sides, more, most):
+    """A quarter of two pipes, meshes that do not match."""
+    mesh = gmsh(tmp_path, PIPE.format(sides=sides, more=more, order=order))
+    summary, _ = run(tmp_path, mesh, PIPES)
+    within(summary, "normalForce", lame(), most)
+
+
+@pytest.mark.long
+def test_true_distance(tmp_path):
+    """Bodies that hardly move: the true distance tells the same."""
+    mesh = gmsh(tmp_path, PIPE.format(sides=8, more=10, order=2))
+    forces = [run(tmp_path, mesh, PIPES, "-estimate", "0", "-distance", word)[0] for word in ("linear", "exact")]
+    linear, exact = (summary["contacts"][0]["normalForce"] for summary in forces)
+    assert linear == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.long
+def test_straight_when_asked(tmp_path, ball):
+    """-surface facets, and P1, leave elements straight."""
+    case = ON_PLANE + "weight ball 0 0 -1\n"
+    for flags in (["-surface", "facets"], ["-order", "1"]):
+        summary, _ = run(tmp_path, ball, case, "-estimate", "0", *flags)
+        assert summary["contacts"][0]["normalForce"] < 0.95 * 4 / 3 * np.pi
