@@ -259,7 +259,7 @@ def stress_range(bodies: Bodies) -> float:
 
 
 def far_range(bodies: Bodies) -> float:
-    """The same of the whole: what a fiftieth of the bodies' area in the plane, of their surface in space, lies above."""
+    """The same of the whole: what a fiftieth of the bodies' area, in space of their surface, lies above."""
     grid = bodies.grid
     cells = grid.skin if grid.space else grid.cells
     sides = grid.points[cells[:, 1:]] - grid.points[cells[:, :1]]
@@ -350,19 +350,10 @@ def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, u
             axes.plot(*chain.zero, marker="o", markersize=2.5, color=style.BLACK, zorder=6)
     told = style.round_below(greatest)
     begin = box[0] + 0.05 * np.ptp(box, axis=0)
-    axes.plot(*np.stack([begin, begin + [scale * told, 0]], axis=1), color=style.VERMILION, linewidth=2.5, zorder=8)
-    words = (
-        f"${style.number(told)}$ {units.stress}" if units.stress != style.Units.stress else f"${style.number(told)}$"
-    )
-    place = {
-        "textcoords": "offset points",
-        "ha": "left",
-        "va": "bottom",
-        "fontsize": 7,
-        "bbox": style.HALO,
-        "zorder": 8,
-    }
-    axes.annotate(f"pressure {words}", begin, (0, 3.5), color=style.VERMILION, **place)
+    axes.plot(begin[0] + [0, scale * told], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
+    unit = "" if units.stress == style.Units.stress else f" {units.stress}"
+    look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
+    axes.annotate(f"pressure ${style.number(told)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
 
 
 def place_words(bodies: Bodies, place: np.ndarray) -> str:

@@ -135,6 +135,5 @@ def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
 
 
 def write(axes, place: np.ndarray, number: int) -> None:
-    axes.annotate(
-        str(number), place, ha="center", va="center", fontsize=6, color=style.BLACK, bbox=style.HALO, zorder=6
-    )
+    look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
+    axes.annotate(str(number), place, color=style.BLACK, **look)

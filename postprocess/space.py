@@ -61,11 +61,16 @@ def faces_of(bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
     return of[grid.skin[:, 0]], ~pressed & pressed.any()
 
 
+def across_faces(skin: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """The faces' unit normals (s, 3), of either sign."""
+    across = np.cross(place[skin[:, 1]] - place[skin[:, 0]], place[skin[:, 2]] - place[skin[:, 0]])
+    return across / np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+
+
 def edges_of(grid: Grid, place: np.ndarray) -> np.ndarray:
     """The edges (n, 2) of the skin where faces meet at an angle."""
     skin = grid.skin
-    across = np.cross(place[skin[:, 1]] - place[skin[:, 0]], place[skin[:, 2]] - place[skin[:, 0]])
-    across /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+    across = across_faces(skin, place)
     sides = np.sort(np.concatenate([skin[:, [0, 1]], skin[:, [1, 2]], skin[:, [2, 0]]]), axis=1)
     face = np.tile(np.arange(len(skin)), 3)
     order = np.lexsort((sides[:, 1], sides[:, 0]))
@@ -93,10 +98,7 @@ def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
         shown = pressure > 1e-3
         colours[shown] = style.shades(pressure[shown], PRESSED["cmap"])
     if not rendered(axes, bodies, view, colours, opaque):
-        across = np.cross(
-            place[grid.skin[:, 1]] - place[grid.skin[:, 0]], place[grid.skin[:, 2]] - place[grid.skin[:, 0]]
-        )
-        across /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+        across = across_faces(grid.skin, place)
         bright = 0.62 + 0.38 * np.abs((across @ view.T) @ LIGHT)
         rgba = np.column_stack([np.clip(colours * bright[:, None], 0, 1), np.where(opaque, 1.0, THROUGH)])
         seen, lines = place[grid.skin] @ view.T, place[edges_of(grid, place)] @ view.T

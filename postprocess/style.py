@@ -103,7 +103,8 @@ def add_picture(parser, name: str) -> None:
 def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
     """A figure and its panels by letter: rows on a page, a column wide, or a mosaic of 16:9.
 
-    page: the letters side by side in a row, and its height over the width; slide: rows of letters, as matplotlib's mosaics.
+    page: the letters side by side in a row, and its height over the width; slide: rows of letters as of matplotlib's
+    mosaics.
     """
     mosaic = slide.split() if is_slide else [row for row, _ in page]
     across = np.lcm.reduce([len(row) for row in mosaic])
