@@ -78,10 +78,11 @@ def add_units(parser) -> None:
     )
 
 
-def add_picture(parser, name: str) -> None:
+def add_picture(parser, name: str, written: str = "") -> None:
     """The arguments of a command that draws one run into its own folder."""
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
-    parser.add_argument("--out", metavar="FILE.pdf", help=f"where to write (default: RUN/{name}.pdf)")
+    written = written or f"{name}.pdf"
+    parser.add_argument("--out", metavar=written.replace(name, "FILE"), help=f"where to write (default: RUN/{written})")
     parser.add_argument(
         "--scale",
         type=lambda text: None if text == "auto" else float(text),
@@ -96,7 +97,8 @@ def add_picture(parser, name: str) -> None:
         metavar=("AZIMUTH", "ELEVATION"),
         help="in space: where the eye is, degrees from x towards y, and above; default: where it sees the contact",
     )
-    parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
+    if written.endswith(".pdf"):
+        parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
     add_units(parser)
 
 

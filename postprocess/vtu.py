@@ -88,20 +88,35 @@ def read_surface(path: Path) -> Surface:
     return Surface(points, move, corners(path, found, types[0]), contact, pressure, overlap)
 
 
+def read_names(path: Path) -> dict[str, list[str]]:
+    """The texts of a file's FieldData by their arrays' names: units; bodies and groups behind their labels."""
+    root, _ = read_xml(path)
+    found = {}
+    for element in root.iterfind("UnstructuredGrid/FieldData/Array"):
+        letters = bytes(int(letter) for letter in (element.text or "").split())
+        found[element.get("Name")] = [text.decode("utf-8", "replace") for text in letters.split(b"\0")[:-1]]
+    return found
+
+
 def read_arrays(path: Path) -> dict:
     """All arrays of a file, by part and name; the points by their part alone."""
+    root, numbers = read_xml(path)
+    found = {}
+    for part in ("Points", "Cells", "PointData", "CellData"):
+        for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
+            found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
+    return found
+
+
+def read_xml(path: Path) -> tuple[ElementTree.Element, bytes]:
+    """The file's XML, and the numbers behind it."""
     check_file(path, "; run the scene with -vtu 1")
     head, mark, numbers = path.read_bytes().partition(b'<AppendedData encoding="raw">')
     try:
         root = ElementTree.fromstring(head + b"</VTKFile>" if mark else head)
     except (ElementTree.ParseError, UnicodeDecodeError):
         raise ResultsError(path, "is not XML, or is truncated") from None
-    numbers = numbers.lstrip()[1:]
-    found = {}
-    for part in ("Points", "Cells", "PointData", "CellData"):
-        for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
-            found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
-    return found
+    return root, numbers.lstrip()[1:]
 
 
 def wanted(path: Path, found: dict, what: str, *fields: str) -> list[np.ndarray]:

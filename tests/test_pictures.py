@@ -1,7 +1,10 @@
 """`postprocess state`, `stress`, `check`: any run is drawn, in the plane and in space; what cannot be is refused."""
 
 import json
+import re
 import shutil
+import sys
+import types
 
 import numpy as np
 import pytest
@@ -12,6 +15,7 @@ from postprocess import bodies, space, style
 from postprocess.__main__ import main
 from postprocess.commands import check, state, stress
 from postprocess.results import read_run
+from postprocess.vtu import MOVE, read_arrays, read_names
 
 RUNS = {
     "plane": ("disc-on-block", "-h", 2),
@@ -190,3 +194,54 @@ def test_refusals(case, tmp_path, capsys, command):
     assert main(["check", str(tmp_path)]) == 2
     assert "run the case with -check 1" in capsys.readouterr().err
     assert not list(tmp_path.glob("f.*"))
+
+
+class Recorder:
+    """Stands for anything of paraview.simple; keeps what is called."""
+
+    def __init__(self, calls, name):
+        self.__dict__.update(calls=calls, name=name)
+
+    def __getattr__(self, name):
+        return Recorder(self.calls, f"{self.name}.{name}")
+
+    def __setattr__(self, name, value):
+        self.calls.append((f"{self.name}.{name}", value))
+
+    def __call__(self, *given, **named):
+        self.calls.append((self.name, given, named))
+        return Recorder(self.calls, self.name)
+
+
+def opened_in_paraview(folder, monkeypatch, capsys):
+    """Runs the state beside a module that only keeps what is called; the names of labels."""
+    assert main(["paraview", str(folder)]) == 0
+    assert capsys.readouterr().out == f"{folder / 'paraview.py'}\n"
+    calls = []
+    simple = types.ModuleType("paraview.simple")
+    text = (folder / "paraview.py").read_text()
+    used = set(re.findall(r"\b[A-Z][A-Za-z]+(?=\()", text))
+    assert {"WarpByVector", "ColorBy", "Render"} <= used
+    simple.__dict__.update({name: Recorder(calls, name) for name in used})
+    monkeypatch.setitem(sys.modules, "paraview", types.ModuleType("paraview"))
+    monkeypatch.setitem(sys.modules, "paraview.simple", simple)
+    exec(compile(text, "state", "exec"), {})
+    arrays = {name for file in folder.glob("*.vtu") for part, name in read_arrays(file) if part == "PointData"}
+    opened = [call[2]["FileName"][0] for call in calls if call[0] == "XMLUnstructuredGridReader"]
+    assert opened == [str(folder / "solution.vtu"), str(folder / "contact.vtu")]
+    assert {call[1][1][1] for call in calls if call[0] == "ColorBy"} | {MOVE} <= arrays
+    return next((call[1] for call in calls if call[0].endswith(".Annotations")), [])
+
+
+def test_paraview_state(case, monkeypatch, capsys):
+    """The state shall run, open files of the run, colour by arrays that they have, and name what Label counts."""
+    labels = opened_in_paraview(case, monkeypatch, capsys)
+    assert labels[1:6:2] == [body["name"] for body in read_run(case).summary["bodies"]]
+    assert read_names(case / "solution.vtu")["units"] == read_run(case).summary["units"]
+    grid, named = bodies.read_bodies(read_run(case)).grid, {int(label) for label in labels[::2]}
+    assert set(grid.body.tolist()) <= named and set(grid.label.tolist()) - named == {max(named) + 1}
+
+
+def test_paraview_state_of_a_scene(made, monkeypatch, capsys):
+    """So shall that of a scene, whose labels have no names."""
+    assert opened_in_paraview(made, monkeypatch, capsys) == []
