@@ -288,7 +288,8 @@ def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units
     above = colours.norm.vmax < most * (1 - 1e-9)
     words = f", up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
     look = {"extend": "max" if above else "neither", "label": f"{what}{words} [{units.stress}]"}
-    if len(axes) == 1:
+    upright = len(axes) == 1 and np.ptp(axes[0].get_ylim()) > 0.4 * np.ptp(axes[0].get_xlim())
+    if upright:
         axes[0].set_anchor("W")
         look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}
     else:
