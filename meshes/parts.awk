@@ -5,8 +5,8 @@
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
 # Gives: MESH, first order, lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), nodes numbered from 1
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
-#        "regions", how many, then of each the number of its body in the table and of its part: a part is what hangs together, also
-#        several bodies that share nodes; then "named" and, as FieldData of VTK's XML, the units and the names by labels;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
+#        "named" and, as FieldData of VTK's XML, the units and the names by labels; then "regions", how many, then of each the number
+#        of its body in the table and of its part: a part is what hangs together, also several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
 #        order, the place of its middle node, in space of three, each opposite a corner. In the plane the boundary is all of it:
 #        what no group of the table names is numbered one more than the groups, and CURVES has for each element of the boundary
 #        the number of the geometry's curve that it lies on, 0: the file has none; with STRAIGHT no middles where all sides are
@@ -333,9 +333,8 @@ function write(   i, j, k, n, m, w, line, mesh, middles, known) {
     print line " " now[c1[i]] " " now[c2[i]] " " now[c3[i]] (space ? " " now[c4[i]] : "") > mesh
   }
   print "$EndElements" > mesh
-  print "regions " regions > ENVIRON["REGIONS"]
+  print "named " namesForParaview() "\nregions " regions > ENVIRON["REGIONS"]
   for (k = 1; k <= regions; k++) print region[k] > ENVIRON["REGIONS"]
-  print "named " namesForParaview() > ENVIRON["REGIONS"]
   if (space) risesOfElements()
   if (ENVIRON["SURFACE"] != "") risesOfSurface()
   if (space) print risen + 0 > ENVIRON["RISES"]
