@@ -96,8 +96,11 @@ class Bodies:
             strength = np.sort(np.abs(table["pressure"][table["contact"] == contact]))
             order = np.argsort(np.abs(table["pressure"][table["contact"] == contact]))
             force = np.cumsum(strength * table["weight"][table["contact"] == contact][order])
-            bound = contact >= len(told) or told[contact].get("pressureMax") is not None or not force[-1] > 0
-            tops.append(strength[-1] if bound else strength[np.searchsorted(force, 0.98 * force[-1])])
+            most = strength[np.searchsorted(force, 0.98 * force[-1])] if force[-1] > 0 else 0
+            # where the run does not tell, it stands out
+            known = contact < len(told)
+            bound = told[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
+            tops.append(strength[-1] if bound or not most > 0 else most)
         return max(tops) if max(tops) > 0 else self.greatest
 
     @property

@@ -62,6 +62,10 @@ def drawn(path, units: style.Units) -> Figure:
     breaks = np.flatnonzero(np.diff(at) > 1.5 * np.median(np.diff(at))) + 1 if len(at) > 2 else []
 
     def curve(axes, values, error, label, color):
+        # places that were asked have less than their neighbours: no comb of it
+        beside = np.where(np.isfinite(error), error, 0)
+        beside = np.maximum(beside, np.maximum(np.r_[beside[1:], 0], np.r_[0, beside[:-1]]))
+        error = np.where(np.isfinite(error), beside, error)
         for k, part in enumerate(np.split(np.arange(len(at)), breaks)):
             axes.plot(at[part], values[part], color=color, label=label if k == 0 else None)
             known = np.isfinite(error[part])
