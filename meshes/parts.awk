@@ -5,8 +5,8 @@
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
 # Gives: MESH, first order, lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), nodes numbered from 1
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
-#        "regions", how many, then of each the number of its body in the table and of its part: a part is what hangs together, also
-#        several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
+#        "named" and, as FieldData of VTK's XML, the units and the names by labels; then "regions", how many, then of each the number
+#        of its body in the table and of its part: a part is what hangs together, also several bodies that share nodes;  MIDDLES, of a mesh of second order: a line for each element of the boundary in MESH's
 #        order, the place of its middle node, in space of three, each opposite a corner. In the plane the boundary is all of it:
 #        what no group of the table names is numbered one more than the groups, and CURVES has for each element of the boundary
 #        the number of the geometry's curve that it lies on, 0: the file has none; with STRAIGHT no middles where all sides are
@@ -36,10 +36,24 @@ function group(dimension, tag) {
   return (dimension SUBSEP tag) in groupOf ? groupOf[dimension, tag] : 0
 }
 
+# an array of texts as VTK's XML has it: the numbers of their letters; texts end with a tab
+function arrayOfTexts(called, texts,   n, w, k, i, line) {
+  n = split(texts, w, "\t") - 1
+  if (!letter[" "]) for (k = 1; k < 256; k++) letter[sprintf("%c", k)] = k
+  for (k = 1; k <= n; k++) { for (i = 1; i <= length(w[k]); i++) line = line letter[substr(w[k], i, 1)] " "; line = line "0 " }
+  return n < 1 ? "" : "<Array type=\"String\" Name=\"" called "\" NumberOfTuples=\"" n "\" format=\"ascii\">" line "</Array>"
+}
+function namesForParaview(   k, w, inside, outside, units_) {
+  for (k = 1; k <= regions; k++) { split(region[k], w, " "); inside = inside k " " name[w[1]] "\t" }
+  for (k = 1; k <= groups; k++) if (dimOf[k] < dim) outside = outside k " " name[k] "\t"
+  if (units != "") { units_ = units "\t"; sub(/ /, "\t", units_) }
+  return "<FieldData>" arrayOfTexts("units", units_) arrayOfTexts("bodies", inside) arrayOfTexts("groups", outside) "</FieldData>"
+}
+
 BEGIN {
   space = ENVIRON["SPACE"] + 0
   dim = 2 + space
-  while ((getline line < ENVIRON["CASE"]) > 0 && line !~ /^groups /);
+  while ((getline line < ENVIRON["CASE"]) > 0 && line !~ /^groups /) if (line ~ /^units / && line !~ / none$/) units = substr(line, 7)
   groups = substr(line, 8) + 0
   for (k = 1; k <= groups; k++) {
     getline line < ENVIRON["CASE"]
@@ -333,7 +347,7 @@ function write(   i, j, k, n, m, w, line, mesh, middles, known) {
     print line " " now[c1[i]] " " now[c2[i]] " " now[c3[i]] (space ? " " now[c4[i]] : "") > mesh
   }
   print "$EndElements" > mesh
-  print "regions " regions > ENVIRON["REGIONS"]
+  print "named " namesForParaview() "\nregions " regions > ENVIRON["REGIONS"]
   for (k = 1; k <= regions; k++) print region[k] > ENVIRON["REGIONS"]
   if (space) risesOfElements()
   if (ENVIRON["SURFACE"] != "") risesOfSurface()

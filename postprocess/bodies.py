@@ -1,7 +1,7 @@
 """Bodies under their loads, for the commands `state` and `stress`: what the files hold, and how a part of it is drawn.
 
-In the plane bodies are filled triangles, and the pressure stands on the contact's surface as a curve; in space the
-bodies' surface is seen from outside, and the pressure is a map of the contact's surface, seen along its normal.
+In the plane bodies are filled triangles, and the pressure stands on the contact's surface as a curve; what is drawn of
+bodies in space is in space.py.
 """
 
 import argparse
@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from postprocess import style
@@ -34,8 +35,21 @@ class Chain:
     normal: np.ndarray
     pressure: np.ndarray
     overlap: np.ndarray
-    along: np.ndarray  # from the pressure's middle on, or x
+    along: np.ndarray  # from the origin on, or x
     rigid: bool
+    origin: str  # what the arc length begins at: "axis", "middle" of the pressure; "" for x
+
+    @property
+    def joined(self) -> np.ndarray:
+        """Which neighbours (n - 1,) are so near that a line may join them."""
+        steps = np.hypot(*np.diff(self.place, axis=0).T)
+        return steps < 10 * np.median(steps)
+
+    @property
+    def zero(self) -> np.ndarray:
+        """The place where the arc length is 0."""
+        order = np.argsort(self.along)
+        return np.array([np.interp(0, self.along[order], self.place[order, k]) for k in range(2)])
 
 
 @dataclass(frozen=True)
@@ -82,9 +96,17 @@ class Bodies:
             strength = np.sort(np.abs(table["pressure"][table["contact"] == contact]))
             order = np.argsort(np.abs(table["pressure"][table["contact"] == contact]))
             force = np.cumsum(strength * table["weight"][table["contact"] == contact][order])
-            bound = contact >= len(told) or told[contact].get("pressureMax") is not None or not force[-1] > 0
-            tops.append(strength[-1] if bound else strength[np.searchsorted(force, 0.98 * force[-1])])
+            most = strength[np.searchsorted(force, 0.98 * force[-1])] if force[-1] > 0 else 0
+            # where the run does not tell, it stands out
+            known = contact < len(told)
+            bound = told[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
+            tops.append(strength[-1] if bound or not most > 0 else most)
         return max(tops) if max(tops) > 0 else self.greatest
+
+    @property
+    def about_axis(self) -> bool:
+        summary = self.run.summary
+        return "axisymmetric" in (summary.get("state"), summary["parameters"].get("geometry"))
 
     def touching(self, contact: int | None = None) -> np.ndarray:
         """Which points press or pull (p,) bool, of one contact or of all."""
@@ -93,7 +115,7 @@ class Bodies:
         return carries if contact is None else carries & (self.table["contact"] == contact)
 
 
-def read_bodies(run: Run, scale: float = 1.0) -> Bodies:
+def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     """The bodies of a run with its files for ParaView; older runs, whose tables say less, have one contact, upwards."""
     path = run.path / "contact.csv"
     grid, surface = read_grid(run.path / "solution.vtu"), read_surface(run.path / "contact.vtu")
@@ -116,6 +138,9 @@ def read_bodies(run: Run, scale: float = 1.0) -> Bodies:
     ]
     if len(titles) <= last:
         raise ResultsError(path, f"has a contact {last}, but summary.json has {len(titles)}")
+    if scale is None:  # so much that the largest is a twentieth of the bodies
+        largest = np.sqrt((grid.move**2).sum(axis=1).max())
+        scale = style.round_below(max(1.0, 0.05 * np.ptp(grid.points, axis=0).max() / max(largest, 1e-300)))
     return Bodies(run, grid, surface, table, titles, rigid, scale)
 
 
@@ -125,7 +150,7 @@ def write_picture(arguments: argparse.Namespace, name: str, draw: Callable) -> N
     out = Path(arguments.out) if arguments.out else chosen.path / f"{name}.pdf"
     with style.look():
         bodies = read_bodies(chosen, arguments.scale)
-        figure = draw(bodies, units_of(chosen, arguments.units), sight(*arguments.view), arguments.slide)
+        figure = draw(bodies, units_of(chosen, arguments.units), arguments.view, arguments.slide)
         if not arguments.out:
             enter(chosen.path, [f"{name}.pdf", f"{name}.png"])
         for path in write_figure(figure, out):
@@ -140,9 +165,9 @@ def units_of(run: Run, given: tuple[str, str]) -> style.Units:
     return style.Units(*map(style.plain, given))
 
 
-def title(axes, index: int, words: str = "") -> None:
-    """A panel's letter, and what it shows."""
-    axes.set_title(f"{style.panel(index)} {words}", loc="left", fontsize=8)
+def title(axes, index: int, words: str = "", width: int = 56) -> None:
+    """A panel's letter, and what it shows, in lines of so many letters."""
+    axes.set_title(style.folded(f"{style.panel(index)} {words}", width), loc="left", fontsize=8)
 
 
 def motion(bodies: Bodies, units: style.Units) -> str:
@@ -163,6 +188,7 @@ def chains(bodies: Bodies) -> list[Chain]:
         rows = np.flatnonzero((table["contact"] == contact) & (table["chain"] == chain))
         along = (table["along"] if "along" in table else table["x"])[rows].copy()
         loads = (table["weight"] * np.maximum(table["pressure"], 0))[rows]
+        origin = ""
         closed = bodies.run.summary.get("contacts") or [{}]
         length = closed[contact].get("closed", {}).get(str(int(chain)))
         if length and loads.sum() > 0:
@@ -173,25 +199,29 @@ def chains(bodies: Bodies) -> list[Chain]:
             order = np.argsort(along)
             rows, along = rows[order], along[order]
             rows, along = np.append(rows, rows[0]), np.append(along, along[0] + length)
+            origin = "middle"
         elif "along" in table and not np.array_equal(table["along"], table["x"]):
-            along -= loads @ along / loads.sum() if loads.sum() > 0 else along.mean()
+            origin = "axis" if bodies.about_axis else "middle"
+            if origin == "middle":
+                along -= loads @ along / loads.sum() if loads.sum() > 0 else along.mean()
         place, normal = bodies.points[rows, :2], bodies.normals[rows, :2]
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
-        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, bodies.rigid[contact]))
+        found.append(
+            Chain(contact, bodies.names[contact], place, normal, *fields, along, bodies.rigid[contact], origin)
+        )
     return found
 
 
-def tall(bodies: Bodies, box: np.ndarray) -> float:
-    """How high the greatest pressure stands (length) in a box of corners: not higher than the contact is long."""
-    most = bodies.table["contact"][bodies.table["pressure"].argmax()]
-    touched = bodies.points[bodies.touching(most), :2]
-    return min(0.16 * np.ptp(box, axis=0).min(), 0.5 * np.ptp(touched, axis=0).max())
+def contacts_by_force(bodies: Bodies) -> list[int]:
+    """The contacts where something presses or pulls, the strongest first."""
+    loads = np.abs(bodies.table["weight"] * bodies.table["pressure"]) * bodies.touching()
+    forces = np.bincount(bodies.table["contact"], loads, len(bodies.names))
+    return [int(contact) for contact in np.argsort(-forces, kind="stable") if forces[contact] > 0]
 
 
-def plane_window(bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
-    """The corners of a box around all bodies, and of the one that carries the greatest pressure's surroundings."""
+def whole_window(bodies: Bodies) -> np.ndarray:
+    """The corners of a box around all bodies, with room for the pressure's diagram and a rigid obstacle close by."""
     place = bodies.place[:, :2]
-    # with room for the pressure's diagram and for a rigid obstacle close by
     size = np.ptp(place, axis=0).max()
     carried = np.maximum(bodies.table["pressure"], 0) / bodies.greatest
     near = np.where(np.abs(bodies.table["overlap"]) < 0.05 * size, -bodies.table["overlap"], 0)
@@ -201,13 +231,15 @@ def plane_window(bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
     )
     place = np.concatenate([place, tops])
     margin = 0.03 * np.ptp(place, axis=0).max()
-    whole = np.array([place.min(axis=0) - margin, place.max(axis=0) + margin])
-    most = bodies.table["contact"][bodies.table["pressure"].argmax()]
-    touched = bodies.points[bodies.touching(most), :2]
+    return np.array([place.min(axis=0) - margin, place.max(axis=0) + margin])
+
+
+def zone_window(bodies: Bodies, contact: int) -> np.ndarray:
+    """The corners of a box around one contact, four by three."""
+    touched = bodies.points[bodies.touching(contact), :2]
     middle, half = 0.5 * (touched.min(axis=0) + touched.max(axis=0)), 0.5 * np.ptp(touched, axis=0).max()
-    spacing = np.sqrt(2 * plane_areas(bodies).min())
-    half = max(1.6 * half, 6 * spacing)
-    return whole, np.array([middle - half * np.array([1, 0.75]), middle + half * np.array([1, 0.75])])
+    half = max(1.6 * half, 6 * np.sqrt(2 * plane_areas(bodies).min()))
+    return np.array([middle - half * np.array([1, 0.75]), middle + half * np.array([1, 0.75])])
 
 
 def plane_areas(bodies: Bodies) -> np.ndarray:
@@ -217,13 +249,69 @@ def plane_areas(bodies: Bodies) -> np.ndarray:
     return 0.5 * np.abs(ux * vy - uy * vx)
 
 
-def fill_plane(axes, bodies: Bodies, stress: bool):
-    """The bodies, each in its colour or all by von Mises' stress, with their outlines; what a colour bar is for."""
+def stress_range(bodies: Bodies) -> float:
+    """Where the colours of von Mises' stress end near contacts.
+
+    The greatest outside singular places where the run tells it, else what one node in 1000 lies above; all where that
+    is nearly the greatest.
+    """
+    told = [body["vonMises"] for body in bodies.run.summary.get("stresses") or []]
+    most = bodies.grid.stress.max()
+    top = max(told) if told else np.percentile(bodies.grid.stress, 99.9)
+    return top if 0 < top < most / 1.3 else most
+
+
+def far_range(bodies: Bodies) -> float:
+    """The same of the whole: what a fiftieth of the bodies' area, in space of their surface, lies above."""
+    grid = bodies.grid
+    cells = grid.skin if grid.space else grid.cells
+    sides = grid.points[cells[:, 1:]] - grid.points[cells[:, :1]]
+    size = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    stress = grid.stress[cells].mean(axis=1)
+    order = np.argsort(stress)
+    share = np.cumsum(size[order])
+    top = stress[order][np.searchsorted(share, 0.98 * share[-1])]
+    most = stress_range(bodies)
+    return top if 0 < top < most / 1.3 else most
+
+
+def singular_places(bodies: Bodies) -> np.ndarray:
+    """Deformed places (n, 3) where the stress has no bound, as the run says, or of the greatest where it lies above."""
+    said = [body["singular"] for body in bodies.run.summary.get("stresses") or [] if body["singular"]]
+    at = np.array([[*place, 0.0][:3] for place in said]).reshape(-1, 3)
+    rows = [int(np.square(bodies.grid.points - place).sum(axis=1).argmin()) for place in at]
+    if not rows and stress_range(bodies) < bodies.grid.stress.max():
+        rows = [int(bodies.grid.stress.argmax())]
+    return bodies.place[rows]
+
+
+def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units, what: str = "von Mises") -> None:
+    """Beside one panel, below several; its end is an arrow where the greatest lies above, which is said."""
+    most = bodies.grid.stress.max() if what == "von Mises" else bodies.greatest
+    above = colours.norm.vmax < most * (1 - 1e-9)
+    words = f", up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
+    look = {"extend": "max" if above else "neither", "label": f"{what}{words} [{units.stress}]"}
+    upright = len(axes) == 1 and np.ptp(axes[0].get_ylim()) > 0.4 * np.ptp(axes[0].get_xlim())
+    if upright:
+        axes[0].set_anchor("W")
+        look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}
+    else:
+        look |= {"ax": axes, "location": "bottom", "aspect": 40, "pad": 0.02}
+    figure.colorbar(colours, **look)
+
+
+def fill_plane(axes, bodies: Bodies, top: float | None):
+    """The bodies, each in its colour or all by von Mises' stress up to `top`, with their outlines.
+
+    Returns what a colour bar is for.
+    """
     grid, place = bodies.grid, bodies.place
     colours = None
-    if stress:
+    if top is not None:
         mesh = Triangulation(place[:, 0], place[:, 1], grid.cells)
-        colours = axes.tripcolor(mesh, grid.stress, shading="gouraud", cmap="viridis", vmin=0, rasterized=True)
+        look = {"shading": "gouraud", "cmap": "viridis", "vmin": 0, "vmax": top}
+        colours = axes.tripcolor(mesh, grid.stress, rasterized=True, **look)
+        mark_singular(axes, singular_places(bodies)[:, :2])
     else:
         for number, body in enumerate(np.unique(grid.body)):
             cells = place[grid.cells[grid.body == body], :2]
@@ -234,36 +322,69 @@ def fill_plane(axes, bodies: Bodies, stress: bool):
     return colours
 
 
-def stand_pressure(axes, bodies: Bodies, height: float) -> None:
-    """The pressure on the contacts' surfaces: as high as `height` (length) where it is greatest; rigid obstacles."""
-    scale = height / bodies.greatest
+def mark_singular(axes, at: np.ndarray) -> None:
+    look = {"markersize": 6, "markeredgewidth": 0.9, "fillstyle": "none", "linestyle": "none", "zorder": 7}
+    axes.plot(*at.T, marker="o", color=style.VERMILION, **look)
+
+
+def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
+    """The pressure on the surface of one contact, or of all, in a box; its scale; rigid obstacles.
+
+    Where it is greatest it stands not higher than the contact is long.
+    """
+    touched = bodies.touching(contact)
+    greatest = np.abs(bodies.table["pressure"][touched]).max()
+    scale = min(0.16 * np.ptp(box, axis=0).min(), 0.5 * np.ptp(bodies.points[touched, :2], axis=0).max()) / greatest
     for chain in chains(bodies):
-        foot, top = chain.place, chain.place + scale * chain.pressure[:, None] * chain.normal
-        carries = (chain.pressure[:-1] != 0) | (chain.pressure[1:] != 0)
-        near = np.hypot(*np.diff(foot, axis=0).T) < 10 * np.median(np.hypot(*np.diff(foot, axis=0).T))
-        walls = np.stack([foot[:-1], foot[1:], top[1:], top[:-1]], axis=1)[carries & near]
-        axes.add_collection(PolyCollection(walls, facecolor=style.VERMILION, alpha=0.3, linewidth=0, zorder=4))
-        crest = np.stack([top[:-1], top[1:]], axis=1)[carries & near]
-        axes.add_collection(LineCollection(crest, color=style.VERMILION, linewidth=0.9, zorder=5))
         if chain.rigid:
             size = np.ptp(chain.place, axis=0).max()
+            close = np.abs(chain.overlap) < FARTHEST * size
             opposite = chain.place - chain.overlap[:, None] * chain.normal
-            close = (np.abs(chain.overlap) < FARTHEST * size)[:-1] & (np.abs(chain.overlap) < FARTHEST * size)[1:]
-            line = np.stack([opposite[:-1], opposite[1:]], axis=1)[close & near]
+            line = np.stack([opposite[:-1], opposite[1:]], axis=1)[close[:-1] & close[1:] & chain.joined]
             axes.add_collection(LineCollection(line, color=style.GREY, linewidth=1.4, zorder=2.5))
-
-
-def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
-    """The pressure over the arc length, a curve a contact, as far as they touch."""
-    seen, shown, pulls = set(), [], False
-    for chain in chains(bodies):
-        touched = np.abs(chain.pressure) > TOUCHING * bodies.greatest
-        if not touched.any():
+        if contact is not None and chain.contact != contact:
             continue
-        first = chain.contact not in seen
+        foot, top = chain.place, chain.place + scale * chain.pressure[:, None] * chain.normal
+        carries = ((chain.pressure[:-1] != 0) | (chain.pressure[1:] != 0)) & chain.joined
+        walls = np.stack([foot[:-1], foot[1:], top[1:], top[:-1]], axis=1)[carries]
+        axes.add_collection(PolyCollection(walls, facecolor=style.VERMILION, alpha=0.3, linewidth=0, zorder=4))
+        crest = np.stack([top[:-1], top[1:]], axis=1)[carries]
+        axes.add_collection(LineCollection(crest, color=style.VERMILION, linewidth=0.9, zorder=5))
+        if chain.origin == "middle":
+            axes.plot(*chain.zero, marker="o", markersize=2.5, color=style.BLACK, zorder=6)
+    told = style.round_below(greatest)
+    begin = box[0] + 0.05 * np.ptp(box, axis=0)
+    axes.plot(begin[0] + [0, scale * told], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
+    unit = "" if units.stress == style.Units.stress else f" {units.stress}"
+    look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
+    axes.annotate(f"pressure ${style.number(told)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
+
+
+def place_words(bodies: Bodies, place: np.ndarray) -> str:
+    """Coordinates, to a ten-thousandth of the bodies."""
+    digits = 3 - int(np.floor(np.log10(np.ptp(bodies.grid.points, axis=0).max())))
+    return "(" + ",\u00a0".join(f"{round(value, digits) + 0.0:g}" for value in place).replace("-", "\u2212") + ")"
+
+
+def origin_words(bodies: Bodies, contact: int) -> str:
+    """Where a contact's arc length begins, if that is the middle of its pressure."""
+    found = [chain for chain in chains(bodies) if chain.contact == contact and chain.pressure.any()]
+    if len(found) != 1 or found[0].origin != "middle":
+        return ""
+    return f"; arc length from \u2022\u00a0{place_words(bodies, found[0].zero)}"
+
+
+def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
+    """The pressure over the arc length, a curve a contact, as far as they touch; the origin is stated."""
+    seen, shown, pulls, origins = set(), [], False, set()
+    found = [chain for chain in chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
+    for chain in found:
+        touched = np.abs(chain.pressure) > TOUCHING * bodies.greatest
+        label = None if chain.contact in seen else style.plain(style.folded(chain.name, 44))
         seen.add(chain.contact)
+        origins.add(chain.origin)
         look = style.curve(chain.contact) | {"markersize": 2.2, "markeredgewidth": 0, "linewidth": 0.9}
-        axes.plot(chain.along, chain.pressure, label=style.plain(chain.name) if first else None, **look)
+        axes.plot(chain.along, chain.pressure, label=label or None, **look)
         shown += [chain.along[touched].min(), chain.along[touched].max()]
         pulls = pulls or chain.pressure[touched].min() < 0
     margin = 0.15 * (max(shown) - min(shown)) or 1.0
@@ -272,96 +393,12 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
         axes.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
     else:
         axes.set_ylim(0, None)
-    arc = "along" in bodies.table and not np.array_equal(bodies.table["along"], bodies.table["x"])
-    words = "arc length" if arc else "$x$"
-    axes.set_xlabel(f"{words} [{units.length}]")
+    begins = {"axis": " from the axis", "middle": " from the middle of the pressure"}
+    origin = next(iter(origins)) if len(origins) == 1 else "middle"
+    words = f"arc length{begins[origin]} [{units.length}]" if origin else f"$x$ [{units.length}]"
+    axes.set_xlabel(style.folded(words, 30 if narrow else 60))
     axes.set_ylabel(f"pressure [{units.stress}]")
-    if len(seen) > 1 or any(bodies.names):
-        axes.legend()
-
-
-# ---------------------------------------------------------------- space
-
-
-def sight(azimuth: float, elevation: float) -> np.ndarray:
-    """The rows of an orthographic view (3, 3): to the right, up, towards the eye; angles in degrees."""
-    turn, rise = np.radians([azimuth, elevation])
-    eye = np.array([np.cos(rise) * np.cos(turn), np.cos(rise) * np.sin(turn), np.sin(rise)])
-    right = np.array([-np.sin(turn), np.cos(turn), 0])
-    return np.array([right, np.cross(eye, right), eye])
-
-
-def draw_shell(axes, bodies: Bodies, view: np.ndarray, values: np.ndarray | None, top: float):
-    """The bodies' surface from outside, far parts first: each body in its colour, or by a field at the nodes."""
-    grid = bodies.grid
-    seen = bodies.place[grid.skin] @ view.T
-    order = np.argsort(seen[:, :, 2].mean(axis=1))
-    across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
-    across /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
-    bright = 0.62 + 0.38 * np.abs(across @ LIGHT)
-    if values is None:
-        of = dict(zip(np.unique(grid.body).tolist(), range(100), strict=False))
-        body = np.zeros(len(grid.points), int)
-        body[grid.cells] = grid.body[:, None]
-        fills = np.array([[int(fill[i : i + 2], 16) / 255 for i in (1, 3, 5)] for fill in FILLS])
-        colours = fills[[of[each] % len(FILLS) for each in body[grid.skin[:, 0]].tolist()]]
-    else:
-        colours = style.shades(values[grid.skin].mean(axis=1) / top)
-    colours = colours * bright[:, None]
-    faces = PolyCollection(seen[order][:, :, :2], facecolor=colours[order], edgecolor="face", linewidth=0.15)
-    faces.set_rasterized(True)
-    axes.add_collection(faces)
-    axes.autoscale_view()
-    axes.set_aspect("equal")
-    axes.set_axis_off()
-    corner = np.array([0.1, 0.1])
-    for k, name in enumerate("xyz"):
-        tip = corner + 0.09 * view[:2, k]
-        look = {
-            "xycoords": "axes fraction",
-            "textcoords": "axes fraction",
-            "fontsize": 8,
-            "ha": "center",
-            "va": "center",
-        }
-        arrow = {"arrowstyle": "<-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate(f"${name}$", corner, corner + 1.45 * (tip - corner), arrowprops=arrow, **look)
-
-
-def facing(normal: np.ndarray) -> tuple[np.ndarray, list[str]]:
-    """The view along a normal, from outside, and what its axes are called: coordinates where they nearly are such."""
-    normal = normal / np.linalg.norm(normal)
-    if np.abs(normal).max() > 0.995:
-        normal = np.round(normal)
-    first = np.eye(3)[0 if abs(normal[0]) < 0.9 else 1]
-    right = first - (first @ normal) * normal
-    view = np.array([right / np.linalg.norm(right), np.zeros(3), normal])
-    view[1] = np.cross(normal, view[0])
-    words = [next((f"${name}$" for k, name in enumerate("xyz") if row[k] > 1 - 1e-9), "across") for row in view[:2]]
-    return view, words
-
-
-def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units, top: float):
-    """The pressure on one contact's surface, seen along the mean of the normals where it presses."""
-    surface, count = bodies.surface, len(bodies.points)
-    touched = bodies.touching(contact)
-    loads = bodies.table["weight"] * np.abs(bodies.table["pressure"]) * touched
-    view, words = facing(loads @ bodies.normals)
-    cells = surface.cells[surface.contact == contact]
-    seen = (surface.points + bodies.scale * surface.move) @ view.T
-    centre = loads @ seen[:count] / loads.sum()
-    half = 1.25 * np.abs(seen[:count][touched] - centre)[:, :2].max(axis=0).max()
-    mesh = Triangulation(seen[:, 0], seen[:, 1], cells)
-    scale = {"cmap": "viridis", "vmin": 0, "vmax": top}
-    if bodies.table["pressure"][touched].min() < 0:
-        scale = {"cmap": "RdBu_r", "vmin": -top, "vmax": top}
-    colours = axes.tripcolor(mesh, surface.pressure, shading="gouraud", rasterized=True, **scale)
-    axes.set_aspect("equal")
-    for limits, middle, low, high in (
-        (axes.set_xlim, centre[0], seen[cells, 0].min(), seen[cells, 0].max()),
-        (axes.set_ylim, centre[1], seen[cells, 1].min(), seen[cells, 1].max()),
-    ):
-        limits(max(middle - half, low), min(middle + half, high))
-    axes.set_xlabel(f"{words[0]} [{units.length}]")
-    axes.set_ylabel(f"{words[1]} [{units.length}]")
-    return colours
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, -0.6)} if narrow else {"loc": "lower center"}))
+    if narrow:
+        axes.set_box_aspect(0.8)

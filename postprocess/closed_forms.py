@@ -110,3 +110,65 @@ def rough_profile(x: np.ndarray, width: float, modes: float, hurst: float, rms: 
         state = 16807 * state % (2**31 - 1)
         phase.append(2 * np.pi * state / (2**31 - 1))
     return rms * np.sqrt(2 / np.sum(size**2)) * np.cos(2 * np.pi * np.outer(x, n) / width + phase) @ size
+
+
+def shrink_fit(
+    radii: tuple[float, float, float], strain: float, inner: tuple[float, float], outer: tuple[float, float]
+) -> float:
+    """The pressure between two rings of one radius when the outer one has shrunk by a strain; plane stress.
+
+    Lame, as press_fit: the joint of the outer ring would be at r (1 - strain).
+    """
+
+    def softness(young: float, poisson: float, ratio: float, sign: float) -> float:
+        return ((ratio**2 + 1) / abs(ratio**2 - 1) + sign * poisson) / young
+
+    bore, joint, outside = radii
+    return strain / (softness(*outer, outside / joint, 1) + softness(*inner, joint / bore, -1))
+
+
+def ring_stress(r: float, pressure: float, joint: float, outside: float) -> tuple[float, float]:
+    """Radial and hoop stress at r in a ring with a pressure inside; Lame."""
+    scale = pressure * joint**2 / (outside**2 - joint**2)
+    return scale * (1 - (outside / r) ** 2), scale * (1 + (outside / r) ** 2)
+
+
+def snap_hook(arm: tuple[float, float], elastic: tuple[float, float], push: float, latch: float) -> tuple[float, float]:
+    """What pushes a round latch along a hook's ramp of 30 degrees, and the force normal to it, for a unit of width.
+
+    arm: length and thickness; elastic: E, nu of plane stress; the latch's radius, its circle at rest on the ramp's
+    middle, 2.5 beyond the arm and 0.634 below its lower side. The arm is Timoshenko's beam, the nose rigid, the ramp
+    turns with it.
+    """
+    (length, thick), (young, poisson), ramp = arm, elastic, np.pi / 6
+    inertia, shear = thick**3 / 12, young / 2 / (1 + poisson)
+    middle = np.array([length + 2.5, -1.5 + 1.5 * np.tan(ramp)])
+    end = np.array([length, thick / 2])
+    centre = middle + latch * np.array([np.sin(ramp), -np.cos(ramp)]) - [push, 0]
+
+    def gap(force: float) -> tuple[float, float]:
+        turn = 0.0
+        for _ in range(50):
+            normal = np.array([np.sin(ramp + turn), -np.cos(ramp + turn)])
+            axial, across = -force * normal
+            at = centre - latch * normal - end
+            tip = at[0] * across - at[1] * axial  # the moment at the nose
+            turn = (tip * length + across * length**2 / 2) / (young * inertia)
+        rise = (tip * length**2 / 2 + across * length**3 / 3) / (
+            young * inertia
+        ) + 1.2 * across * length / shear / thick
+        moved = np.array([axial * length / young / thick, rise])
+        rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        return float((centre - end - moved - rotation @ (middle - end)) @ normal - latch), float(normal[0])
+
+    low, high = 0.0, young * thick
+    for _ in range(200):
+        force = (low + high) / 2
+        low, high = (force, high) if gap(force)[0] < 0 else (low, force)
+    return force * gap(force)[1], force
+
+
+def joint_diagram(preload: float, load: float, bolt: float, parts: float) -> tuple[float, float]:
+    """What a bolt and the parts that it clamps carry under a load at its head, by their stiffnesses."""
+    share = preload + load * bolt / (bolt + parts)
+    return (share, share - load) if share > load else (load, 0.0)

@@ -8,10 +8,8 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from postprocess import bodies as drawn
-from postprocess import style
+from postprocess import space, style
 from postprocess.results import read_table
-
-HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
 
 
 def draw(path: Path, azimuth: float, elevation: float) -> Figure:
@@ -31,7 +29,7 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
     at, face, body = finer(at, face, body)
     views = ((azimuth, elevation), (azimuth + 180, -elevation))
     for axes, angles, words in zip(figure.subplots(2, 1), views, ("", ": the other side"), strict=True):
-        draw_faces(axes, at, face, body, rim, drawn.sight(*angles))
+        draw_faces(axes, at, face, body, rim, space.sight(*angles))
         axes.set_title(f"Faces{words}", loc="left", fontsize=6.5)
     figure.supxlabel("\n".join(volumes(face, body)), x=0.02, ha="left", fontsize=6)
     return figure
@@ -137,4 +135,5 @@ def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
 
 
 def write(axes, place: np.ndarray, number: int) -> None:
-    axes.annotate(str(number), place, ha="center", va="center", fontsize=6, color=style.BLACK, bbox=HALO, zorder=6)
+    look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
+    axes.annotate(str(number), place, color=style.BLACK, **look)

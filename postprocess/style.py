@@ -1,6 +1,7 @@
 """One look for all figures: fonts, colours, widths, and the words for methods, runs and units."""
 
 import contextlib
+import textwrap
 from dataclasses import dataclass
 from string import ascii_lowercase
 
@@ -28,6 +29,9 @@ BLUE, VERMILION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
 PURPLE, SKY = "#CC79A7", "#56B4E9"
 CURVES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+# behind text that stands on a picture
+HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
 
 RC = {
     "font.family": "STIXGeneral",
@@ -74,30 +78,63 @@ def add_units(parser) -> None:
     )
 
 
-def add_picture(parser, name: str) -> None:
+def add_picture(parser, name: str, written: str = "") -> None:
     """The arguments of a command that draws one run into its own folder."""
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
-    parser.add_argument("--out", metavar="FILE.pdf", help=f"where to write (default: RUN/{name}.pdf)")
-    parser.add_argument("--scale", type=float, default=1.0, metavar="S", help="draw the displacements S times")
+    written = written or f"{name}.pdf"
+    parser.add_argument("--out", metavar=written.replace(name, "FILE"), help=f"where to write (default: RUN/{written})")
+    parser.add_argument(
+        "--scale",
+        type=lambda text: None if text == "auto" else float(text),
+        default=1.0,
+        metavar="S",
+        help="draw the displacements S times; auto: so that the largest can be seen",
+    )
     parser.add_argument(
         "--view",
         nargs=2,
         type=float,
         metavar=("AZIMUTH", "ELEVATION"),
-        default=(-125.0, 22.0),
-        help="in space: where the eye is, degrees from x towards y, and above; default -125 22",
+        help="in space: where the eye is, degrees from x towards y, and above; default: where it sees the contact",
     )
-    parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
+    if written.endswith(".pdf"):
+        parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
     add_units(parser)
 
 
-def panels(sizes: list[float], inches: float, slide: bool, layout: str = "constrained"):
-    """A figure and its panels: one below the other, a column wide and so tall, or side by side, 16:9."""
-    if not slide:
-        figure = Figure(figsize=(COLUMN, inches), layout=layout)
-        return figure, figure.subplots(len(sizes), 1, height_ratios=sizes)
-    figure = Figure(figsize=(PAGE, PAGE * 9 / 16), layout=layout)
-    return figure, figure.subplots(1, len(sizes))
+def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
+    """A figure and its panels by letter: rows on a page, a column wide, or a mosaic of 16:9.
+
+    page: the letters side by side in a row, and its height over the width; slide: rows of letters as of matplotlib's
+    mosaics.
+    """
+    mosaic = slide.split() if is_slide else [row for row, _ in page]
+    across = np.lcm.reduce([len(row) for row in mosaic])
+    cells = [[letter for letter in row for _ in range(across // len(row))] for row in mosaic]
+    if is_slide:
+        figure = Figure(figsize=(PAGE, PAGE * 9 / 16), layout="constrained")
+        return figure, figure.subplot_mosaic(cells)
+    heights = [height for _, height in page]
+    figure = Figure(figsize=(COLUMN, sum(heights) * COLUMN), layout="constrained")
+    return figure, figure.subplot_mosaic(cells, height_ratios=heights)
+
+
+def settled(figure: Figure) -> Figure:
+    """A figure whose bars beside panels of a fixed shape have their room: one round of the layout does not see them."""
+    for _ in range(4):
+        figure.get_layout_engine().execute(figure)
+    return figure
+
+
+def folded(text: str, width: int) -> str:
+    """A title in lines of so many letters at most, none cut."""
+    return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False)) or text
+
+
+def round_below(value: float) -> float:
+    """The greatest of 1, 2, 5, 10, 20 ... up to a number."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * max(step for step in (1, 2, 5) if step <= value / power * (1 + 1e-12)))
 
 
 @contextlib.contextmanager
@@ -247,6 +284,6 @@ def panel(index: int) -> str:
     return f"({ascii_lowercase[index]})"
 
 
-def shades(share: np.ndarray) -> np.ndarray:
-    """(n, 3) colours of viridis for numbers in [0, 1]."""
-    return mpl.colormaps["viridis"](np.clip(share, 0, 1))[:, :3]
+def shades(share: np.ndarray, name: str = "viridis") -> np.ndarray:
+    """(n, 3) colours of a map for numbers in [0, 1]."""
+    return mpl.colormaps[name](np.clip(share, 0, 1))[:, :3]

@@ -19,6 +19,7 @@ NONE = np.empty(0, int)
 class Grid:
     """Bodies: points, move (n, 3) lengths; cells (m, c) and their surface (k, c - 1) from 0; stress (n,) von Mises'.
 
+    pressure (n,): the contacts', on their slaves.
     c = 4 in space, 3 in the plane. body (m,) and label (k,): numbers of the region and of the group on the boundary.
     """
 
@@ -29,6 +30,7 @@ class Grid:
     stress: np.ndarray
     body: np.ndarray = field(default_factory=lambda: NONE)
     label: np.ndarray = field(default_factory=lambda: NONE)
+    pressure: np.ndarray = field(default_factory=lambda: NONE)
 
     @cached_property
     def skin(self) -> np.ndarray:
@@ -62,6 +64,7 @@ def read_grid(path: Path) -> Grid:
     """solution.vtu; ResultsError for a file that is missing, truncated, or no grid of bodies."""
     found = read_arrays(path)
     points, move, stress, types = wanted(path, found, "a run's solution", MOVE, STRESS)
+    pressure = found.get(("PointData", PRESSURE), np.zeros(len(points)))
     solid = 10 if np.any(types == 10) else 5
     shell = 5 if solid == 10 else 3
     if not np.isin(types, (solid, shell)).all() or not np.any(types == solid):
@@ -70,7 +73,7 @@ def read_grid(path: Path) -> Grid:
     label = found.get(("CellData", "Label"), np.zeros(len(types), int))
     if len(label) != len(types):
         raise ResultsError(path, "is truncated: its labels are not as many as its cells")
-    return Grid(points, move, cells, surface, stress, label[types == solid], label[types == shell])
+    return Grid(points, move, cells, surface, stress, label[types == solid], label[types == shell], pressure)
 
 
 def read_surface(path: Path) -> Surface:
@@ -85,20 +88,35 @@ def read_surface(path: Path) -> Surface:
     return Surface(points, move, corners(path, found, types[0]), contact, pressure, overlap)
 
 
+def read_names(path: Path) -> dict[str, list[str]]:
+    """The texts of a file's FieldData by their arrays' names: units; bodies and groups behind their labels."""
+    root, _ = read_xml(path)
+    found = {}
+    for element in root.iterfind("UnstructuredGrid/FieldData/Array"):
+        letters = bytes(int(letter) for letter in (element.text or "").split())
+        found[element.get("Name")] = [text.decode("utf-8", "replace") for text in letters.split(b"\0")[:-1]]
+    return found
+
+
 def read_arrays(path: Path) -> dict:
     """All arrays of a file, by part and name; the points by their part alone."""
+    root, numbers = read_xml(path)
+    found = {}
+    for part in ("Points", "Cells", "PointData", "CellData"):
+        for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
+            found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
+    return found
+
+
+def read_xml(path: Path) -> tuple[ElementTree.Element, bytes]:
+    """The file's XML, and the numbers behind it."""
     check_file(path, "; run the scene with -vtu 1")
     head, mark, numbers = path.read_bytes().partition(b'<AppendedData encoding="raw">')
     try:
         root = ElementTree.fromstring(head + b"</VTKFile>" if mark else head)
     except (ElementTree.ParseError, UnicodeDecodeError):
         raise ResultsError(path, "is not XML, or is truncated") from None
-    numbers = numbers.lstrip()[1:]
-    found = {}
-    for part in ("Points", "Cells", "PointData", "CellData"):
-        for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
-            found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
-    return found
+    return root, numbers.lstrip()[1:]
 
 
 def wanted(path: Path, found: dict, what: str, *fields: str) -> list[np.ndarray]:

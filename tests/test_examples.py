@@ -184,6 +184,79 @@ def check_gears(contact, summary, allowed=1e-3):
     assert -summary["prescribed"][0]["moment"] == pytest.approx(force * 48 * np.cos(angle), rel=allowed)
 
 
+def shrunk(folder, case):
+    """Of the shrink fit mean and greatest pressure, stresses in the ring; Lame's."""
+    along = table(folder / "line-across.csv")
+    pressure = forms.shrink_fit((10, 25, 45), 23e-6 * 120, (210e3, 0.3), (70e3, 0.33))
+    (radial, inside), (_, outside) = (forms.ring_stress(r, pressure, 25, 45) for r in (26, 45))
+    mean = case.first["normalForce"] / case.first["contactLength"]
+    found = [mean, case.first["pressureMax"], along["stressYY"][0], along["stressYY"][-1], along["stressXX"][0]]
+    return found, [pressure, pressure, inside, outside, radial]
+
+
+def pressed_head(folder, case, clearance=0.06):
+    """Of the hip joint greatest pressure and radius; Hertz's."""
+    radius = 14 * (14 + clearance) / clearance
+    a, _, greatest, _ = forms.hertz_ellipse(2500, (radius, radius), forms.contact_modulus(STEEL, STEEL))
+    return [case.first["pressureMax"], case.first["halfWidthMoment"]], [greatest, a]
+
+
+def pushed_hook(folder, case):
+    """Of the snap hook the force along the latch's way and that on the ramp; a beam's."""
+    return [case.summary["force"], case.first["normalForce"]], forms.snap_hook((17, 3), (2600, 0.35), 0.5, 5)
+
+
+def joint(folder, case):
+    """Of the bolted sleeve what bolt and sleeve carry; the joint diagram's."""
+    steps = table(folder / "series.csv")
+    bolt, sleeve = steps["preload cut force"], steps["seat under normal force"]
+    exact = [forms.joint_diagram(20e3, load, 0.25, 0.64 - 0.55**2) for load in steps["force top"]]
+    return [bolt[3], sleeve[3], bolt[5], bolt[7]], [*exact[3], exact[5][0], exact[7][0]]
+
+
+GALLERY = {"shrink-fit": shrunk, "hip-joint": pressed_head, "snap-hook": pushed_hook, "bolted-sleeve": joint}
+
+
+def test_shrink_fit(tmp_path):
+    """A ring that cools shall press like Lame's, its stresses along a line within their errors."""
+    case = example("shrink-fit", tmp_path, "", "-estimate", "1", edges=12)
+    found, exact = shrunk(tmp_path / "run", case)
+    assert found == pytest.approx(exact, rel=0.012) and found[0] == pytest.approx(exact[0], rel=1e-4)
+    along = table(tmp_path / "run/line-across.csv")
+    radial, hoop = np.array([forms.ring_stress(r, exact[0], 25, 45) for r in along["x"]]).T
+    mises = np.sqrt(radial**2 - radial * hoop + hoop**2)
+    assert (np.abs(along["vonMises"] - mises) < along["vonMisesError"]).all()
+    balanced(case)
+
+
+@pytest.mark.parametrize(
+    "clearance, size, least, most",
+    [(0.3, 0.14, 0.01, 0.025), pytest.param(0.06, 0.3, 0.04, 0.06, marks=pytest.mark.long)],
+)
+def test_hip_joint(clearance, size, least, most, tmp_path):
+    """The farther the socket is from the ball, the nearer shall pressure and radius be to Hertz's."""
+    case = example("hip-joint", tmp_path, "stresses|", wall=20, clearance=clearance, size=size)
+    found, exact = pressed_head(tmp_path / "run", case, clearance)
+    assert least < found[0] / exact[0] - 1 < most and found[1] == pytest.approx(exact[1], rel=most)
+
+
+def test_snap_hook(tmp_path):
+    """A hook shall need the force of a beam whose end turns; the ± of linear gaps is not asked for."""
+    case = example("snap-hook", tmp_path, "ramp 0.01|ramp 0.03", "-distance", "exact", size=0.5)
+    found, exact = pushed_hook(tmp_path, case)
+    assert found == pytest.approx(exact, rel=0.03)
+    assert found[0] / found[1] > np.sin(np.pi / 6)  # steeper than at rest
+    balanced(case)
+
+
+def test_bolted_sleeve(tmp_path):
+    """Bolt and sleeve shall share the load as the joint diagram has it, and part where it says."""
+    case = example("bolted-sleeve", tmp_path, "", "-history", "1", "-steps", "8", size=1.2)
+    found, exact = joint(tmp_path / "run", case)
+    assert found == pytest.approx(exact, rel=0.02) and found[3] == pytest.approx(40e3, rel=1e-9)
+    assert case.first["contactPoints"] == 0 and "nothing presses" in case.stdout
+
+
 # ---------------------------------------------------------------- the pages
 
 
@@ -211,7 +284,8 @@ def test_page_numbers(name, tmp_path):
     """The page's first command shall give the page's numbers."""
     page = (FOLDER / name / "README.md").read_text()
     command = shlex.split(fences(page, "sh")[0].splitlines()[0])
-    case = solve(tmp_path, command[command.index("-mesh") + 1], command[-1], name in SPACE)
+    flags = command[command.index("-v") + 3 : command.index("-mesh")]
+    case = solve(tmp_path, command[command.index("-mesh") + 1], command[-1], name in SPACE, *flags)
     written = {row[0]: row[1] for row in rows(section(page, "Numbers")) if len(row) == 5}
     for count in re.findall(r"linearisations?, (\d+) back-substitutions\.", page):  # another gmsh makes another mesh
         assert case.summary["backsolves"] == pytest.approx(int(count), abs=1)
@@ -249,6 +323,11 @@ def test_page_numbers(name, tmp_path):
         assert agrees(contacts[0]["pressureMax"], written["greatest pressure"])
         assert agrees(contacts[0]["halfWidthMoment"], written["half-width"])
         assert agrees(-case.summary["prescribed"][0]["moment"], written["moment about the driver's centre"])
+    if name in GALLERY:
+        measured, exact = GALLERY[name](tmp_path / "run", case)
+        lines = rows(section(page, "Numbers"))[: len(measured)]
+        for row, value, reference in zip(lines, measured, exact, strict=True):
+            assert agrees(value, row[1]) and agrees(reference, row[2]), row[0]
     if name == "wheel-on-rail":
         found = [*contacts[0]["semiAxes"], contacts[0]["pressureMax"]]
         measured = [(number(row[1]), number(row[2])) for row in rows(section(page, "Numbers"))]

@@ -1,16 +1,21 @@
 """`postprocess state`, `stress`, `check`: any run is drawn, in the plane and in space; what cannot be is refused."""
 
+import json
+import re
 import shutil
+import sys
+import types
 
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, run_in, script
 from text_boxes import faults
 
-from postprocess import bodies, style
+from postprocess import bodies, space, style
 from postprocess.__main__ import main
 from postprocess.commands import check, state, stress
 from postprocess.results import read_run
+from postprocess.vtu import MOVE, read_arrays, read_names
 
 RUNS = {
     "plane": ("disc-on-block", "-h", 2),
@@ -19,7 +24,6 @@ RUNS = {
     "several contacts": ("wavy", "-kappa", 1e6, "-h", 1),
     "space": ("two-spheres", "-h", 0.6, "-layers", 1),
 }
-VIEW = bodies.sight(-125, 22)
 
 
 @pytest.fixture(
@@ -50,9 +54,11 @@ def case(tmp_path_factory):
     return folder / "run"
 
 
-def figure(command, folder, scale=1.0):
+def figure(command, folder, scale=1.0, slide=False):
     with style.look():
-        drawn = command.draw(bodies.read_bodies(read_run(folder), scale), style.Units(), VIEW)
+        run = read_run(folder)
+        units = bodies.units_of(run, (style.Units.length, style.Units.stress))
+        drawn = command.draw(bodies.read_bodies(run, scale), units, None, slide)
         drawn.canvas.draw()
     return drawn
 
@@ -68,13 +74,53 @@ def test_written(case, command, capsys):
 
 
 def test_any_run(made):
-    """A run of any scene shall be drawn: each figure one column wide, with nothing beside it."""
+    """A run of any scene shall be drawn: one column wide, or a slide of 16:9, with no text cut or on another one."""
     for command in (state, stress):
-        drawn = figure(command, made)
+        for slide, width in ((False, style.COLUMN), (True, style.PAGE)):
+            drawn = figure(command, made, slide=slide)
+            assert faults(drawn) == []
+            assert drawn.get_figwidth() == width
+            assert not slide or drawn.get_figheight() == pytest.approx(width * 9 / 16)
+            box = drawn.get_tightbbox()
+            assert box.x0 > -0.02 and box.x1 < width + 0.02
+
+
+def test_every_contact_from_near(case):
+    """Each contact of the roller shall have a panel with the scale of its pressure and where the arc length begins."""
+    for slide in (False, True):
+        drawn = figure(stress, case, slide=slide)
         assert faults(drawn) == []
-        assert drawn.get_figwidth() == style.COLUMN
-        box = drawn.get_tightbbox()
-        assert box.x0 > -0.02 and box.x1 < style.COLUMN + 0.02
+        panels = sorted(drawn.axes, key=lambda axes: axes.get_title(loc="left"))
+        titles = [axes.get_title(loc="left").replace("\n", " ") for axes in panels]
+        names = [contact["name"] for contact in read_run(case).summary["contacts"]]
+        assert all(any(name in title and "arc length from" in title for title in titles[:2]) for name in names)
+        for axes in panels[:2]:
+            assert any("pressure" in text.get_text() and "MPa" in text.get_text() for text in axes.texts)
+            (bar,) = axes.child_axes
+            assert bar.get_ylabel() == "von Mises [MPa]"
+        assert "true scale" in titles[2] and "from the middle" in panels[3].get_xlabel().replace("\n", " ")
+
+
+def test_singular_places_are_marked(case, tmp_path):
+    """Colours near contacts shall end at the greatest stress with a bound, and circles mark where there is none."""
+    folder = tmp_path / "run"
+    shutil.copytree(case, folder)
+    told = json.loads((folder / "summary.json").read_text())
+    told["stresses"] = [{"body": "roller", "vonMises": 100.0, "at": [0, 0], "singular": [0.0, 10.0]}]
+    (folder / "summary.json").write_text(json.dumps(told))
+    drawn = bodies.read_bodies(read_run(folder))
+    assert bodies.stress_range(drawn) == 100
+    np.testing.assert_allclose(bodies.singular_places(drawn)[:, :2], [[0, 10]], atol=0.2)
+    (bar,) = figure(stress, folder).axes[0].child_axes
+    assert "up to" in bar.get_ylabel()
+    assert bodies.read_bodies(read_run(case), None).scale in (10, 20, 50)
+
+
+def test_eye_sees_the_contact():
+    """Without --view the eye shall be where a contact's surface can be seen, from above, below or aside."""
+    for normal in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (1, 1, 0.3)):
+        eye = space.sight(*space.onto(np.array(normal, float)))[2]
+        assert eye @ normal > 0.3 * np.linalg.norm(normal)
 
 
 def test_pressure_of_a_case(case):
@@ -118,7 +164,7 @@ def test_check(case, capsys):
     assert main(["check", str(case)]) == 0
     assert (case / "check/check.pdf").exists()
     with style.look():
-        drawn = check.draw(case / "check", VIEW)
+        drawn = check.draw(case / "check", space.sight(*space.VIEW))
     words = [text.get_text() for text in drawn.legends[0].get_texts()]
     assert "base: clamp" in words and "grip: force" in words and "roller-top: slave of upper-face" in words
 
@@ -148,3 +194,54 @@ def test_refusals(case, tmp_path, capsys, command):
     assert main(["check", str(tmp_path)]) == 2
     assert "run the case with -check 1" in capsys.readouterr().err
     assert not list(tmp_path.glob("f.*"))
+
+
+class Recorder:
+    """Stands for anything of paraview.simple; keeps what is called."""
+
+    def __init__(self, calls, name):
+        self.__dict__.update(calls=calls, name=name)
+
+    def __getattr__(self, name):
+        return Recorder(self.calls, f"{self.name}.{name}")
+
+    def __setattr__(self, name, value):
+        self.calls.append((f"{self.name}.{name}", value))
+
+    def __call__(self, *given, **named):
+        self.calls.append((self.name, given, named))
+        return Recorder(self.calls, self.name)
+
+
+def opened_in_paraview(folder, monkeypatch, capsys):
+    """Runs the state beside a module that only keeps what is called; the names of labels."""
+    assert main(["paraview", str(folder)]) == 0
+    assert capsys.readouterr().out == f"{folder / 'paraview.py'}\n"
+    calls = []
+    simple = types.ModuleType("paraview.simple")
+    text = (folder / "paraview.py").read_text()
+    used = set(re.findall(r"\b[A-Z][A-Za-z]+(?=\()", text))
+    assert {"WarpByVector", "ColorBy", "Render"} <= used
+    simple.__dict__.update({name: Recorder(calls, name) for name in used})
+    monkeypatch.setitem(sys.modules, "paraview", types.ModuleType("paraview"))
+    monkeypatch.setitem(sys.modules, "paraview.simple", simple)
+    exec(compile(text, "state", "exec"), {})
+    arrays = {name for file in folder.glob("*.vtu") for part, name in read_arrays(file) if part == "PointData"}
+    opened = [call[2]["FileName"][0] for call in calls if call[0] == "XMLUnstructuredGridReader"]
+    assert opened == [str(folder / "solution.vtu"), str(folder / "contact.vtu")]
+    assert {call[1][1][1] for call in calls if call[0] == "ColorBy"} | {MOVE} <= arrays
+    return next((call[1] for call in calls if call[0].endswith(".Annotations")), [])
+
+
+def test_paraview_state(case, monkeypatch, capsys):
+    """The state shall run, open files of the run, colour by arrays that they have, and name what Label counts."""
+    labels = opened_in_paraview(case, monkeypatch, capsys)
+    assert labels[1:6:2] == [body["name"] for body in read_run(case).summary["bodies"]]
+    assert read_names(case / "solution.vtu")["units"] == read_run(case).summary["units"]
+    grid, named = bodies.read_bodies(read_run(case)).grid, {int(label) for label in labels[::2]}
+    assert set(grid.body.tolist()) <= named and set(grid.label.tolist()) - named == {max(named) + 1}
+
+
+def test_paraview_state_of_a_scene(made, monkeypatch, capsys):
+    """So shall that of a scene, whose labels have no names."""
+    assert opened_in_paraview(made, monkeypatch, capsys) == []

@@ -21,6 +21,7 @@ from postprocess import bodies as drawn
 from postprocess import faces, style
 from postprocess.output import enter, write_figures
 from postprocess.results import ResultsError, brief, check_file, read_table
+from postprocess.space import VIEW, sight
 from postprocess.vtu import CORNERS, corners, read_arrays
 
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8C510A", "#35978F")
@@ -39,10 +40,10 @@ def run(arguments: argparse.Namespace) -> None:
     with style.look():
         figures = {}
         if (folder / "check.json").exists() or not numbered.exists():
-            figures[out] = draw(folder, drawn.sight(*arguments.view))
+            figures[out] = draw(folder, sight(*(arguments.view or VIEW)))
         if numbered.exists():
             beside = out.with_name(f"{out.stem}-faces.pdf") if arguments.out else folder / "faces.pdf"
-            figures[beside] = faces.draw(numbered, *arguments.view)
+            figures[beside] = faces.draw(numbered, *(arguments.view or VIEW))
         if not arguments.out:
             enter(folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")])
         for path in write_figures(figures):

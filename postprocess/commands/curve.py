@@ -11,6 +11,7 @@ import csv
 from matplotlib.figure import Figure
 
 from postprocess import style
+from postprocess.bodies import units_of
 from postprocess.output import enter, write_figure
 from postprocess.results import ResultsError, Run, read_run, read_table
 
@@ -28,7 +29,9 @@ def run(arguments: argparse.Namespace) -> None:
     """Reads the run, draws its series and prints the paths."""
     chosen = read_run(arguments.folder)
     with style.look():
-        paths = write_figure(drawn(chosen, arguments.units[0]), arguments.out or chosen.path / "curve.pdf")
+        paths = write_figure(
+            drawn(chosen, units_of(chosen, arguments.units).length), arguments.out or chosen.path / "curve.pdf"
+        )
     if not arguments.out:
         enter(chosen.path, [path.name for path in paths])
     for path in paths:
@@ -60,7 +63,7 @@ def drawn(chosen: Run, length: str) -> Figure:
     for index, name in enumerate(carried):
         share = table["fraction"]
         right.plot(share, table[name], label=style.plain(name), **style.curve(index + len(pushed)))
-    left.set_xlabel(f"displacement along the load [{style.plain(length)}]")
+    left.set_xlabel(f"displacement along the load [{length}]")
     left.set_ylabel("load, or what the motion needs")
     right.set_xlabel("share of the load")
     right.set_ylabel("force carried")

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
+from postprocess.bodies import units_of
 from postprocess.output import enter, write_figure
 from postprocess.results import ResultsError, Run, read_run, read_table
 
@@ -30,7 +31,7 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     path = table_of(chosen, arguments.name)
     with style.look():
-        paths = write_figure(drawn(path, style.Units(*arguments.units)), arguments.out or path.with_suffix(".pdf"))
+        paths = write_figure(drawn(path, units_of(chosen, arguments.units)), arguments.out or path.with_suffix(".pdf"))
     if not arguments.out:
         enter(chosen.path, [written.name for written in paths])
     for written in paths:
@@ -61,6 +62,10 @@ def drawn(path, units: style.Units) -> Figure:
     breaks = np.flatnonzero(np.diff(at) > 1.5 * np.median(np.diff(at))) + 1 if len(at) > 2 else []
 
     def curve(axes, values, error, label, color):
+        # places that were asked have less than their neighbours: no comb of it
+        beside = np.where(np.isfinite(error), error, 0)
+        beside = np.maximum(beside, np.maximum(np.r_[beside[1:], 0], np.r_[0, beside[:-1]]))
+        error = np.where(np.isfinite(error), beside, error)
         for k, part in enumerate(np.split(np.arange(len(at)), breaks)):
             axes.plot(at[part], values[part], color=color, label=label if k == 0 else None)
             known = np.isfinite(error[part])
@@ -76,9 +81,9 @@ def drawn(path, units: style.Units) -> Figure:
     for name, color in zip(("ux", "uy", "uz"), (style.BLUE, style.VERMILION, style.GREEN), strict=True):
         if name in table:
             curve(right, table[name], table["displacementError"], f"along {name[1]}", color)
-    left.set_ylabel(f"stress [{style.plain(units.stress)}]")
-    right.set_ylabel(f"displacement [{style.plain(units.length)}]")
+    left.set_ylabel(f"stress [{units.stress}]")
+    right.set_ylabel(f"displacement [{units.length}]")
     for axes in (left, right):
-        axes.set_xlabel(f"distance along the line [{style.plain(units.length)}]")
+        axes.set_xlabel(f"distance along the line [{units.length}]")
         axes.legend()
     return figure

@@ -1,8 +1,9 @@
 """draw a run's bodies under their load, with the pressure along the contact
 
 RUN is a result folder of any run made with -vtu 1, the default. Written are RUN/state.pdf and RUN/state.png, or what
---out names. In the plane: the bodies, the surroundings of the greatest pressure, and the pressure over the arc length;
-in space: the bodies from outside, and for each contact the pressure on its surface, seen along its normal.
+--out names. In the plane: each contact from near, the bodies, and the pressure over the arc length; in space: for each
+contact the pressure on its surface, seen along its normal, and the bodies from outside. Of many contacts those that
+carry most are drawn from near.
 """
 
 import argparse
@@ -12,9 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from postprocess import bodies as drawn
-from postprocess import style
+from postprocess import space, style
 from postprocess.bodies import Bodies, write_picture
 from postprocess.results import ResultsError
+
+MOST = 6  # contacts that are drawn from near
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,57 +29,99 @@ def run(arguments: argparse.Namespace) -> None:
     write_picture(arguments, "state", draw)
 
 
-def draw(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool = False) -> Figure:
+def draw(bodies: Bodies, units: style.Units, view: tuple | None = None, slide: bool = False) -> Figure:
     """The figure, one column of a page wide, or a slide."""
     return in_space(bodies, units, view, slide) if bodies.grid.space else in_plane(bodies, units, slide=slide)
 
 
+def beside(letters: str, rest: str, columns: bool = False) -> str:
+    """A slide: the first letters in one column or two, those of `rest` below each other beside them, or in columns."""
+    count = 1 if len(letters) < 3 else 2
+    rows = [letters[k : k + count] for k in range(0, len(letters), count)] or [""]
+    rows[-1] += rows[-1][-1:] * (count - len(rows[-1]))
+    if columns:
+        return " ".join(row + rest for row in rows)
+    height = int(np.lcm(len(rows), len(rest)))
+    left = [row for row in rows for _ in range(height // len(rows))]
+    right = [letter for letter in rest for _ in range(height // len(rest))]
+    return " ".join(a + count * b for a, b in zip(left, right, strict=True))
+
+
+def carrying(bodies: Bodies, amount: int = MOST) -> tuple[list[int], str]:
+    """The contacts that are drawn from near, the strongest first, and what is said where there are more."""
+    found = drawn.contacts_by_force(bodies)
+    if not found:
+        raise ResultsError(bodies.run.path / "contact.csv", "no point is in contact")
+    return found[:amount], f"; from near {amount} of {len(found)} contacts" if len(found) > amount else ""
+
+
 def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bool = False) -> Figure:
-    """(a) the bodies, (b) what is about the greatest pressure if that is small, (c) the pressure over the arc length.
+    """Each contact that is small from near, the bodies, the pressure over the arc length.
 
     With `stress` the bodies are coloured by von Mises' stress.
     """
-    whole, close = drawn.plane_window(bodies)
-    zoom = np.ptp(close[:, 0]) < 0.5 * np.ptp(whole[:, 0])
-    windows = [whole, close] if zoom else [whole]
-    # the boxes' own shape beside labels and colour bar
-    wide = 0.68 if stress else 0.84
-    tall = [min(1.0, max(0.25, np.ptp(box[:, 1]) / np.ptp(box[:, 0]))) * wide for box in windows] + [0.42]
-    inches = style.COLUMN * (sum(tall) + 0.18 * len(tall))
-    figure, panels = style.panels(tall, inches, slide)
-    for axes, box in zip(panels, windows, strict=False):
-        colours = drawn.fill_plane(axes, bodies, stress)
-        drawn.stand_pressure(axes, bodies, drawn.tall(bodies, box))
+    contacts, more = carrying(bodies)
+    whole = drawn.whole_window(bodies)
+    zones = [(contact, drawn.zone_window(bodies, contact)) for contact in contacts]
+    zones = [(contact, box) for contact, box in zones if np.ptp(box[:, 0]) < 0.5 * np.ptp(whole[:, 0])]
+    letters = "abcdefghi"[: len(zones) + 2]
+    near, body, curve = letters[:-2], letters[-2], letters[-1]
+    wide = 0.62 if stress or len(near) == 2 else 0.84
+    shape = min(1.2, max(0.25, np.ptp(whole[:, 1]) / np.ptp(whole[:, 0])))
+    each = 1 if len(near) < 3 else 2
+    rows = [(near[k : k + each], 0.75 * wide / each + 0.2) for k in range(0, len(near), each)]
+    page = [*rows, (body, shape * wide + 0.2), (curve, 0.6)]
+    tall = shape > 0.6
+    figure, panels = style.sheet(page, beside(near, body + curve, tall or not near), slide)
+    width = (28 if tall or each == 2 else 44) if slide else 56 // each - 2
+    boxes = [*zones, (None, whole)]
+    for index, (letter, (contact, box)) in enumerate(zip(near + body, boxes, strict=True)):
+        axes = panels[letter]
+        top = None if not stress else (drawn.far_range if contact is None else drawn.stress_range)(bodies)
+        colours = drawn.fill_plane(axes, bodies, top)
+        if contact is not None or not zones:
+            drawn.stand_pressure(axes, bodies, box, contact, units)
         axes.set_xlim(*box[:, 0])
         axes.set_ylim(*box[:, 1])
         axes.set_aspect("equal")
+        axes.locator_params(nbins=5 if contact is None else 4)
         axes.set_xlabel(f"$x$ [{units.length}]")
         axes.set_ylabel(f"$y$ [{units.length}]")
-        if colours is not None:
-            bar = {"location": "bottom", "pad": 0.02} if slide else {"pad": 0.01, "shrink": 0.95}
-            figure.colorbar(colours, ax=axes, label=f"von Mises [{units.stress}]", aspect=18, **bar)
-    if zoom:
-        size = np.ptp(close, axis=0)
-        panels[0].add_patch(Rectangle(close[0], *size, fill=False, linewidth=0.6, zorder=6))
-    drawn.plot_pressure(panels[-1], bodies, units)
-    for index, axes in enumerate(panels):
-        drawn.title(axes, index, drawn.motion(bodies, units) if index == 0 and not slide else "")
-    if slide:
-        figure.suptitle(drawn.motion(bodies, units), x=0.02, ha="left", fontsize=8)
-    return figure
+        if stress and (contact is None or each == 1):
+            drawn.colour_bar(figure, colours, [axes], bodies, units)
+        words = drawn.motion(bodies, units) + more
+        if contact is not None:
+            words = (style.plain(bodies.names[contact]) or "contact") + drawn.origin_words(bodies, contact)
+        axes.set_anchor("W")
+        drawn.title(axes, index, words, width if contact is not None or slide else 54)
+    if stress and each == 2:
+        drawn.colour_bar(figure, panels[near[0]].collections[0], [panels[letter] for letter in near], bodies, units)
+    for letter, (_, box) in zip(near, zones, strict=True):
+        size = np.ptp(box, axis=0)
+        panels[body].add_patch(Rectangle(box[0], *size, fill=False, linewidth=0.6, zorder=6))
+        look = {"textcoords": "offset points", "fontsize": 7, "zorder": 7, "bbox": style.HALO}
+        panels[body].annotate(f"({letter})", box[1], (3, 3), **look)
+    drawn.plot_pressure(panels[curve], bodies, units, slide and tall)
+    drawn.title(panels[curve], len(boxes))
+    return style.settled(figure)
 
 
-def in_space(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool = False) -> Figure:
-    """(a) the bodies from outside, then the pressure on each contact's surface."""
-    pressed = [contact for contact in range(len(bodies.names)) if bodies.touching(contact).any()]
-    if not pressed:
-        raise ResultsError(bodies.run.path / "contact.csv", "no point is in contact")
-    rows = [0.8] + [0.8] * len(pressed)
-    figure, panels = style.panels(rows, sum(rows) * style.COLUMN, slide, "compressed")
-    drawn.draw_shell(panels[0], bodies, view, None, 1.0)
-    figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
-    for index, (contact, axes) in enumerate(zip(pressed, panels[1:], strict=True), start=1):
-        colours = drawn.map_pressure(axes, bodies, contact, units, bodies.coloured)
-        figure.colorbar(colours, ax=axes, label=f"pressure [{units.stress}]")
-        drawn.title(axes, index, style.plain(bodies.names[contact]))
-    return figure
+def eye(bodies: Bodies, contact: int, view: tuple | None) -> np.ndarray:
+    return space.sight(*(view or space.onto(space.pressing(bodies, contact)[1])))
+
+
+def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
+    """The pressure on each contact's surface, then the bodies with these pressures from outside."""
+    contacts, more = carrying(bodies)
+    letters = "abcdefghi"[: len(contacts) + 1]
+    maps, body = letters[:-1], letters[-1]
+    each = 1 if len(maps) == 1 else 2
+    rows = [(maps[k : k + each], 0.84 / each + 0.1) for k in range(0, len(maps), each)]
+    figure, panels = style.sheet([*rows, (body, 0.9)], beside(maps, body), slide)
+    for index, (letter, contact) in enumerate(zip(maps, contacts, strict=True)):
+        colours = space.map_pressure(panels[letter], bodies, contact, units)
+        drawn.title(panels[letter], index, style.plain(bodies.names[contact]), 56 if each == 1 and not slide else 28)
+    space.draw_parts(panels[body], bodies, eye(bodies, contacts[0], view), False)
+    drawn.title(panels[body], len(maps), drawn.motion(bodies, units) + more, 44 if slide else 56)
+    drawn.colour_bar(figure, colours, [panels[letter] for letter in maps], bodies, units, "pressure")
+    return style.settled(figure)

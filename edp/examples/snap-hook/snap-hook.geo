@@ -1,0 +1,27 @@
+// snap-hook.geo: a snap hook, clamped at the left; its nose has a ramp of 30 degrees; lengths in mm
+DefineConstant[ reach = {17, Name "length of the arm, up to the nose"} ];
+DefineConstant[ thick = {3, Name "thickness of the arm"} ];
+DefineConstant[ size = {0.25, Name "elements"} ];
+Point(1) = {0, 0, 0};
+Point(2) = {reach - 0.4, 0, 0};
+Point(3) = {reach, -0.4, 0};
+Point(4) = {reach, -1.5, 0};
+Point(5) = {reach + 1, -1.5, 0};
+Point(6) = {reach + 4, -1.5 + 3 * Tan(Pi / 6), 0};
+Point(7) = {reach + 4, thick, 0};
+Point(8) = {0, thick, 0};
+Point(9) = {reach - 0.4, -0.4, 0};
+Line(1) = {1, 2};
+Circle(2) = {2, 9, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Line(7) = {7, 8};
+Line(8) = {8, 1};
+Curve Loop(1) = {1 : 8};
+Plane Surface(1) = {1};
+Mesh.MeshSizeMax = size;
+Physical Curve("ramp") = {5};
+Physical Curve("root") = {8};
+Physical Surface("hook") = {1};

@@ -1,0 +1,278 @@
+"""Bodies in space for the commands `state` and `stress`: seen from outside, cut open, a contact's surface as a map.
+
+With PyVista, where it is installed, the view from outside is rendered; without it faces are drawn from far to near.
+"""
+
+import contextlib
+import os
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import Normalize
+from matplotlib.tri import Triangulation
+
+from postprocess import style
+from postprocess.bodies import FILLS, LIGHT, Bodies, far_range, place_words, stress_range
+from postprocess.results import ResultsError
+from postprocess.vtu import Grid, cut
+
+VIEW = (-125.0, 22.0)
+EDGE = np.cos(np.radians(30))  # faces that meet at more than that have an edge
+THROUGH = 0.16  # how opaque a body is that hides a contact
+PRESSED = {"cmap": "YlOrRd", "vmin": 0}
+PIXELS = 1400
+
+
+def sight(azimuth: float, elevation: float) -> np.ndarray:
+    """The rows of an orthographic view (3, 3): to the right, up, towards the eye; angles in degrees."""
+    turn, rise = np.radians([azimuth, elevation])
+    eye = np.array([np.cos(rise) * np.cos(turn), np.cos(rise) * np.sin(turn), np.sin(rise)])
+    right = np.array([-np.sin(turn), np.cos(turn), 0])
+    return np.array([right, np.cross(eye, right), eye])
+
+
+def onto(normal: np.ndarray) -> tuple[float, float]:
+    """Azimuth and elevation of an eye that sees a surface with this normal, from aside."""
+    normal = normal / np.linalg.norm(normal)
+    if abs(normal[2]) > 0.7:
+        return VIEW[0], 35.0 * np.sign(normal[2])
+    return float(np.degrees(np.arctan2(normal[1], normal[0]))) + 35, VIEW[1]
+
+
+def pressing(bodies: Bodies, contact: int) -> tuple[np.ndarray, np.ndarray]:
+    """The points' forces in one contact (p,), without signs, and their mean normal."""
+    loads = bodies.table["weight"] * np.abs(bodies.table["pressure"]) * bodies.touching(contact)
+    return loads, loads @ bodies.normals
+
+
+# ---------------------------------------------------------------- from outside
+
+
+def faces_of(bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
+    """Of each face of the skin the number of its body, and which bodies only hide contacts: no pressure is on them."""
+    grid = bodies.grid
+    numbers, number = np.unique(grid.body, return_inverse=True)
+    of = np.zeros(len(grid.points), int)
+    of[grid.cells] = number[:, None]
+    pressed = np.zeros(len(numbers), bool)
+    pressed[of[np.abs(grid.pressure) > 0]] = True
+    return of[grid.skin[:, 0]], ~pressed & pressed.any()
+
+
+def across_faces(skin: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """The faces' unit normals (s, 3), of either sign."""
+    across = np.cross(place[skin[:, 1]] - place[skin[:, 0]], place[skin[:, 2]] - place[skin[:, 0]])
+    return across / np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+
+
+def edges_of(grid: Grid, place: np.ndarray) -> np.ndarray:
+    """The edges (n, 2) of the skin where faces meet at an angle."""
+    skin = grid.skin
+    across = across_faces(skin, place)
+    sides = np.sort(np.concatenate([skin[:, [0, 1]], skin[:, [1, 2]], skin[:, [2, 0]]]), axis=1)
+    face = np.tile(np.arange(len(skin)), 3)
+    order = np.lexsort((sides[:, 1], sides[:, 0]))
+    sides, face = sides[order], face[order]
+    twins = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
+    bent = np.abs(np.einsum("ij,ij->i", across[face[twins]], across[face[twins + 1]])) < EDGE
+    return sides[twins[bent]]
+
+
+def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
+    """The deformed bodies from outside with their edges, and the pressures on them, or coloured by von Mises' stress.
+
+    What only lies on a contact is seen through, unless stresses are drawn. Returns what a colour bar is for.
+    """
+    grid, place = bodies.grid, bodies.place
+    body, hides = faces_of(bodies)
+    opaque = ~hides[body] | stress
+    fills = np.array([[int(fill[k : k + 2], 16) / 255 for k in (1, 3, 5)] for fill in FILLS])
+    colours = fills[body % len(fills)]
+    scale = ScalarMappable(Normalize(0, far_range(bodies)), "viridis")
+    if stress:
+        colours = style.shades(grid.stress[grid.skin].mean(axis=1) / scale.norm.vmax)
+    else:
+        pressure = np.abs(grid.pressure[grid.skin].mean(axis=1)) / bodies.coloured
+        shown = pressure > 1e-3
+        colours[shown] = style.shades(pressure[shown], PRESSED["cmap"])
+    if not rendered(axes, bodies, view, colours, opaque):
+        across = across_faces(grid.skin, place)
+        bright = 0.62 + 0.38 * np.abs((across @ view.T) @ LIGHT)
+        rgba = np.column_stack([np.clip(colours * bright[:, None], 0, 1), np.where(opaque, 1.0, THROUGH)])
+        seen, lines = place[grid.skin] @ view.T, place[edges_of(grid, place)] @ view.T
+        # the edges, as thin as lines, lie a little nearer to the eye than their faces
+        depth = np.concatenate([seen[:, :, 2].mean(axis=1), lines[:, :, 2].mean(axis=1) + 0.02 * np.ptp(place)])
+        order = np.argsort(depth)
+        outlines = [*seen[:, :, :2], *lines[:, :, :2]]
+        grey = np.tile([0.25, 0.25, 0.25, 1], (len(lines), 1))
+        width = np.concatenate([np.where(opaque, 0.15, 0), np.full(len(lines), 0.35)])
+        faces = PolyCollection(
+            [outlines[k] for k in order],
+            facecolor=np.concatenate([rgba, grey])[order],
+            edgecolor=np.concatenate([rgba, grey])[order],
+            linewidth=width[order],
+        )
+        faces.set_rasterized(True)
+        axes.add_collection(faces)
+        axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    corner = np.array([0.02, 0.02])
+    corner = corner - 0.13 * np.minimum(view[:2].min(axis=1), 0)
+    for k, name in enumerate("xyz"):
+        tip = 0.09 * view[:2, k]
+        look = {
+            "xycoords": "axes fraction",
+            "textcoords": "axes fraction",
+            "ha": "center",
+            "va": "center",
+            "fontsize": 8,
+        }
+        arrow = {"arrowstyle": "<-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate(f"${name}$", corner, corner + 1.45 * tip, arrowprops=arrow, **look)
+    return scale
+
+
+def renderer():
+    """PyVista where it is installed and can draw without a screen, else None."""
+    with contextlib.suppress(ImportError, AttributeError):
+        import pyvista
+        from vtkmodules.vtkCommonCore import vtkLogger, vtkVersion
+
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # it tells of each screen that it does not find
+        # older ones end the process where there is no screen
+        if os.environ.get("DISPLAY") or (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) >= (9, 4):
+            return pyvista
+    return None
+
+
+def rendered(axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque: np.ndarray) -> bool:
+    """Draws the faces in these colours by PyVista into the axes, in the view's coordinates; False without it."""
+    pyvista = renderer()
+    if pyvista is None:
+        return False
+    grid, place = bodies.grid, bodies.place
+    seen = place @ view.T
+    low, high = seen[np.unique(grid.skin)].min(axis=0), seen[np.unique(grid.skin)].max(axis=0)
+    margin = 0.02 * (high - low).max()
+    low, high = low - margin, high + margin
+    size = np.maximum(np.ceil(PIXELS * (high - low)[:2] / (high - low)[:2].max()), 1).astype(int)
+    scene = pyvista.Plotter(off_screen=True, window_size=size.tolist())
+    scene.set_background("white")
+    with contextlib.suppress(Exception):  # what older ones do not have
+        scene.enable_depth_peeling(8)
+    for part, opacity in ((opaque, 1.0), (~opaque, THROUGH)):
+        if part.any():
+            skin = np.column_stack([np.full(part.sum(), 3), grid.skin[part]]).ravel()
+            mesh = pyvista.PolyData(place, skin)
+            mesh.cell_data["colour"] = np.round(255 * colours[part]).astype(np.uint8)
+            scene.add_mesh(mesh, scalars="colour", rgb=True, opacity=opacity, ambient=0.35, diffuse=0.65)
+    edges = edges_of(grid, place)
+    if len(edges):
+        lines = pyvista.PolyData(place, lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
+        scene.add_mesh(lines, color="#404040", line_width=2)
+    middle = 0.5 * (low + high) @ view
+    scene.camera.parallel_projection = True
+    scene.camera.focal_point = middle
+    scene.camera.position = middle + 4 * np.ptp(seen) * view[2]
+    scene.camera.up = view[1]
+    scene.camera.parallel_scale = 0.5 * (high - low)[1]
+    scene.camera.clipping_range = (0.1 * np.ptp(seen), 9 * np.ptp(seen))
+    scene.enable_anti_aliasing("ssaa")
+    picture = scene.screenshot(return_img=True)
+    scene.close()
+    axes.imshow(picture, extent=(low[0], high[0], low[1], high[1]), interpolation="antialiased")
+    return True
+
+
+# ---------------------------------------------------------------- sections and surfaces
+
+
+def facing(normal: np.ndarray) -> tuple[np.ndarray, list[str]]:
+    """The view along a normal, from outside, and what its axes are called: coordinates where they nearly are such."""
+    normal = normal / np.linalg.norm(normal)
+    if np.abs(normal).max() > 0.995:
+        normal = np.round(normal)
+    first = np.eye(3)[0 if abs(normal[0]) < 0.9 else 1]
+    right = first - (first @ normal) * normal
+    view = np.array([right / np.linalg.norm(right), np.zeros(3), normal])
+    view[1] = np.cross(normal, view[0])
+    words = [next((f"${name}$" for k, name in enumerate("xyz") if row[k] > 1 - 1e-9), "across") for row in view[:2]]
+    return view, words
+
+
+def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
+    """The pressure on one contact's surface, seen along the mean of the normals where it presses."""
+    surface, count = bodies.surface, len(bodies.points)
+    touched = bodies.touching(contact)
+    loads, normal = pressing(bodies, contact)
+    view, words = facing(normal)
+    cells = surface.cells[surface.contact == contact]
+    seen = (surface.points + bodies.scale * surface.move) @ view.T
+    centre = loads @ seen[:count] / loads.sum()
+    half = 1.25 * np.abs(seen[:count][touched] - centre)[:, :2].max(axis=0).max()
+    mesh = Triangulation(seen[:, 0], seen[:, 1], cells)
+    scale = PRESSED | {"vmax": bodies.coloured}
+    if bodies.table["pressure"][touched].min() < 0:
+        scale = {"cmap": "RdBu_r", "vmin": -bodies.coloured, "vmax": bodies.coloured}
+    colours = axes.tripcolor(mesh, surface.pressure, shading="gouraud", rasterized=True, **scale)
+    axes.set_aspect("equal")
+    for limits, middle, low, high in (
+        (axes.set_xlim, centre[0], seen[cells, 0].min(), seen[cells, 0].max()),
+        (axes.set_ylim, centre[1], seen[cells, 1].min(), seen[cells, 1].max()),
+    ):
+        limits(max(middle - half, low), min(middle + half, high))
+    axes.set_xlabel(f"{words[0]} [{units.length}]")
+    axes.set_ylabel(f"{words[1]} [{units.length}]")
+    return colours
+
+
+def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
+    """The section through the middle of what presses in one contact that holds its normal, with the outlines."""
+    grid, count = bodies.grid, len(bodies.points)
+    loads, normal = pressing(bodies, contact)
+    flat, words = facing(normal)
+    # rows: along the surface, across the section, along the normal; cut() takes the second coordinate for the level
+    frame = np.array([flat[0], -flat[1], flat[2]])
+    turned = replace(grid, points=grid.points @ frame.T, move=bodies.scale * grid.move @ frame.T)
+    level = loads @ (bodies.surface.points[:count] @ frame[1]) / loads.sum()
+    aside = 1e-6 * np.ptp(grid.points, axis=0).max()
+    sections = [cut(turned, level + way * aside) for way in (1, -1)]
+    pieces, stress, outline = max(sections, key=lambda section: len(section[0]))
+    if not len(pieces):
+        raise ResultsError(bodies.run.path / "solution.vtu", "nothing lies in the section through a contact's middle")
+    corner = np.arange(4 * len(pieces)).reshape(-1, 4)
+    triangles = np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]])
+    place = pieces.reshape(-1, 2)[triangles]
+    longest = np.square(np.roll(place, 1, axis=1) - place).sum(axis=2).max(axis=1)
+    # without needles, which shading would colour far beyond their ends
+    full = abs(np.linalg.det(place[:, 1:] - place[:, :1])) > 0.01 * longest
+    mesh = Triangulation(*pieces.reshape(-1, 2).T, triangles[full])
+    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "vmax": stress_range(bodies), "rasterized": True}
+    colours = axes.tripcolor(mesh, stress.ravel(), **look)
+    axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.5))
+    touched = bodies.points[bodies.touching(contact)] @ frame.T
+    middle, half = loads @ bodies.points @ frame.T / loads.sum(), 1.5 * np.ptp(touched, axis=0).max()
+    for limits, at, reach, values in (
+        (axes.set_xlim, middle[0], half, pieces[..., 0]),
+        (axes.set_ylim, middle[2], 0.75 * half, pieces[..., 1]),
+    ):
+        limits(max(at - reach, values.min()), min(at + reach, values.max()))
+    axes.set_aspect("equal")
+    upright = next((f"${name}$" for k, name in enumerate("xyz") if abs(flat[2][k]) > 1 - 1e-9), "along the normal")
+    axes.set_xlabel(f"{words[0]} [{units.length}]")
+    axes.set_ylabel(f"{upright} [{units.length}]")
+    return colours
+
+
+def level_words(bodies: Bodies, contact: int) -> str:
+    """Where the section through a contact's middle lies, where that is a coordinate."""
+    loads, normal = pressing(bodies, contact)
+    across = facing(normal)[0][1]
+    middle = loads @ bodies.surface.points[: len(loads)] / loads.sum()
+    k = int(np.abs(across).argmax())
+    if abs(across[k]) < 1 - 1e-9:
+        return ""
+    return f" ${'xyz'[k]}$ = {place_words(bodies, middle[k : k + 1])[1:-1]}"
