@@ -377,7 +377,7 @@ function readTie(   a, b, v, k) {
   measured(a, "none")
   for (k = 0; k < 16; k++) v[k] = 0
   word[1] = "contact"
-  put(a, b, "none", "none", "none", v)
+  put(a, b, "none", "none", "tied", v)
   word[1] = "tied"
   put(0, 0, "none", "none", "none", v)
   word[1] = "tie"
