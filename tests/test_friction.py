@@ -495,6 +495,15 @@ def test_tie_reproduces_uniform_tension(tmp_path, order):
     assert run.summary["contacts"][0]["force"][1] == pytest.approx(-1, abs=1e-9)
 
 
+def test_tie_where_there_is_something_opposite(tmp_path):
+    """The upper piece stands over and hangs above: what has nothing opposite is free, the rest keeps its distance."""
+    aside = STACK.replace("{0, k, 0}", "{0.3 * k, 1.05 * k, 0}").replace("{1, k, 0}", "{1 + 0.3 * k, 1.05 * k, 0}")
+    aside = aside.replace("{1, k + 1, 0}", "{1 + 0.3 * k, k + 1, 0}").replace("{0, k + 1, 0}", "{0.3 * k, k + 1, 0}")
+    text = "body low E 100 nu 0.3\nbody up E 100 nu 0.3\ntie foot head\nclamp base\ntraction top 0.1 1\n"
+    contact = case(tmp_path, aside, text).summary["contacts"][0]
+    assert contact["force"] == pytest.approx([-0.1, -1], rel=1e-5) and 0 < contact["contactPoints"] < contact["points"]
+
+
 def test_tie_bears_shear(tmp_path):
     """Sheared without a normal force: the force goes through."""
     text = "body low E 100 nu 0.3\nbody up E 100 nu 0.3\ntie foot head\nclamp base\ntraction top 0.3 0\n"
