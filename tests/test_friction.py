@@ -399,7 +399,7 @@ def test_error_of_the_load_steps(tmp_path):
     many = fretting(tmp_path / "many", steps=32, **flags).summary
     assert many["loadStepsError"].startswith("not known: -stepErrors 1")
     contact, many = some.summary["contacts"][0], many["contacts"][0]
-    for name in ("normalForce", "dissipated", "slipMax"):
+    for name in ("normalForce", "dissipated", "slipMean"):
         assert 1 <= off(contact["loadSteps"][name]["error"], contact[name], many[name]) < 100
     error = contact["loadSteps"]["shearForce"]["error"]
     assert 1 <= off(error, contact["shearForce"][0], many["shearForce"][0]) < 100
