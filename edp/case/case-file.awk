@@ -364,6 +364,24 @@ function readContact(   a, b, v, f, law, gap, next_, over) {
   put(a, b, gap, "none", law, v)
   if (0 in f) putFriction(f)
 }
+# a contact whose surfaces neither part nor slide: a statement "tied" of its own behind it
+function readTie(   a, b, v, k) {
+  if (!rubs) no("tie: read by parts.edp and parts-3d.edp alone; allowed here: bodies that share nodes")
+  a = group(dim - 1)
+  b = group(dim - 1)
+  if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
+  once("contact" SUBSEP (a < b ? a SUBSEP b : b SUBSEP a), "contact of " nameOf[a] " and " nameOf[b])
+  slaves[a] = FNR
+  touches[a] = touches[b] = FNR
+  pick("contact\t" FNR "\t" nameOf[a] "\t" nameOf[b])
+  measured(a, "none")
+  for (k = 0; k < 16; k++) v[k] = 0
+  word[1] = "contact"
+  put(a, b, "none", "none", "tied", v)
+  word[1] = "tied"
+  put(0, 0, "none", "none", "none", v)
+  word[1] = "tie"
+}
 function readBody(   g, v) {
   g = group(dim)
   once("body" SUBSEP g, "body " nameOf[g])
@@ -474,6 +492,7 @@ BEGIN {
   usage["pressure"] = "pressure NAME number"
   usage["traction"] = "traction NAME x y" at3
   usage["leg"] = "leg STEPS"
+  usage["tie"] = "tie SLAVE MASTER"
   usage["weight"] = "weight NAME x y" at3
   manyOf[1] = "curves"; manyOf[2] = space ? "faces" : "surfaces"; manyOf[3] = "volumes"
   pickWords = manyOf[dim - 1] " " manyOf[dim] " box plane near between"
@@ -484,26 +503,25 @@ BEGIN {
   usage["size"] = "size NAME number or size contact number"
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, group, size, body, contact, obstacle, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line, leg"
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line, leg"
   split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
     "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
     "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
     "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
     "|size of the elements|preload a shank pulled together|expand thermal strain|units of lengths and pressures" \
     "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it" \
-    "|leg loads and motions reached in steps", list, "|")
+    "|leg loads and motions reached in steps|tie two surfaces glued: no gap, no slip", list, "|")
   for (k in list) { line = list[k]; sub(/ .*/, "", line); does[line] = substr(list[k], length(line) + 2) }
   split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|gravity acceleration density dload:weight" \
     "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
     "|material elastic steel:body|temperature thermal heat shrink:expand|rigid wall ground:obstacle|set nset elset surface face select:group" \
-    "|mesh h elementsize refine:size|unit:units|interface pair touch:contact|interference overlap:contact", list, "|")
+    "|mesh h elementsize refine:size|unit:units|interface pair touch:contact|interference overlap:contact|tied bond bonded glue glued mortar:tie", list, "|")
   for (k in list) {
     n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
     for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
   }
   instead["friction"] = instead["mu"] = instead["coulomb"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER friction 0.3"
-  instead["tie"] = instead["tied"] = instead["bond"] = instead["bonded"] = instead["glue"] = instead["weld"] = \
-    "bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
+  instead["weld"] = instead["join"] = "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
   instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle, and its moment is said"
   instead["spring"] = "springs are not offered: a body of their stiffness"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
@@ -541,6 +559,7 @@ FILENAME == ARGV[1] {
     else if (word[1] == "leg") readLeg()
     else if (word[1] == "contact") readContact()
     else if (word[1] == "obstacle") readObstacle()
+    else if (word[1] == "tie") readTie()
     else if (word[1] ~ /^(stresses|line|expand|preload)$/) readAsked()
     else readOther()
   }
