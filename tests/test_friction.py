@@ -211,6 +211,68 @@ def test_gross_sliding_is_named(tmp_path):
     assert "gross sliding" in run.message and "-shear" in run.message
 
 
+@pytest.mark.long
+def test_mindlin(tmp_path):
+    """A rigid sphere on a block of nu = 0.49, pressed and pulled to and fro: approach, way and the loop's energy."""
+    young, nu, friction, radius = 100, 0.49, 0.3, 100
+    force = 4 * young / (1 - nu**2) / 3 / radius  # Hertz's radius is 1
+    shear = 0.9 * friction * force
+    flags = {
+        "-R": radius,
+        "-force": force,
+        "-nu": nu,
+        "-gap": 0,
+        "-law": "signorini",
+        "-d0": 0,
+        "-patch": 1.3,
+        "-h": 0.2,
+    }
+    flags |= {"-layers": 2, "-width": 200, "-depth": 100, "-grading": 200, "-drag": 0, "-shear": shear}
+    rows = series(rub(tmp_path, "edp/scenes/fretting-3d.edp", {**flags, "-legs": "1, 1 1, 1 -1, 1 1"}))
+    rate = 3 * friction * force * (2 - nu) / 16 / (young / 2 / (1 + nu))
+    way = lambda q: rate * (1 - (1 - q / friction / force) ** (2 / 3))  # noqa: E731
+    at, share = np.polynomial.legendre.leggauss(60)
+    loop = 4 * shear * way(shear) - 4 * shear * (share * way(shear / 2 * (at + 1))).sum()
+    assert rows["approach"][0] == pytest.approx(1 / radius, rel=0.01)
+    assert rows["drag"][1] - rows["drag"][0] == pytest.approx(way(shear), rel=0.01)
+    assert rows["dissipated"][3] - rows["dissipated"][1] == pytest.approx(loop, rel=0.01)
+
+
+@pytest.mark.parametrize("pull", [0.6, pytest.param(0.3, marks=pytest.mark.long)])
+def test_carter(tmp_path, pull):
+    """Rolling: creepage, tractions, what sticks at the side where the surfaces come in, what is dissipated."""
+    force, friction = 0.08631, 0.3
+    flags = {"-force": force, "-shear": pull * friction * force, "-h": 0.01}
+    run = rub(tmp_path, "edp/scenes/rolling.edp", flags)
+    half = np.sqrt(4 * force * 5 / (np.pi * MODULUS / 2))
+    inner = half * np.sqrt(1 - pull)
+    assert run.summary["creepage"] == pytest.approx(friction * (half - inner) / 5, rel=0.02)
+    rows = run.contact
+    x, weight = rows["x"], rows["weight"]
+    root = lambda at, b: np.sqrt(np.maximum(1 - (at / b) ** 2, 0))  # noqa: E731
+    exact = friction * 2 * force / np.pi / half * (root(x, half) - inner / half * root(x - half + inner, inner))
+    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.06
+    stick = x[rows["slide"] == 1]
+    assert abs(stick.min() - half + 2 * inner) <= 0.01 and abs(stick.max() - half) <= 0.01
+    steps = series(run)
+    lost = steps["dissipated"][-1] - steps["dissipated"][-2]
+    assert lost == pytest.approx(steps["shearForce"][-1] * (steps["drag"][-1] - steps["drag"][-2]), rel=5e-3)
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+@pytest.mark.parametrize("slope", [0.3, *(pytest.param(s, marks=pytest.mark.long) for s in (0.05, 0.6))])
+def test_wedge_of_a_scene_locks_above_its_slope(tmp_path, slope, share):
+    """Friction of a hundredth less and more than the slope."""
+    friction = share * slope
+    flags = {"-slope": slope, "-friction": friction, "-h": 0.2, "-legs": "1, 1e-3, 1e-4"}
+    rows = series(rub(tmp_path, "edp/scenes/wedge.edp", flags))
+    assert rows["force"][0] == pytest.approx(8.631 * slope / (slope + friction), rel=1e-5)
+    if friction < slope:
+        assert rows["force"][2] == pytest.approx(1e-4 * 8.631 * slope / (slope - friction), rel=1e-4)
+    else:
+        assert rows["force"][2] > 0.9 * rows["force"][1] and rows["stickingPoints"][2] > 0
+
+
 def test_compliance_and_limit(tmp_path):
     flags = {"h": 0.2, "legs": "1 0, 1 1", "force": 0, "shear": 0, "u0": 0.1, "drag": 0.05}
     stiff = fretting(tmp_path / "a", **flags).contact
