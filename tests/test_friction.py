@@ -1,6 +1,7 @@
 """Coulomb's friction: counts, closed forms, energies, symmetries, legs of a case, what is refused."""
 
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -348,3 +349,12 @@ def test_refusals(tmp_path, flags, words):
     run = fretting(tmp_path / "out", expect=10, **flags)
     assert words in run.stdout and len(re.findall(r"\n", run.stdout.strip())) <= 1
     assert not (tmp_path / "out" / "summary.json").exists()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", ["plane", "loads", "space", "bodies"])
+def test_the_campaign_begun(tmp_path, kind):
+    """The first paths of the campaign with friction: every step is solved, or has no equilibrium and says so."""
+    command = [sys.executable, "tests/campaigns/friction.py", kind, "--paths", "2", "--out", tmp_path / "steps.csv"]
+    code, stdout = execute(command)
+    assert code == 0 and " 0 failed" in stdout, stdout
