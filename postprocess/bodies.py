@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
 
 from postprocess import style
@@ -19,6 +20,7 @@ from postprocess.results import ResultsError, Run, brief, read_run, read_table
 from postprocess.vtu import Grid, Surface, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
+ZONES = {1: "#CFE8DC", 2: "#FBE3C4"}  # behind curves: sticks, slips
 LIGHT = np.array([-0.35, -0.5, 0.79])
 FARTHEST = 1.5  # an obstacle is drawn as far from the surface as that times the contact's size
 TOUCHING = 1e-3  # of the greatest pressure: what is shown of a contact
@@ -36,6 +38,8 @@ class Chain:
     overlap: np.ndarray
     along: np.ndarray  # from the pressure's middle on, or x
     rigid: bool
+    shear: np.ndarray | None = None  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
+    slide: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -99,7 +103,8 @@ def read_bodies(run: Run, scale: float = 1.0) -> Bodies:
     grid, surface = read_grid(run.path / "solution.vtu"), read_surface(run.path / "contact.vtu")
     with path.open(encoding="utf-8") as file:
         names = file.readline().strip().split(",")
-    optional = [name for name in "z normalX normalY normalZ contact along chain".split() if name in names]
+    optional = "z normalX normalY normalZ contact along chain shear shearX shearY shearZ slide".split()
+    optional = [name for name in optional if name in names]
     table = read_table(path, ["x", "y", "weight", "overlap", "pressure", *optional])
     count = len(table["x"])
     if len(surface.points) < count:
@@ -177,7 +182,8 @@ def chains(bodies: Bodies) -> list[Chain]:
             along -= loads @ along / loads.sum() if loads.sum() > 0 else along.mean()
         place, normal = bodies.points[rows, :2], bodies.normals[rows, :2]
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
-        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, bodies.rigid[contact]))
+        rubs = (table["shear"][rows], table["slide"][rows]) if "shear" in table else ()
+        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, bodies.rigid[contact], *rubs))
     return found
 
 
@@ -253,9 +259,37 @@ def stand_pressure(axes, bodies: Bodies, height: float) -> None:
             axes.add_collection(LineCollection(line, color=style.GREY, linewidth=1.4, zorder=2.5))
 
 
+def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]]:
+    """From where to where it sticks (1) or slips (2); each point stands for half of the way to its neighbours."""
+    middle = 0.5 * (place[1:] + place[:-1])
+    from_, to = np.concatenate([place[:1], middle]), np.concatenate([middle, place[-1:]])
+    ends = np.flatnonzero(np.diff(slide, append=-1))
+    starts = np.concatenate([[0], ends[:-1] + 1])
+    return [(from_[a], to[b], int(slide[a])) for a, b in zip(starts, ends, strict=True) if slide[a] > 0]
+
+
+def plot_shear(axes, chain: Chain, look: dict, first: bool) -> None:
+    """The shear of a contact, and behind it where it sticks and slips."""
+    name = f"{style.plain(chain.name)} shear".lstrip() if first else None
+    own = {"marker": "s", "color": style.VERMILION} if chain.contact == 0 else {"linestyle": (0, (3, 1.5))}
+    axes.plot(chain.along, chain.shear, label=name, **(look | own))
+    for start, end, slide in zones(chain.along, chain.slide):
+        axes.axvspan(start, end, color=ZONES[slide], linewidth=0, zorder=0)
+
+
+def name_zones(axes) -> None:
+    """A legend above the panel: the curves, and the colours of what sticks and slips."""
+    handles, names = axes.get_legend_handles_labels()
+    handles += [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
+    axes.legend(
+        handles, [*names, "sticks", "slips"], ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), fontsize=7
+    )
+
+
 def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
-    """The pressure over the arc length, a curve a contact, as far as they touch."""
+    """The pressure over the arc length, a curve a contact, as far as they touch; with friction the shear beside it."""
     seen, shown, pulls = set(), [], False
+    rubs = "shear" in bodies.table
     for chain in chains(bodies):
         touched = np.abs(chain.pressure) > TOUCHING * bodies.greatest
         if not touched.any():
@@ -263,7 +297,12 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
         first = chain.contact not in seen
         seen.add(chain.contact)
         look = style.curve(chain.contact) | {"markersize": 2.2, "markeredgewidth": 0, "linewidth": 0.9}
-        axes.plot(chain.along, chain.pressure, label=style.plain(chain.name) if first else None, **look)
+        name = style.plain(chain.name)
+        if rubs:
+            name = f"{name} pressure".lstrip()
+            plot_shear(axes, chain, look, first)
+            pulls = pulls or chain.shear.min() < 0
+        axes.plot(chain.along, chain.pressure, label=name if first else None, **look)
         shown += [chain.along[touched].min(), chain.along[touched].max()]
         pulls = pulls or chain.pressure[touched].min() < 0
     margin = 0.15 * (max(shown) - min(shown)) or 1.0
@@ -275,8 +314,10 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
     arc = "along" in bodies.table and not np.array_equal(bodies.table["along"], bodies.table["x"])
     words = "arc length" if arc else "$x$"
     axes.set_xlabel(f"{words} [{units.length}]")
-    axes.set_ylabel(f"pressure [{units.stress}]")
-    if len(seen) > 1 or any(bodies.names):
+    axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
+    if rubs:
+        name_zones(axes)
+    elif len(seen) > 1 or any(bodies.names):
         axes.legend()
 
 
