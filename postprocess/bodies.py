@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
 
@@ -300,9 +301,10 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units) -> None:
         name = style.plain(chain.name)
         if rubs:
             name = f"{name} pressure".lstrip()
-            plot_shear(axes, chain, look, first)
             pulls = pulls or chain.shear.min() < 0
         axes.plot(chain.along, chain.pressure, label=name if first else None, **look)
+        if rubs:
+            plot_shear(axes, chain, look, first)
         shown += [chain.along[touched].min(), chain.along[touched].max()]
         pulls = pulls or chain.pressure[touched].min() < 0
     margin = 0.15 * (max(shown) - min(shown)) or 1.0
@@ -406,3 +408,34 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units, top: fl
     axes.set_xlabel(f"{words[0]} [{units.length}]")
     axes.set_ylabel(f"{words[1]} [{units.length}]")
     return colours
+
+
+def map_shear(axes, bodies: Bodies, contact: int, units: style.Units) -> float:
+    """What sticks and slips on one contact's surface, and arrows: the shear on the slave. Returns the greatest."""
+    table, touched = bodies.table, bodies.touching(contact)
+    view, words = facing((table["weight"] * np.abs(table["pressure"]) * touched) @ bodies.normals)
+    place = (bodies.points @ view.T)[table["contact"] == contact][:, :2]
+    state = np.where(touched, table["slide"], 0)[table["contact"] == contact].astype(int)
+    seen = (bodies.points @ view.T)[touched, :2]
+    shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[touched, :2]
+    greatest = np.linalg.norm(shear, axis=1).max()
+    middle = 0.5 * (seen.min(axis=0) + seen.max(axis=0))
+    half = 1.3 * np.abs(seen - middle).max()
+    # each place is of the state of the point that is next to it
+    side = (np.arange(160) + 0.5) / 80 - 1
+    across = middle[0] + half * side
+    nearest = [
+        ((across[:, None] - place[:, 0]) ** 2 + (y - place[:, 1]) ** 2).argmin(axis=1) for y in middle[1] + half * side
+    ]
+    colours = np.array([to_rgb(colour) for colour in ("white", *ZONES.values())])
+    box = (middle[0] - half, middle[0] + half, middle[1] - half, middle[1] + half)
+    axes.imshow(colours[state[np.array(nearest)]], extent=box, origin="lower", interpolation="nearest")
+    length = 2.2 * half / np.sqrt(max(len(seen), 16))
+    part = slice(None, None, 1 + len(seen) // 250)
+    arrows = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.005, "color": style.VERMILION}
+    axes.quiver(*seen[part].T, *(shear[part] / max(greatest, 1e-300) * length).T, pivot="mid", **arrows)
+    axes.set_xlabel(f"{words[0]} [{units.length}]")
+    axes.set_ylabel(f"{words[1]} [{units.length}]")
+    handles = [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
+    axes.legend(handles, ["sticks", "slips"], loc="upper right", fontsize=7, borderaxespad=0.1, handlelength=1.2)
+    return greatest

@@ -351,6 +351,33 @@ def test_refusals(tmp_path, flags, words):
     assert not (tmp_path / "out" / "summary.json").exists()
 
 
+@pytest.mark.parametrize(
+    ("scene", "flags"),
+    [
+        ("fretting", {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}),
+        ("fretting-3d", {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1}),
+    ],
+)
+def test_pictures(tmp_path, scene, flags):
+    """The shear beside the pressure; the loop, and what sticks over the load steps."""
+    out = rub(tmp_path / "out", f"edp/scenes/{scene}.edp", {**flags, "-vtu": 1}).folder
+    for words in (["state"], ["hysteresis", "--slip", "--slide"]):
+        code, stdout = execute([sys.executable, "-m", "postprocess", *words, out])
+        assert code == 0, stdout
+        assert (out / f"{words[0]}.pdf").stat().st_size > 5000 and (out / f"{words[0]}.png").stat().st_size > 20000
+    if scene == "fretting":
+        zones, steps = table(out / "slides.csv"), table(out / "series.csv")
+        last = zones[zones["step"] == zones["step"].max()]
+        assert len(last) == steps["contactPoints"][-1] and (last["slide"] == 1).sum() == steps["stickingPoints"][-1]
+
+
+def test_no_loop_without_friction(tmp_path):
+    """A run that has no friction is refused in one line."""
+    run = rub(tmp_path / "out", "edp/main.edp", {"-h": 2})
+    code, stdout = execute([sys.executable, "-m", "postprocess", "hysteresis", run.folder])
+    assert code == 2 and "run it with friction" in stdout and stdout.count("\n") == 1
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("kind", ["plane", "loads", "space", "bodies"])
 def test_the_campaign_begun(tmp_path, kind):

@@ -15,7 +15,7 @@ from matplotlib.patches import Rectangle
 from postprocess import style
 from postprocess.bodies import ZONES, units_of, zones
 from postprocess.output import enter, write_figure
-from postprocess.results import Run, read_run, read_table
+from postprocess.results import ResultsError, Run, read_run, read_table
 
 COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
 STRONG = {1: style.GREEN, 2: style.ORANGE}
@@ -28,6 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--contact", type=int, default=0, metavar="N", help="in (b) the contact with this number; default 0"
     )
     parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
+    parser.add_argument("--slip", action="store_true", help="in (a) less what the bodies give while all of it sticks")
     style.add_units(parser)
 
 
@@ -35,7 +36,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Reads the run, draws it and prints the paths."""
     chosen = read_run(arguments.folder)
     with style.look():
-        figure = draw(chosen, units_of(chosen, arguments.units), arguments.contact, arguments.slide)
+        figure = draw(chosen, units_of(chosen, arguments.units), arguments)
         paths = write_figure(figure, arguments.out or chosen.path / "hysteresis.pdf")
     if not arguments.out:
         enter(chosen.path, [path.name for path in paths])
@@ -53,13 +54,26 @@ def last_loop(drag: np.ndarray, shear: np.ndarray) -> tuple[int, int] | None:
     return None
 
 
-def draw(chosen: Run, units: style.Units, contact: int = 0, slide: bool = False) -> Figure:
+def flexibility(table: dict) -> float:
+    """Of the bodies along the pull while all of it sticks: the least of all load steps; ResultsError without pull."""
+    drag, shear = np.diff(table["drag"]), np.diff(table["shearForce"])
+    pulls = np.abs(shear) > 1e-6 * np.ptp(table["shearForce"])
+    if not pulls.any():
+        raise ResultsError("series.csv", "has no load step in which the shear force changes")
+    return (drag[pulls] / shear[pulls]).min()
+
+
+def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
     """The figure, one column of a page wide, or a slide."""
     table = read_table(chosen.path / "series.csv", COLUMNS, "; run it with friction")
-    figure, (above, below) = style.panels([1.0, 0.9], 2.0 * style.COLUMN, slide)
-    plot_loop(above, table, units)
+    figure, (above, below) = style.panels([1.0, 0.9], 2.0 * style.COLUMN, asked.slide)
+    words = "dragged by"
+    if asked.slip:
+        words = "dragged by less what the bodies give"
+        table["drag"] -= flexibility(table) * table["shearForce"]
+    plot_loop(above, table, f"{words} [{units.length}]")
     if (chosen.path / "slides.csv").exists():
-        plot_zones(below, chosen, contact, len(table["step"]), units)
+        plot_zones(below, chosen, asked.contact, len(table["step"]), units)
     else:
         plot_shares(below, table)
     for index, axes in enumerate((above, below)):
@@ -67,19 +81,18 @@ def draw(chosen: Run, units: style.Units, contact: int = 0, slide: bool = False)
     return figure
 
 
-def plot_loop(axes, table: dict, units: style.Units) -> None:
+def plot_loop(axes, table: dict, words: str) -> None:
     drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
     closed = last_loop(drag, shear)
-    words = rf"dissipated ${style.number(lost[-1])}$"
+    energy = rf"dissipated ${style.number(lost[-1])}$"
     if closed:
         first, last = closed
         axes.fill(drag[first : last + 1], shear[first : last + 1], color=ZONES[2], linewidth=0)
-        words = rf"last loop ${style.number(lost[last] - lost[first])}$, in all ${style.number(lost[-1])}$"
+        energy = rf"last loop ${style.number(lost[last] - lost[first])}$, in all ${style.number(lost[-1])}$"
     axes.plot(drag, shear, color=style.BLUE, marker="o", markersize=2.2, markeredgewidth=0)
     axes.plot(drag[-1], shear[-1], color=style.VERMILION, marker="o", markersize=4, linestyle="none")
-    for value in (0,):
-        axes.axhline(value, color=style.GREY, linewidth=0.5, zorder=0)
-        axes.axvline(value, color=style.GREY, linewidth=0.5, zorder=0)
+    axes.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
+    axes.axvline(0, color=style.GREY, linewidth=0.5, zorder=0)
     # an arrow in the middle of each leg
     for leg in np.unique(table["leg"]):
         rows = np.flatnonzero(table["leg"] == leg)
@@ -89,9 +102,9 @@ def plot_loop(axes, table: dict, units: style.Units) -> None:
             k = rows[len(rows) // 2 - 1]
             ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
-    axes.set_xlabel(f"dragged by [{units.length}]")
+    axes.set_xlabel(words)
     axes.set_ylabel("shear force")
-    axes.set_title(f"energy: {words}", loc="right", fontsize=8)
+    axes.set_title(f"energy: {energy}", loc="right", fontsize=8)
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
 
 

@@ -3,6 +3,7 @@
 RUN is a result folder of any run made with -vtu 1, the default. Written are RUN/state.pdf and RUN/state.png, or what
 --out names. In the plane: the bodies, the surroundings of the greatest pressure, and the pressure over the arc length;
 in space: the bodies from outside, and for each contact the pressure on its surface, seen along its normal.
+With friction the shear stands beside the pressure, and what sticks and slips is coloured.
 """
 
 import argparse
@@ -71,12 +72,17 @@ def in_space(bodies: Bodies, units: style.Units, view: np.ndarray, slide: bool =
     pressed = [contact for contact in range(len(bodies.names)) if bodies.touching(contact).any()]
     if not pressed:
         raise ResultsError(bodies.run.path / "contact.csv", "no point is in contact")
-    rows = [0.8] + [0.8] * len(pressed)
+    rubs = "slide" in bodies.table
+    rows = [0.8] + [0.8] * (1 + rubs) * len(pressed)
     figure, panels = style.panels(rows, sum(rows) * style.COLUMN, slide, "compressed")
     drawn.draw_shell(panels[0], bodies, view, None, 1.0)
     figure.suptitle(f"{style.panel(0)} {drawn.motion(bodies, units)}", x=0.03, ha="left", fontsize=8)
-    for index, (contact, axes) in enumerate(zip(pressed, panels[1:], strict=True), start=1):
+    for index, (contact, axes) in enumerate(zip(pressed, panels[1:], strict=False), start=1):
         colours = drawn.map_pressure(axes, bodies, contact, units, bodies.coloured)
         figure.colorbar(colours, ax=axes, label=f"pressure [{units.stress}]")
         drawn.title(axes, index, style.plain(bodies.names[contact]))
+    for index, contact in enumerate(pressed if rubs else [], start=1 + len(pressed)):
+        greatest = drawn.map_shear(panels[index], bodies, contact, units)
+        words = f"{style.plain(bodies.names[contact])} shear, up to ${style.number(greatest)}$"
+        drawn.title(panels[index], index, words.lstrip())
     return figure
