@@ -84,11 +84,11 @@ def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
 def plot_loop(axes, table: dict, words: str) -> None:
     drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
     closed = last_loop(drag, shear)
-    energy = rf"dissipated ${style.number(lost[-1])}$"
+    energy = f"dissipated {lost[-1]:.3g}"
     if closed:
         first, last = closed
         axes.fill(drag[first : last + 1], shear[first : last + 1], color=ZONES[2], linewidth=0)
-        energy = rf"last loop ${style.number(lost[last] - lost[first])}$, in all ${style.number(lost[-1])}$"
+        energy = f"last loop {lost[last] - lost[first]:.3g}, in all {lost[-1]:.3g}"
     axes.plot(drag, shear, color=style.BLUE, marker="o", markersize=2.2, markeredgewidth=0)
     axes.plot(drag[-1], shear[-1], color=style.VERMILION, marker="o", markersize=4, linestyle="none")
     axes.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
@@ -102,7 +102,7 @@ def plot_loop(axes, table: dict, words: str) -> None:
             k = rows[len(rows) // 2 - 1]
             ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
-    axes.set_xlabel(words)
+    axes.set_xlabel(words, loc="left")  # the axis' power of ten stands at its right end
     axes.set_ylabel("shear force")
     axes.set_title(f"energy: {energy}", loc="right", fontsize=8)
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
