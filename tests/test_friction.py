@@ -197,6 +197,15 @@ def test_turned_mirrored_and_in_other_units(tmp_path):
             assert abs(one - two).max() <= 1e-9 * abs(one).max()
 
 
+def test_rolling_and_wedge_beyond_what_they_can(tmp_path):
+    """A pull that friction does not bear; a wedge about an axis; rolling that has not begun."""
+    run = rub(tmp_path / "a", "edp/scenes/rolling.edp", {"-h": 0.04, "-shear": 0.03}, 20)
+    assert "gross sliding" in run.message and "creepage" not in run.summary
+    run = rub(tmp_path / "b", "edp/scenes/wedge.edp", {"-geometry": "axisymmetric"}, 10)
+    assert "a wedge drags across the axis" in run.stdout
+    assert "creepage" not in rub(tmp_path / "c", "edp/scenes/rolling.edp", {"-h": 0.04, "-legs": "1 1"}).summary
+
+
 def test_little_friction_is_none(tmp_path):
     flags = {"legs": "1", "h": 0.25, "force": 0, "shear": 0, "reach": 8, "u0": 2, "grading": 20}
     none = fretting(tmp_path / "none", friction=0, **flags)
