@@ -197,6 +197,15 @@ def test_turned_mirrored_and_in_other_units(tmp_path):
             assert abs(one - two).max() <= 1e-9 * abs(one).max()
 
 
+def test_mirrored_parts_bear_the_opposite_shear(tmp_path):
+    """Half of a block or a section about an axis: what is summed is the force of the whole."""
+    flags = {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-symmetry": "half", "-legs": "1"}
+    run = rub(tmp_path / "half", "edp/scenes/fretting-3d.edp", flags)
+    assert run.summary["contacts"][0]["shearForce"][0] == 0 and abs(run.contact["shearX"]).max() > 1
+    run = fretting(tmp_path / "axis", geometry="axisymmetric", force=0, shear=0, u0=0.2, h=0.2, legs="1")
+    assert run.summary["contacts"][0]["shearForce"][0] == 0 and abs(run.contact["shear"]).max() > 0.1
+
+
 def test_rolling_and_wedge_beyond_what_they_can(tmp_path):
     """A pull that friction does not bear; a wedge about an axis; rolling that has not begun."""
     run = rub(tmp_path / "a", "edp/scenes/rolling.edp", {"-h": 0.04, "-shear": 0.03}, 20)
