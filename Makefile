@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -350,9 +350,12 @@ bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same test
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
 
 # Code 1: a run failed or a check did not pass; the figures show it.
-stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffness, meshes and loads, into results/stability/
+stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffness, meshes, loads and friction, into results/stability/, results/friction/
 	@$(PYTHON) tests/campaigns/stability.py; code=$$?; \
-	case $$code in 0|1) $(DRAW_CAMPAIGN);; esac; exit $$code
+	case $$code in 0|1) $(DRAW_CAMPAIGN); $(PYTHON) tests/campaigns/friction.py || code=$$?;; esac; exit $$code
+
+friction: $(VENV)/run.stamp | system ## the part of make stability with friction: paths of loads that a seed draws, into results/friction/
+	@$(PYTHON) tests/campaigns/friction.py
 
 coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
@@ -384,14 +387,14 @@ site: $(VENV)/dev.stamp ## all pages as a site to search and to click through, f
 	@PYTHONPATH=. $(PYTHON) tests/documents.py --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
-N       ?= $(filter 0 1 2 3 4 5 6 7 8 9,$(MAKECMDGOALS))
+N       ?= $(filter 0 1 2 3 4 5 6 7 8 9 10,$(MAKECMDGOALS))
 ANSWERS ?= answers.csv
 check-lab: $(VENV)/run.stamp ## check a student's answers: make check-lab 2 ANSWERS=answers.csv, make check-lab 4 ANSWERS=mylaw.idp
 	@$(PYTHON) -m postprocess check_lab $(or $(N),none) '$(ANSWERS)'
 
 ifneq ($(filter check-lab,$(MAKECMDGOALS)),)
-.PHONY: 0 1 2 3 4 5 6 7 8 9
-0 1 2 3 4 5 6 7 8 9:
+.PHONY: 0 1 2 3 4 5 6 7 8 9 10
+0 1 2 3 4 5 6 7 8 9 10:
 	@:
 endif
 

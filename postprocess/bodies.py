@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
 
 from postprocess import style
@@ -20,6 +21,8 @@ from postprocess.results import ResultsError, Run, brief, read_run, read_table
 from postprocess.vtu import Grid, Surface, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
+ZONES = {1: "#CFE8DC", 2: "#FBE3C4"}  # behind curves: sticks, slips
+SHEAR = {"marker": "", "linestyle": (0, (4, 1.5))}
 LIGHT = np.array([-0.35, -0.5, 0.79])
 FARTHEST = 1.5  # an obstacle is drawn as far from the surface as that times the contact's size
 TOUCHING = 1e-3  # of the greatest pressure: what is shown of a contact
@@ -38,6 +41,8 @@ class Chain:
     along: np.ndarray  # from the origin on, or x
     rigid: bool
     origin: str  # what the arc length begins at: "axis", "middle" of the pressure; "" for x
+    shear: np.ndarray | None = None  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
+    slide: np.ndarray | None = None
 
     @property
     def joined(self) -> np.ndarray:
@@ -121,7 +126,8 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     grid, surface = read_grid(run.path / "solution.vtu"), read_surface(run.path / "contact.vtu")
     with path.open(encoding="utf-8") as file:
         names = file.readline().strip().split(",")
-    optional = [name for name in "z normalX normalY normalZ contact along chain".split() if name in names]
+    optional = "z normalX normalY normalZ contact along chain shear shearX shearY shearZ slide".split()
+    optional = [name for name in optional if name in names]
     table = read_table(path, ["x", "y", "weight", "overlap", "pressure", *optional])
     count = len(table["x"])
     if len(surface.points) < count:
@@ -206,9 +212,9 @@ def chains(bodies: Bodies) -> list[Chain]:
                 along -= loads @ along / loads.sum() if loads.sum() > 0 else along.mean()
         place, normal = bodies.points[rows, :2], bodies.normals[rows, :2]
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
-        found.append(
-            Chain(contact, bodies.names[contact], place, normal, *fields, along, bodies.rigid[contact], origin)
-        )
+        rubs = (table["shear"][rows], table["slide"][rows]) if "shear" in table else ()
+        stated = bodies.rigid[contact], origin
+        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, *stated, *rubs))
     return found
 
 
@@ -374,17 +380,48 @@ def origin_words(bodies: Bodies, contact: int) -> str:
     return f"; arc length from \u2022\u00a0{place_words(bodies, found[0].zero)}"
 
 
+def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]]:
+    """From where to where it sticks (1) or slips (2); each point stands for half of the way to its neighbours."""
+    middle = 0.5 * (place[1:] + place[:-1])
+    from_, to = np.concatenate([place[:1], middle]), np.concatenate([middle, place[-1:]])
+    ends = np.flatnonzero(np.diff(slide, append=-1))
+    starts = np.concatenate([[0], ends[:-1] + 1])
+    return [(from_[a], to[b], int(slide[a])) for a, b in zip(starts, ends, strict=True) if slide[a] > 0]
+
+
+def plot_shear(axes, chain: Chain, look: dict) -> None:
+    """The shear of a contact, in the colour of its pressure, and behind it where it sticks and slips."""
+    axes.plot(chain.along, chain.shear, **(look | SHEAR))
+    for start, end, slide in zones(chain.along, chain.slide):
+        axes.axvspan(start, end, color=ZONES[slide], linewidth=0, zorder=0)
+
+
+def name_zones(axes, **look) -> None:
+    """A legend: the curves, if there are any with names, and the colours of what sticks and slips."""
+    handles, names = axes.get_legend_handles_labels()
+    handles += [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
+    axes.legend(handles, [*names, "sticks", "slips"], fontsize=7, **look)
+
+
 def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
-    """The pressure over the arc length, a curve a contact, as far as they touch; the origin is stated."""
+    """The pressure over the arc length, a curve a contact, as far as they touch; the origin is stated.
+
+    With friction the shear stands beside it, and behind both is coloured what sticks and slips.
+    """
+    rubs = "shear" in bodies.table
     seen, shown, pulls, origins = set(), [], False, set()
     found = [chain for chain in chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
     for chain in found:
         touched = np.abs(chain.pressure) > TOUCHING * bodies.greatest
-        label = None if chain.contact in seen else style.plain(style.folded(chain.name, 44))
+        first = chain.contact not in seen
         seen.add(chain.contact)
         origins.add(chain.origin)
         look = style.curve(chain.contact) | {"markersize": 2.2, "markeredgewidth": 0, "linewidth": 0.9}
-        axes.plot(chain.along, chain.pressure, label=label or None, **look)
+        name = style.folded(f"{chain.name} pressure".strip(), 24) if rubs else style.folded(chain.name, 44)
+        axes.plot(chain.along, chain.pressure, label=(first and style.plain(name)) or None, **look)
+        if rubs:
+            plot_shear(axes, chain, look)
+            pulls = pulls or chain.shear[touched].min() < 0
         shown += [chain.along[touched].min(), chain.along[touched].max()]
         pulls = pulls or chain.pressure[touched].min() < 0
     margin = 0.15 * (max(shown) - min(shown)) or 1.0
@@ -397,8 +434,16 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False
     origin = next(iter(origins)) if len(origins) == 1 else "middle"
     words = f"arc length{begins[origin]} [{units.length}]" if origin else f"$x$ [{units.length}]"
     axes.set_xlabel(style.folded(words, 30 if narrow else 60))
-    axes.set_ylabel(f"pressure [{units.stress}]")
-    if axes.get_legend_handles_labels()[0]:
+    axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
+    if rubs:
+        axes.plot([], [], label="shear", linewidth=0.9, color=style.BLUE if len(seen) == 1 else style.BLACK, **SHEAR)
+        above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
+        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 6, "ncols": 1 + (len(seen) == 1)}
+        name_zones(axes, **(under if narrow else above))
+        # on a slide there is room below a narrow panel, which is not to be taken from the other ones
+        axes.get_legend().set_in_layout(not narrow)
+        axes.set_anchor("N" if narrow else "C")
+    elif axes.get_legend_handles_labels()[0]:
         axes.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, -0.6)} if narrow else {"loc": "lower center"}))
     if narrow:
         axes.set_box_aspect(0.8)

@@ -101,6 +101,11 @@ def press_fit(
     return interference / joint / (softness(*outer, outside / joint, 1) + softness(*inner, joint / bore, -1))
 
 
+def taper(force: float, slope: float, friction: float) -> float:
+    """The normal force on the flank of half a plug that `force` drives in; friction below 0: it comes out."""
+    return force * np.hypot(1, slope) / (slope + friction)
+
+
 def rough_profile(x: np.ndarray, width: float, modes: float, hurst: float, rms: float, seed: float) -> np.ndarray:
     """The height of the scene rough's wall towards the block: sum of n^(-H-1/2) cos(2 pi n x/width + phase_n)."""
     n = np.arange(1, int(modes) + 1)

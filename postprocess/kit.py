@@ -30,7 +30,8 @@ LEFT_OUT = re.compile(
 
 def folders() -> list[Path]:
     """The labs' folders, in their order."""
-    return sorted(path.parent for path in LABS.glob("[0-9]*/README.md"))
+    found = [path.parent for path in LABS.glob("[0-9]*/README.md")]
+    return sorted(found, key=lambda path: int(path.name.partition("-")[0]))
 
 
 def read(path: Path) -> str:
@@ -309,7 +310,8 @@ def make(folder: Path) -> dict[str, bytes]:
     }
     words |= {f"handout-{lab.name}.html": f"handout, lab {lab.name}" for lab in folders()}
     words |= {
-        f"answers-{lab.name}.csv": f"to fill in, then make check-lab {lab.name[0]} ANSWERS=file" for lab in folders()
+        f"answers-{lab.name}.csv": f"to fill in, then make check-lab {lab.name.split('-')[0]} ANSWERS=file"
+        for lab in folders()
     }
     items = (element("li", joined([element("a", name, href=name), ": ", text], "")) for name, text in words.items())
     body = element("main", joined([element("h1", "Teaching kit"), element("ul", joined(items))]), id="main")

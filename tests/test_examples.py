@@ -257,6 +257,23 @@ def test_bolted_sleeve(tmp_path):
     assert case.first["contactPoints"] == 0 and "nothing presses" in case.stdout
 
 
+@pytest.mark.parametrize("friction", [0.05, pytest.param(0.2, marks=pytest.mark.long)])
+def test_taper(tmp_path, friction):
+    """Driven in it slips all over; let go of it stays where friction is above its slope, and comes out where not."""
+    text = (FOLDER / "taper" / "taper.case").read_text().replace("friction 0.2", f"friction {friction}")
+    (tmp_path / "a.case").write_text(text[: text.rindex("leg")])
+    case = solve(
+        tmp_path, FOLDER / "taper" / "taper.geo", tmp_path / "a.case", False, "-estimate", "0", "-set", "size", "2"
+    )
+    forces = table(tmp_path / "run" / "series.csv")["force"]
+    assert forces[3] == pytest.approx(forms.taper(1400, 0.1, friction), rel=1e-6)
+    if friction < 0.1:
+        assert case.summary["contacts"][0]["stickShare"] < 1
+        assert forces[5] == pytest.approx(forms.taper(1.4, 0.1, -friction), rel=1e-6)
+    else:
+        assert 0.8 * forces[3] < forces[5] < forces[3]
+
+
 # ---------------------------------------------------------------- the pages
 
 
@@ -266,7 +283,7 @@ def test_page(name):
     page, case = (FOLDER / name / "README.md").read_text(), (FOLDER / name / f"{name}.case").read_text()
     named = set(re.findall(r"`([\w-]+)`", section(page, "Strong form")))
     words = [line.split("#")[0].split() for line in case.splitlines()]
-    words = [word for word in words if word and word[0] not in ("units", "state", "size")]
+    words = [word for word in words if word and word[0] not in ("units", "state", "size", "leg")]
     used = [word[1:3] if word[0] == "contact" else word[1:2] for word in words]
     boundary = {group for word, groups in zip(words, used, strict=True) for group in groups if word[0] != "body"}
     assert boundary <= named
@@ -317,6 +334,10 @@ def test_page_numbers(name, tmp_path):
         ):
             assert agrees(case.summary[key], written[quantity])
             assert case.summary[key] == pytest.approx(paper.summary[key], rel=2e-7)
+    if name == "taper":
+        forces = table(tmp_path / "run" / "series.csv")["force"]
+        for step, what in ((4, "driven in"), (6, "let go of"), (8, "pulled")):
+            assert agrees(forces[step - 1], written[f"normal force, {what}"])
     if name == "gear-pair":
         check_gears(contacts[0], case.summary)
         written = {row[0]: row[1] for row in rows(section(page, "Numbers"))}

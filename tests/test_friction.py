@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import time
+import sys
 
 import numpy as np
 import pytest
@@ -294,6 +295,24 @@ def test_turned_mirrored_and_in_other_units(tmp_path):
             assert abs(one - two).max() <= 1e-9 * abs(one).max()
 
 
+def test_mirrored_parts_bear_the_opposite_shear(tmp_path):
+    """Half of a block or a section about an axis: what is summed is the force of the whole."""
+    flags = {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-symmetry": "half", "-legs": "1"}
+    run = rub(tmp_path / "half", "edp/scenes/fretting-3d.edp", flags)
+    assert run.summary["contacts"][0]["shearForce"][0] == 0 and abs(run.contact["shearX"]).max() > 1
+    run = fretting(tmp_path / "axis", geometry="axisymmetric", force=0, shear=0, u0=0.2, h=0.2, legs="1")
+    assert run.summary["contacts"][0]["shearForce"][0] == 0 and abs(run.contact["shear"]).max() > 0.1
+
+
+def test_rolling_and_wedge_beyond_what_they_can(tmp_path):
+    """A pull that friction does not bear; a wedge about an axis; rolling that has not begun."""
+    run = rub(tmp_path / "a", "edp/scenes/rolling.edp", {"-h": 0.04, "-shear": 0.03}, 20)
+    assert "gross sliding" in run.message and "creepage" not in run.summary
+    run = rub(tmp_path / "b", "edp/scenes/wedge.edp", {"-geometry": "axisymmetric"}, 10)
+    assert "a wedge drags across the axis" in run.stdout
+    assert "creepage" not in rub(tmp_path / "c", "edp/scenes/rolling.edp", {"-h": 0.04, "-legs": "1 1"}).summary
+
+
 def test_little_friction_is_none(tmp_path):
     flags = {"legs": "1", "h": 0.25, "force": 0, "shear": 0, "reach": 8, "u0": 2, "grading": 20}
     none = fretting(tmp_path / "none", friction=0, **flags)
@@ -307,6 +326,68 @@ def test_little_friction_is_none(tmp_path):
 def test_gross_sliding_is_named(tmp_path):
     run = fretting(tmp_path, h=0.2, shear=2.7, expect=20)
     assert "gross sliding" in run.message and "-shear" in run.message
+
+
+@pytest.mark.long
+def test_mindlin(tmp_path):
+    """A rigid sphere on a block of nu = 0.49, pressed and pulled to and fro: approach, way and the loop's energy."""
+    young, nu, friction, radius = 100, 0.49, 0.3, 100
+    force = 4 * young / (1 - nu**2) / 3 / radius  # Hertz's radius is 1
+    shear = 0.9 * friction * force
+    flags = {
+        "-R": radius,
+        "-force": force,
+        "-nu": nu,
+        "-gap": 0,
+        "-law": "signorini",
+        "-d0": 0,
+        "-patch": 1.3,
+        "-h": 0.2,
+    }
+    flags |= {"-layers": 2, "-width": 200, "-depth": 100, "-grading": 200, "-drag": 0, "-shear": shear}
+    rows = series(rub(tmp_path, "edp/scenes/fretting-3d.edp", {**flags, "-legs": "1, 1 1, 1 -1, 1 1"}))
+    rate = 3 * friction * force * (2 - nu) / 16 / (young / 2 / (1 + nu))
+    way = lambda q: rate * (1 - (1 - q / friction / force) ** (2 / 3))  # noqa: E731
+    at, share = np.polynomial.legendre.leggauss(60)
+    loop = 4 * shear * way(shear) - 4 * shear * (share * way(shear / 2 * (at + 1))).sum()
+    assert rows["approach"][0] == pytest.approx(1 / radius, rel=0.01)
+    assert rows["drag"][1] - rows["drag"][0] == pytest.approx(way(shear), rel=0.01)
+    assert rows["dissipated"][3] - rows["dissipated"][1] == pytest.approx(loop, rel=0.01)
+
+
+@pytest.mark.parametrize("pull", [0.6, pytest.param(0.3, marks=pytest.mark.long)])
+def test_carter(tmp_path, pull):
+    """Rolling: creepage, tractions, what sticks at the side where the surfaces come in, what is dissipated."""
+    force, friction = 0.08631, 0.3
+    flags = {"-force": force, "-shear": pull * friction * force, "-h": 0.01}
+    run = rub(tmp_path, "edp/scenes/rolling.edp", flags)
+    half = np.sqrt(4 * force * 5 / (np.pi * MODULUS / 2))
+    inner = half * np.sqrt(1 - pull)
+    assert run.summary["creepage"] == pytest.approx(friction * (half - inner) / 5, rel=0.02)
+    rows = run.contact
+    x, weight = rows["x"], rows["weight"]
+    root = lambda at, b: np.sqrt(np.maximum(1 - (at / b) ** 2, 0))  # noqa: E731
+    exact = friction * 2 * force / np.pi / half * (root(x, half) - inner / half * root(x - half + inner, inner))
+    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.06
+    stick = x[rows["slide"] == 1]
+    assert abs(stick.min() - half + 2 * inner) <= 0.01 and abs(stick.max() - half) <= 0.01
+    steps = series(run)
+    lost = steps["dissipated"][-1] - steps["dissipated"][-2]
+    assert lost == pytest.approx(steps["shearForce"][-1] * (steps["drag"][-1] - steps["drag"][-2]), rel=5e-3)
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+@pytest.mark.parametrize("slope", [0.3, *(pytest.param(s, marks=pytest.mark.long) for s in (0.05, 0.6))])
+def test_wedge_of_a_scene_locks_above_its_slope(tmp_path, slope, share):
+    """Friction of a hundredth less and more than the slope."""
+    friction = share * slope
+    flags = {"-slope": slope, "-friction": friction, "-h": 0.2, "-legs": "1, 1e-3, 1e-4"}
+    rows = series(rub(tmp_path, "edp/scenes/wedge.edp", flags))
+    assert rows["force"][0] == pytest.approx(8.631 * slope / (slope + friction), rel=1e-5)
+    if friction < slope:
+        assert rows["force"][2] == pytest.approx(1e-4 * 8.631 * slope / (slope - friction), rel=1e-4)
+    else:
+        assert rows["force"][2] > 0.9 * rows["force"][1] and rows["stickingPoints"][2] > 0
 
 
 def test_compliance_and_limit(tmp_path):
@@ -535,3 +616,39 @@ def test_cantilever_of_two_glued_pieces(tmp_path):
     both = np.mean([body["motion"][1] for body in two.summary["bodies"]])
     assert abs(both / one - 1) <= loads["error"] / loads["value"]
     assert two.summary["contacts"][0]["force"][1] == pytest.approx(1, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("scene", "flags"),
+    [
+        ("fretting", {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}),
+        ("fretting-3d", {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1}),
+    ],
+)
+def test_pictures(tmp_path, scene, flags):
+    """The shear beside the pressure; the loop, and what sticks over the load steps."""
+    out = rub(tmp_path / "out", f"edp/scenes/{scene}.edp", {**flags, "-vtu": 1}).folder
+    for words in (["state"], ["hysteresis", "--slip", "--slide"]):
+        code, stdout = execute([sys.executable, "-m", "postprocess", *words, out])
+        assert code == 0, stdout
+        assert (out / f"{words[0]}.pdf").stat().st_size > 5000 and (out / f"{words[0]}.png").stat().st_size > 20000
+    if scene == "fretting":
+        zones, steps = table(out / "slides.csv"), table(out / "series.csv")
+        last = zones[zones["step"] == zones["step"].max()]
+        assert len(last) == steps["contactPoints"][-1] and (last["slide"] == 1).sum() == steps["stickingPoints"][-1]
+
+
+def test_no_loop_without_friction(tmp_path):
+    """A run that has no friction is refused in one line."""
+    run = rub(tmp_path / "out", "edp/main.edp", {"-h": 2})
+    code, stdout = execute([sys.executable, "-m", "postprocess", "hysteresis", run.folder])
+    assert code == 2 and "run it with friction" in stdout and stdout.count("\n") == 1
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", ["plane", "loads", "space", "bodies"])
+def test_the_campaign_begun(tmp_path, kind):
+    """The first paths of the campaign with friction: every step is solved, or has no equilibrium and says so."""
+    command = [sys.executable, "tests/campaigns/friction.py", kind, "--paths", "2", "--out", tmp_path / "steps.csv"]
+    code, stdout = execute(command)
+    assert code == 0 and " 0 failed" in stdout, stdout

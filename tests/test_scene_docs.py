@@ -159,15 +159,17 @@ GAPS["adhesive-wavy"] = lambda c, g: (
 )
 GAPS["hertz-line"] = GAPS["disc-on-block-ipopt"] = GAPS["fretting"] = GAPS["disc-on-block"]
 GAPS["fretting-bodies"], GAPS["fretting-3d"] = GAPS["two-cylinders"], GAPS["sphere-on-block"]
+GAPS["rolling"], GAPS["wedge"] = GAPS["two-cylinders"], GAPS["disc-on-block"]
 NODAL = ["-points", "nodal"]
 APART = {"hertz-line": ["-force", 0], "two-cylinders": ["-force", 0, *NODAL], "patch-test": NODAL}
 APART |= {"fretting": ["-force", 0, "-shear", 0], "fretting-bodies": ["-force", 0, "-shear", 0, *NODAL]}
+APART |= {"rolling": ["-force", 0, "-shear", 0, "-reach", 2, *NODAL], "wedge": ["-force", 0, "-legs", 1]}
 APART |= {"patch-test-3d": NODAL, "sphere-on-plane": ["-force", 0, "-layers", 1]}
 APART |= {"two-spheres": ["-force", 0, "-layers", 1, *NODAL], "wavy": ["-waves", 10], "rough": ["-modes", 20]}
 ENDS = {  # of the contact: the greatest |x| of a point
     **{"disc-on-block": 9.9, "disc-on-block-ipopt": 9.9, "meshed-disc": 9.9, "confined-block": 10, "patch-test": 10},
     **{"wavy": 20, "rough": 20, "flat-punch": 4, "hertz-line": 2, "two-cylinders": 2},
-    **{"fretting": 2, "fretting-bodies": 2},
+    **{"fretting": 2, "fretting-bodies": 2, "rolling": 2, "wedge": 2},
 }
 
 
@@ -380,6 +382,24 @@ def fretting_bodies(given):
 
 
 REFERENCES["fretting"], REFERENCES["fretting-bodies"], REFERENCES["fretting-3d"] = fretting, fretting_bodies, fretting
+
+
+def rolling(given):
+    half = hertz(given["force"], 5, plane_modulus({"E": given["E1"], "nu": given["nu1"]}) / 2)["halfWidthMoment"]
+    slips = 1 - np.sqrt(1 - given["shear"] / given["friction"] / given["force"])
+    carter = {"Carter": {"creepage": given["friction"] * half / 5 * slips}, "Hertz": {"halfWidthMoment": half}}
+    return {**carter, "prescribed": {"shearForce at step 81": given["shear"]}}
+
+
+def wedge(given):
+    slope, friction = given["slope"], given["friction"]
+    forces = {"force at step 1": slope * given["force"] / (slope + friction)}
+    if friction < slope:
+        forces["force at step 2"] = 1e-3 * slope * given["force"] / (slope - friction)
+    return {"equilibrium": forces, "comes out": {"stickingPoints at step 2": 0}}
+
+
+REFERENCES["rolling"], REFERENCES["wedge"] = rolling, wedge
 REFERENCES["adhesive-wavy"] = lambda given: {}
 
 

@@ -31,7 +31,7 @@ CHECKS = {  # what lab 4 prints, and what is allowed of it
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("lab", metavar="N", help="the lab's number, 0 to 9")
+    parser.add_argument("lab", metavar="N", help="the lab's number, 0 to 10")
     parser.add_argument("file", metavar="FILE", type=Path, help="answers.csv, or of lab 4 a law file (.idp)")
 
 
@@ -39,7 +39,9 @@ def run(arguments: argparse.Namespace) -> None:
     """Prints a line an answer, and how many are well; ends with code 1 where not all are."""
     found = [lab for lab in kit.folders() if lab.name.split("-")[0] == arguments.lab]
     if not found:
-        raise ResultsError(arguments.lab, f"no such lab; allowed: {' '.join(lab.name[0] for lab in kit.folders())}")
+        raise ResultsError(
+            arguments.lab, f"no such lab; allowed: {' '.join(lab.name.split('-')[0] for lab in kit.folders())}"
+        )
     if arguments.file.suffix == ".idp":
         if arguments.lab != "4":
             raise ResultsError(arguments.file, "a law file is checked by lab 4 alone")

@@ -3,12 +3,14 @@
 RUN is a result folder of any run made with -vtu 1, the default. Written are RUN/state.pdf and RUN/state.png, or what
 --out names. In the plane: each contact from near, the bodies, and the pressure over the arc length; in space: for each
 contact the pressure on its surface, seen along its normal, and the bodies from outside. Of many contacts those that
-carry most are drawn from near.
+carry most are drawn from near. With friction the shear stands beside the pressure, and what sticks and slips is
+coloured.
 """
 
 import argparse
 
 import numpy as np
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -17,7 +19,7 @@ from postprocess import space, style
 from postprocess.bodies import Bodies, write_picture
 from postprocess.results import ResultsError
 
-MOST = 6  # contacts that are drawn from near
+MOST = 6  # contacts that are drawn from near; half as many where their shears are drawn too
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -110,17 +112,60 @@ def eye(bodies: Bodies, contact: int, view: tuple | None) -> np.ndarray:
     return space.sight(*(view or space.onto(space.pressing(bodies, contact)[1])))
 
 
+def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
+    """What sticks and slips on one contact's surface, and arrows: the shear on the slave. Returns the greatest.
+
+    beside: the panel with the contact's pressure, of which this one shows the same part.
+    """
+    table, touched = bodies.table, bodies.touching(contact)
+    view, _ = space.facing(space.pressing(bodies, contact)[1])
+    mine = table["contact"] == contact
+    place, seen = (bodies.points[mine] @ view.T)[:, :2], (bodies.points[touched] @ view.T)[:, :2]
+    state = np.where(touched, table["slide"], 0)[mine].astype(int)
+    shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[touched, :2]
+    greatest = np.linalg.norm(shear, axis=1).max()
+    limits = beside.get_xlim(), beside.get_ylim()
+    # each place is of the state of the point that is next to it
+    right, up = (low + (high - low) * (np.arange(160) + 0.5) / 160 for low, high in limits)
+    nearest = [((right[:, None] - place[:, 0]) ** 2 + (y - place[:, 1]) ** 2).argmin(axis=1) for y in up]
+    colours = np.array([to_rgb(colour) for colour in ("white", *drawn.ZONES.values())])
+    box = (*limits[0], *limits[1])
+    axes.imshow(colours[state[np.array(nearest)]], extent=box, origin="lower", interpolation="nearest")
+    length = 0.85 * np.ptp(limits, axis=1).max() / np.sqrt(min(max(len(seen), 16), 250))
+    part = slice(None, None, 1 + len(seen) // 250)
+    arrows = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
+    axes.quiver(*seen[part].T, *(shear[part] / max(greatest, 1e-300) * length).T, pivot="mid", **arrows)
+    axes.set_xlim(limits[0])
+    axes.set_ylim(limits[1])
+    axes.set_xlabel(beside.get_xlabel())
+    axes.set_ylabel(beside.get_ylabel())
+    return greatest
+
+
 def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
-    """The pressure on each contact's surface, then the bodies with these pressures from outside."""
-    contacts, more = carrying(bodies)
-    letters = "abcdefghi"[: len(contacts) + 1]
+    """The pressure on each contact's surface, with friction its shear; then the bodies with these from outside."""
+    rubs = "slide" in bodies.table
+    contacts, more = carrying(bodies, MOST // 2 if rubs else MOST)
+    shown = [(contact, sheared) for contact in contacts for sheared in ((False, True) if rubs else (False,))]
+    letters = "abcdefghi"[: len(shown) + 1]
     maps, body = letters[:-1], letters[-1]
     each = 1 if len(maps) == 1 else 2
-    rows = [(maps[k : k + each], 0.84 / each + 0.1) for k in range(0, len(maps), each)]
+    rows = [(maps[k : k + each], 0.84 / each + (0.17 if rubs else 0.1)) for k in range(0, len(maps), each)]
     figure, panels = style.sheet([*rows, (body, 0.9)], beside(maps, body), slide)
-    for index, (letter, contact) in enumerate(zip(maps, contacts, strict=True)):
-        colours = space.map_pressure(panels[letter], bodies, contact, units)
-        drawn.title(panels[letter], index, style.plain(bodies.names[contact]), 56 if each == 1 and not slide else 28)
+    for index, (letter, (contact, sheared)) in enumerate(zip(maps, shown, strict=True)):
+        words = style.plain(bodies.names[contact])
+        if sheared:
+            greatest = map_shear(panels[letter], bodies, contact, panels[maps[index - 1]])
+            unit = "" if units.stress == style.Units.stress else f" {units.stress}"
+            words = f"{words} shear, up to ${style.number(float(f'{greatest:.3g}'))}${unit}".lstrip()
+        else:
+            colours = space.map_pressure(panels[letter], bodies, contact, units)
+        if rubs:
+            panels[letter].locator_params(nbins=4)
+        drawn.title(panels[letter], index, words, 56 if each == 1 and not slide else 28)
+    if rubs:
+        below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4}
+        drawn.name_zones(panels[maps[-1]], ncols=2, handlelength=1.2, **below)
     space.draw_parts(panels[body], bodies, eye(bodies, contacts[0], view), False)
     drawn.title(panels[body], len(maps), drawn.motion(bodies, units) + more, 44 if slide else 56)
     drawn.colour_bar(figure, colours, [panels[letter] for letter in maps], bodies, units, "pressure")

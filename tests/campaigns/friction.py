@@ -1,9 +1,14 @@
 """Does the step with friction come to equilibrium, and in how many linearisations? Paths of loads, drawn at random.
 
-Disc on block, P1, P2 and P4, 21 to 301 points, friction 0.01 to 1.5, laws of stiffness 1 to 1e12 and hard contact,
-prescribed approaches and forces, six legs each of any size. A row per load step in results/friction/steps.csv;
-interrupted and started again, it goes on where it was. Loads without equilibrium say so and are not counted. Exit
-code 1 if a step is neither.
+Kinds of paths, their laws of stiffness 1 to 1e12 and hard contact:
+  plane   disc on block, P1, P2 and P4, 21 to 301 points, friction 0.01 to 1.5, prescribed approaches and forces, five
+          sorts of legs
+  loads   the same, friction 0.05 to 5, nu 0 to 0.45, six legs of any size
+  space   sphere on block, friction 0.1 to 1.5, approaches or forces; the drag turns, or goes anywhere
+  bodies  two cylinders on meshes that do not match, unlike in modulus and nu, nodal or averaged, friction 0.1 to 1
+
+A row per load step in results/friction/steps.csv; interrupted and started again, it goes on where it was. Loads without
+equilibrium say so and are not counted. Exit code 1 if a step is neither.
 """
 
 import argparse
@@ -19,58 +24,120 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 FILE = campaign.RESULTS_FOLDER / "friction" / "steps.csv"
-COLUMNS = "run step newton backsolves friction kappa points code message".split()
+COLUMNS = "kind run step newton backsolves friction kappa points code message".split()
 TURNS = [(1, 0), (1, 0.05), (1, 0.2), (1, 1), (1, -0.2), (0.5, -0.2), (1.25, 0.3)]
 TOGETHER = [(0.2 * k, 0.04 * k) for k in range(1, 6)]
 CYCLES = [(1, 0), (1, 0.15), (1, -0.15), (1, 0.15), (1, -0.15)]
 FIXED = (TURNS, TOGETHER, CYCLES)
 
 
-def load(run: int) -> list[str]:
-    """The run's flags; its number is the seed."""
-    draw = np.random.default_rng(run)
-    order = int(draw.choice([1, 2, 2, 2, 4]))
-    spacing = float(np.exp(draw.uniform(np.log(16 / 300), np.log(16 / 20))))
+SCRIPTS = {"plane": "fretting", "loads": "fretting", "space": "fretting-3d", "bodies": "fretting-bodies"}
+PATHS = {"plane": 380, "loads": 90, "space": 20, "bodies": 40}
+
+
+def legs_of(legs) -> str:
+    return ", ".join(" ".join(f"{share:.6g}" for share in leg) for leg in legs)
+
+
+def law_of(draw) -> dict:
     kappa = draw.choice([1, 1e3, 1e6, 1e12, np.inf])
-    friction = float(np.exp(draw.uniform(np.log(0.01), np.log(1.5))))
+    return (
+        {"law": "power", "kappa": kappa, "m": 3, "d0": -1e-9} if np.isfinite(kappa) else {"law": "signorini", "d0": 0}
+    )
+
+
+def between(draw, low: float, high: float) -> float:
+    """Of one decade as often as of another."""
+    return float(np.exp(draw.uniform(np.log(low), np.log(high))))
+
+
+def plane(draw) -> dict:
+    order = int(draw.choice([1, 2, 2, 2, 4]))
+    spacing = between(draw, 16 / 300, 16 / 20)
+    kappa = draw.choice([1, 1e3, 1e6, 1e12, np.inf])
+    friction = between(draw, 0.01, 1.5)
     kind = int(draw.integers(0, 5))
     legs = FIXED[kind] if kind < 3 else [(draw.uniform(0.1, 1.2), draw.uniform(-1, 1)) for _ in range(6)]
-    flags = {
-        "order": order,
-        "h": order * spacing,
-        "reach": 8,
-        "grading": 20,
-        "nu": float(draw.uniform(0, 0.45)),
-        "friction": friction,
-        "u0": 2,
-        "drag": 1,
-        "force": 0,
-        "shear": 0,
-        "vtu": 0,
-        "legs": ", ".join(f"{press:.6g} {drag:.6g}" for press, drag in legs),
-    }
+    flags = {"order": order, "h": order * spacing, "reach": 8, "grading": 20, "nu": float(draw.uniform(0, 0.45))}
+    flags |= {"friction": friction, "u0": 2, "drag": 1, "force": 0, "shear": 0, "legs": legs_of(legs)}
     if np.isfinite(kappa):
         flags |= {"law": "power", "kappa": kappa, "m": 3, "d0": -1e-9}
     if draw.random() < 0.3:  # a force presses, and in half of these one pulls
         flags |= {"force": 250}
         if draw.random() < 0.5:
             flags |= {"drag": 0, "shear": 0.9 * friction * 100 * min(press for press, _ in legs)}
+    return flags
+
+
+def loads(draw) -> dict:
+    flags = {"order": 2, "h": between(draw, 0.15, 1), "reach": 8, "grading": 20, "force": 0, "shear": 0, "u0": 2}
+    legs = [(between(draw, 0.02, 1.2), draw.uniform(-1, 1)) for _ in range(6)]
+    flags |= {"nu": float(draw.uniform(0, 0.45)), "friction": between(draw, 0.05, 5), "legs": legs_of(legs)}
+    return flags | law_of(draw) | {"drag": between(draw, 0.01, 2)}
+
+
+def space(draw) -> dict:
+    turns = np.cumsum(draw.uniform(0.3, 1.2, 6))
+    round_about = [(1, np.cos(t), np.sin(t)) for t in turns]
+    anywhere = [(draw.uniform(0.2, 1.2), draw.uniform(-1, 1), draw.uniform(-1, 1)) for _ in range(6)]
+    legs = [(1,), *(round_about if draw.random() < 0.5 else anywhere)]
+    friction = between(draw, 0.1, 1.5)
+    flags = {
+        "h": between(draw, 1.2, 2.5),
+        "u0": 0.5,
+        "gap": 0,
+        "nu": float(draw.uniform(0, 0.45)),
+        "friction": friction,
+    }
+    flags |= law_of(draw) | {"drag": between(draw, 0.01, 0.5), "legs": legs_of(legs)}
+    if draw.random() < 0.3:
+        flags |= {"force": 100, "drag": 0, "shear": 0.7 * friction * 100 * min(1, *(leg[0] for leg in legs))}
+    return flags
+
+
+def bodies(draw) -> dict:
+    flags = {"h": between(draw, 0.04, 0.3), "ratio": between(draw, 0.6, 2.3), "friction": between(draw, 0.1, 1)}
+    flags |= {
+        "E2": 100 * between(draw, 0.1, 10),
+        "nu1": float(draw.uniform(0, 0.45)),
+        "nu2": float(draw.uniform(0, 0.45)),
+    }
+    legs = [(draw.uniform(0.2, 1.2), draw.uniform(-1, 1)) for _ in range(6)]
+    flags |= law_of(draw) | {"points": str(draw.choice(["nodal", "segment"])), "legs": legs_of(legs)}
+    if draw.random() < 0.5:
+        return flags | {"force": 0, "shear": 0, "u0": 0.2, "drag": between(draw, 0.005, 0.2)}
+    return flags | {"shear": 0.8 * flags["friction"] * 8.631 * min(press for press, _ in legs)}
+
+
+DRAWN = {"plane": plane, "loads": loads, "space": space, "bodies": bodies}
+
+
+def load(kind: str, run: int) -> list[str]:
+    """The run's flags; its number is the seed."""
+    flags = DRAWN[kind](np.random.default_rng(run)) | {"vtu": 0, "estimate": 0}
     return [word for name, value in flags.items() for word in (f"-{name}", str(value))]
 
 
-def solve(run: int) -> list[dict]:
+def solve(one: tuple[str, int]) -> list[dict]:
     """One path; what became of its steps."""
-    flags = load(run)
+    kind, run = one
+    flags = load(kind, run)
     given = dict(zip(flags[::2], flags[1::2], strict=True))
     with tempfile.TemporaryDirectory() as folder:
-        command = ["FreeFem++", "-nw", "-v", "0", "edp/scenes/fretting.edp", *flags, "-out", folder]
+        command = ["FreeFem++", "-nw", "-v", "0", f"edp/scenes/{SCRIPTS[kind]}.edp", *flags, "-out", folder]
         done = subprocess.run(
             command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}
         )
         series, contact = Path(folder) / "series.csv", Path(folder) / "contact.csv"
         steps = list(csv.DictReader(series.read_text().splitlines())) if series.exists() else []
         points = len(contact.read_text().splitlines()) - 1 if contact.exists() else 0
-    common = {"run": run, "friction": given["-friction"], "kappa": given.get("-kappa", "hard"), "points": points}
+    common = {
+        "kind": kind,
+        "run": run,
+        "friction": given["-friction"],
+        "kappa": given.get("-kappa", "hard"),
+        "points": points,
+    }
     rows, before = [], (0, 0)
     for row in steps:
         now = int(row["newton"]), int(row["backsolves"])
@@ -84,26 +151,45 @@ def solve(run: int) -> list[dict]:
     return rows
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--paths", type=int, default=380, help="how many (default: %(default)s)")
-    count = parser.parse_args().paths
-    FILE.parent.mkdir(parents=True, exist_ok=True)
-    known = {int(row["run"]) for row in campaign.read_rows(FILE)}
-    with ThreadPoolExecutor(2) as pool:
-        for found in pool.map(solve, sorted(set(range(count)) - known)):
-            campaign.add_rows(FILE, COLUMNS, found)
-    done = [row for row in campaign.read_rows(FILE) if int(row["run"]) < count]
+def report(kind: str, done: list[dict]) -> int:
+    """Counts of the steps that are solved; how many are neither solved nor without equilibrium."""
     good = [row for row in done if row["code"] == "0"]
     said = [row for row in done if row["code"] == "20" and "gross sliding" in row["message"]]
     failed = [row for row in done if row not in good and row not in said]
-    for what in ("newton", "backsolves"):
+    print(f"{kind}: {len(good)} steps solved, {len(said)} without equilibrium, {len(failed)} failed")
+    for what in ("newton", "backsolves") if good else ():
         counts = np.array([int(row[what]) for row in good])
-        print(f"{what}: mean {counts.mean():.2f}, 95 % {np.percentile(counts, 95):.0f}, most {counts.max()}")
-    print(f"{len(good)} steps solved, {len(said)} without equilibrium, {len(failed)} failed")
+        print(f"  {what}: mean {counts.mean():.2f}, 95 % {np.percentile(counts, 95):.0f}, most {counts.max()}")
     for row in failed:
         print(f"  run {row['run']} step {row['step']}: {row['message']}")
-    return 1 if failed else 0
+    return len(failed)
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("kinds", nargs="*", metavar="KIND", help=f"of {', '.join(PATHS)} (default: all)")
+    parser.add_argument(
+        "--paths", type=int, help=f"how many of each kind (default: {', '.join(map(str, PATHS.values()))})"
+    )
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time (default 2: they are counted, not timed)")
+    parser.add_argument("--out", type=Path, default=FILE, help="the CSV file")
+    arguments = parser.parse_args(argv)
+    if unknown := set(arguments.kinds) - set(PATHS):
+        parser.error(f"no such kind: {', '.join(sorted(unknown))}; allowed: {', '.join(PATHS)}")
+    wanted = [
+        (kind, run)
+        for kind, count in PATHS.items()
+        if kind in (arguments.kinds or PATHS)
+        for run in range(count if arguments.paths is None else arguments.paths)
+    ]
+    arguments.out.parent.mkdir(parents=True, exist_ok=True)
+    known = {(row["kind"], int(row["run"])) for row in campaign.read_rows(arguments.out)}
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        for found in pool.map(solve, [one for one in wanted if one not in known]):
+            campaign.add_rows(arguments.out, COLUMNS, found)
+    done = [row for row in campaign.read_rows(arguments.out) if (row["kind"], int(row["run"])) in wanted]
+    lost = [report(kind, [row for row in done if row["kind"] == kind]) for kind in dict.fromkeys(k for k, _ in wanted)]
+    return 1 if any(lost) else 0
 
 
 if __name__ == "__main__":

@@ -1,0 +1,146 @@
+"""draw what friction did: the loop of shear force against displacement, and where it sticks and slips, step by step
+
+RUN is a run with friction and several load steps, best with -history 1. (a) the shear force over how far the obstacle
+or the upper body has been dragged, the area of the last closed loop shaded, with what friction dissipated in it; (b) in
+the plane, load step by load step, where the contact sticks and slips; in space, the shares of the points that do.
+"""
+
+import argparse
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from postprocess import style
+from postprocess.bodies import ZONES, units_of, zones
+from postprocess.output import enter, write_figure
+from postprocess.results import ResultsError, Run, read_run, read_table
+
+COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
+STRONG = {1: style.GREEN, 2: style.ORANGE}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", metavar="RUN", help="a run's result folder")
+    parser.add_argument("--out", metavar="FILE.pdf", help="where to write (default: RUN/hysteresis.pdf)")
+    parser.add_argument(
+        "--contact", type=int, default=0, metavar="N", help="in (b) the contact with this number; default 0"
+    )
+    parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
+    parser.add_argument("--slip", action="store_true", help="in (a) less what the bodies give while all of it sticks")
+    style.add_units(parser)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Reads the run, draws it and prints the paths."""
+    chosen = read_run(arguments.folder)
+    with style.look():
+        figure = draw(chosen, units_of(chosen, arguments.units), arguments)
+        paths = write_figure(figure, arguments.out or chosen.path / "hysteresis.pdf")
+    if not arguments.out:
+        enter(chosen.path, [path.name for path in paths])
+    for path in paths:
+        print(path)
+
+
+def last_loop(drag: np.ndarray, shear: np.ndarray) -> tuple[int, int] | None:
+    """First and last step of the last closed loop: the end's force, met before with a turn between; None without."""
+    size = np.ptp(shear)
+    for start in range(len(shear) - 3, -1, -1):
+        between = shear[start : len(shear)]
+        if abs(shear[start] - shear[-1]) <= 1e-3 * size and np.ptp(between) > 0.5 * size:
+            return start, len(shear) - 1
+    return None
+
+
+def flexibility(table: dict) -> float:
+    """Of the bodies along the pull while all of it sticks: the least of all load steps; ResultsError without pull."""
+    drag, shear = np.diff(table["drag"]), np.diff(table["shearForce"])
+    pulls = np.abs(shear) > 1e-6 * np.ptp(table["shearForce"])
+    if not pulls.any():
+        raise ResultsError("series.csv", "has no load step in which the shear force changes")
+    return (drag[pulls] / shear[pulls]).min()
+
+
+def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
+    """The figure, one column of a page wide, or a slide."""
+    table = read_table(chosen.path / "series.csv", COLUMNS, "; run it with friction")
+    figure, (above, below) = style.panels([1.0, 0.9], 2.0 * style.COLUMN, asked.slide)
+    words = "dragged by"
+    if asked.slip:
+        words = "dragged by less what the bodies give"
+        table["drag"] -= flexibility(table) * table["shearForce"]
+    plot_loop(above, table, f"{words} [{units.length}]")
+    if (chosen.path / "slides.csv").exists():
+        plot_zones(below, chosen, asked.contact, len(table["step"]), units)
+    else:
+        plot_shares(below, table)
+    for index, axes in enumerate((above, below)):
+        axes.set_title(style.panel(index), loc="left", fontsize=8)
+    return figure
+
+
+def plot_loop(axes, table: dict, words: str) -> None:
+    drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
+    closed = last_loop(drag, shear)
+    energy = f"dissipated {lost[-1]:.3g}"
+    if closed:
+        first, last = closed
+        axes.fill(drag[first : last + 1], shear[first : last + 1], color=ZONES[2], linewidth=0)
+        energy = f"last loop {lost[last] - lost[first]:.3g}, in all {lost[-1]:.3g}"
+    axes.plot(drag, shear, color=style.BLUE, marker="o", markersize=2.2, markeredgewidth=0)
+    axes.plot(drag[-1], shear[-1], color=style.VERMILION, marker="o", markersize=4, linestyle="none")
+    axes.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
+    axes.axvline(0, color=style.GREY, linewidth=0.5, zorder=0)
+    # an arrow in the middle of each leg
+    for leg in np.unique(table["leg"]):
+        rows = np.flatnonzero(table["leg"] == leg)
+        rows = np.concatenate([[rows[0] - 1], rows]) if rows[0] > 0 else rows
+        way = np.hypot(np.ptp(drag[rows]) / (np.ptp(drag) or 1), np.ptp(shear[rows]) / (np.ptp(shear) or 1))
+        if len(rows) > 1 and way > 0.2:
+            k = rows[len(rows) // 2 - 1]
+            ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
+            axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
+    axes.set_xlabel(words, loc="left")  # the axis' power of ten stands at its right end
+    axes.set_ylabel("shear force")
+    axes.set_title(f"energy: {energy}", loc="right", fontsize=8)
+    axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
+
+
+def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) -> None:
+    """Load step by load step, where one contact sticks and slips."""
+    table = read_table(chosen.path / "slides.csv", "step contact x y slide".split())
+    mine = table["contact"] == contact
+    flat = not mine.any() or np.ptp(table["x"][mine]) >= np.ptp(table["y"][mine])
+    along = table["x" if flat else "y"]
+    for step in range(1, steps + 1):
+        rows = np.flatnonzero(mine & (table["step"] == step))
+        rows = rows[np.argsort(along[rows])]
+        if len(rows):
+            boxes = zones(along[rows], table["slide"][rows])
+            corners = [[(step - 0.5, a), (step + 0.5, a), (step + 0.5, b), (step - 0.5, b)] for a, b, _ in boxes]
+            colours = [STRONG[state] for *_, state in boxes]
+            axes.add_collection(PolyCollection(corners, facecolors=colours, linewidths=0))
+    axes.set_xlim(0.5, steps + 0.5)
+    axes.autoscale(axis="y")
+    axes.margins(y=0.05)
+    axes.set_xlabel("load step")
+    axes.set_ylabel(f"${'x' if flat else 'y'}$ [{units.length}]")
+    axes.legend([Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)], ["sticks", "slips"], **ABOVE)
+
+
+def plot_shares(axes, table: dict) -> None:
+    """In space: the shares of the points in contact that stick and slip."""
+    share = table["stickingPoints"] / np.maximum(table["contactPoints"], 1)
+    steps = table["step"]
+    axes.bar(steps, share, 1.0, color=STRONG[1], linewidth=0, label="sticks")
+    axes.bar(steps, 1 - share, 1.0, bottom=share, color=STRONG[2], linewidth=0, label="slips")
+    axes.set_xlim(steps[0] - 0.5, steps[-1] + 0.5)
+    axes.set_ylim(0, 1)
+    axes.set_xlabel("load step")
+    axes.set_ylabel("share of the points in contact")
+    axes.legend(**ABOVE)
+
+
+ABOVE = {"ncols": 2, "loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}
