@@ -436,9 +436,10 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False
     axes.set_xlabel(style.folded(words, 30 if narrow else 60))
     axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
     if rubs:
-        axes.plot([], [], label="shear", linewidth=0.9, color=style.BLUE if len(seen) == 1 else style.BLACK, **SHEAR)
+        colour = style.curve(min(seen))["color"] if len(seen) == 1 else style.BLACK
+        axes.plot([], [], label="shear", linewidth=0.9, color=colour, **SHEAR)
         above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
-        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 6, "ncols": 1 + (len(seen) == 1)}
+        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 1 + (len(seen) == 1)}
         name_zones(axes, **(under if narrow else above))
         # on a slide there is room below a narrow panel, which is not to be taken from the other ones
         axes.get_legend().set_in_layout(not narrow)

@@ -240,7 +240,16 @@ def test_fold():
     np.testing.assert_array_equal(rows["stability"][after - 1], 0)
 
 
-@pytest.mark.parametrize("mu, most", [(0.05, 42), (1, 92), (2, 138)])
+def test_dissipation_whatever_the_steps():
+    """What a loop dissipates shall not depend on its increments, and be the work done along it."""
+    runs = [run(SPHERE, "-path", "-0.0031 0.0011 -0.0031", "-steps", steps) for steps in (5, 10, 20)]
+    lost = [done.dissipated for done in runs]
+    assert lost == pytest.approx([lost[0]] * 3, rel=1e-4)
+    assert [done.loopWork for done in runs] == pytest.approx(lost, rel=1e-4)
+    assert runs[2].workByForces == pytest.approx(lost[2], rel=0.08)
+
+
+@pytest.mark.parametrize("mu, most", [(0.05, 42), (1, 92), (2, 165)])
 def test_linearisations_of_a_loop(mu, most):
     """Five increments each way shall need few linearisations, C a back-substitution a point."""
     done, *_ = follow(mu)

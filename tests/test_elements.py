@@ -49,7 +49,7 @@ def test_accuracy(order, h, dofs, allowed):
 
 @pytest.mark.parametrize("order", [3, 4])
 def test_smooth_pressures(order):
-    """Inside a hard contact the points' pressures shall scatter little: at evenly spaced nodes they did by 1.8e-2 and 4.8e-3."""
+    """Inside a hard contact the points' pressures shall scatter little: at evenly spaced nodes by 1.8e-2, 4.8e-3."""
     done = run("disc-on-block", "-law", "signorini", "-order", order, "-h", 0.5)
     inside = np.abs(done.contact["x"]) < 3
     x, p = done.contact["x"][inside], done.contact["pressure"][inside]
@@ -87,7 +87,8 @@ LAWS = [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1e-2, 1e6, 1e3
 ABOUT, BESIDE = ["-geometry", "axisymmetric", "-width", 20], ["-offset", 3]
 
 
-COUNTED = [(4, LAWS[0], ABOUT), (3, LAWS[6], ABOUT), (3, LAWS[3], []), (4, LAWS[1], []), (4, LAWS[6], []), (2, LAWS[5], []), (2, LAWS[4], BESIDE)]
+COUNTED = [(3, LAWS[6], ABOUT), (3, LAWS[3], []), (4, LAWS[0], ABOUT)]
+COUNTED += [(4, LAWS[1], []), (4, LAWS[6], []), (2, LAWS[5], []), (2, LAWS[4], BESIDE)]
 WHERE = [([], LAWS), (ABOUT, LAWS[::3]), (BESIDE, LAWS[1::3])]
 EVERY = [(order, law, more) for order in (2, 3, 4) for more, laws in WHERE for law in laws]
 

@@ -4,8 +4,8 @@ import os
 import re
 import signal
 import subprocess
-import time
 import sys
+import time
 
 import numpy as np
 import pytest

@@ -298,7 +298,8 @@ real[int] trace(points);
 overlapOf(a1[], trace);
 tell("trace", trace);
 """
-INSIDE = {1: [], 2: [0], 3: [-np.sqrt(1 / 5), np.sqrt(1 / 5)], 4: [-np.sqrt(3 / 7), 0, np.sqrt(3 / 7)]}  # of an edge from -1 to 1
+# points inside an edge from -1 to 1
+INSIDE = {1: [], 2: [0], 3: [-np.sqrt(1 / 5), np.sqrt(1 / 5)], 4: [-np.sqrt(3 / 7), 0, np.sqrt(3 / 7)]}
 
 
 @pytest.mark.parametrize(
@@ -311,7 +312,7 @@ INSIDE = {1: [], 2: [0], 3: [-np.sqrt(1 / 5), np.sqrt(1 / 5)], 4: [-np.sqrt(3 / 
     ],
 )
 def test_slave_points(tmp_path, order, element, weights):
-    """The points shall be the slave's nodes, of P3 and P4 Lobatto's points, from left to right, with the rules' weights."""
+    """The points shall be the slave's nodes, of P3 and P4 Lobatto's points, from left to right, with the weights."""
     values = told(
         snippet(tmp_path, scene_text("confined-block") + POINTS.replace("ELEMENT", element), *BLOCK, "-order", order)
     )

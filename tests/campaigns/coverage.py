@@ -159,7 +159,7 @@ def measured(folder: Path, round_hole: bool) -> dict:
 
 
 def joined(x: np.ndarray, at: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Values at x: of the cubic through the two points of `at` on either side, linear where one of these is open or not there."""
+    """Values at x: of the cubic through the two points of `at` on either side; linear where one of these is open."""
     found = np.interp(x, at, values)
     first = np.searchsorted(at, x) - 2
     inside = (first >= 0) & (first + 3 < len(at))
@@ -175,7 +175,7 @@ def joined(x: np.ndarray, at: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def profile_error(contact: dict, exact: np.ndarray) -> float:
-    """Relative difference in L2 of the pressures at a run's points to the finer ones, joined by cubics where all are in contact."""
+    """Relative difference in L2 of the pressures at a run's points to the finer ones, joined by cubics."""
     expected = joined(contact["x"], exact[:, 0], exact[:, 1])
     root = np.sqrt(contact["weight"])
     return float(np.linalg.norm(root * (contact["pressure"] - expected)) / np.linalg.norm(root * expected))
