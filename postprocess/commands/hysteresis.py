@@ -66,7 +66,8 @@ def flexibility(table: dict) -> float:
 def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
     """The figure, one column of a page wide, or a slide."""
     table = read_table(chosen.path / "series.csv", COLUMNS, "; run it with friction")
-    figure, (above, below) = style.panels([1.0, 0.9], 2.0 * style.COLUMN, asked.slide)
+    figure, panels = style.sheet([("a", 1.0), ("b", 0.9)], "ab", asked.slide)
+    above, below = panels["a"], panels["b"]
     words = "dragged by"
     if asked.slip:
         words = "dragged by less what the bodies give"
