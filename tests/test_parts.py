@@ -321,7 +321,7 @@ def bodies(folder, mesh, case, *flags, space=False):
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
     script = (ROOT / "edp/parts.edp").read_text().split('include "options/parts/case-file.idp"')[0]
-    head = 'macro threeDimensional() 1 //\nstring scene = "parts-3d";\n' if space else ""
+    head = 'macro threeDimensional() 1 //\nmacro inSpace(do, what) //\nstring scene = "parts-3d";\n' if space else ""
     stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)
     return told(stdout), stdout
 
