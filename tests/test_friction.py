@@ -517,8 +517,9 @@ def test_error_of_the_mesh(tmp_path):
     assert steep.summary["estimates"]["energy"] is None
 
 
-def test_interrupted_path_goes_on(tmp_path):
-    """Killed on the way and begun again: the numbers of a path that was not."""
+def test_interrupted_path_goes_on(tmp_path, monkeypatch):
+    """Killed on the way and begun again: the numbers of a path that was not. Two BLAS threads round anew each time."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
     flags = {"h": 0.4, "friction": 0.3, "legs": "1 0, 1 1, 1 -1", "history": 1, "steps": 8, "vtu": 0, "estimate": 0}
     words = [flag_text(word) for name, value in flags.items() for word in (f"-{name}", value)]
     command = [*FREEFEM, "edp/scenes/fretting-bodies.edp", *words, "-out"]
