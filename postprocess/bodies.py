@@ -7,7 +7,6 @@ bodies in space is in space.py.
 import argparse
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -16,7 +15,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.output import enter, write_figure
+from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, brief, read_run, read_table
 from postprocess.vtu import Grid, Surface, read_grid, read_surface
 
@@ -153,14 +152,10 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
 def write_picture(arguments: argparse.Namespace, name: str, draw: Callable) -> None:
     """Draws one run as the arguments of style.add_picture say, into its own folder by default; prints the paths."""
     chosen = read_run(arguments.folder)
-    out = Path(arguments.out) if arguments.out else chosen.path / f"{name}.pdf"
     with style.look():
         bodies = read_bodies(chosen, arguments.scale)
         figure = draw(bodies, units_of(chosen, arguments.units), arguments.view, arguments.slide)
-        if not arguments.out:
-            enter(chosen.path, [f"{name}.pdf", f"{name}.png"])
-        for path in write_figure(figure, out):
-            print(path)
+        write_own(figure, arguments.out, chosen.path / f"{name}.pdf")
 
 
 def units_of(run: Run, given: tuple[str, str]) -> style.Units:

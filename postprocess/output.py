@@ -18,6 +18,14 @@ def write_figure(figure: Figure, out: Path | str) -> list[Path]:
     return write_figures({Path(out): figure})
 
 
+def write_own(figure: Figure, out: Path | str | None, usual: Path) -> None:
+    """Writes the figure as `out`, or without it as the run's own file `usual`; prints the paths."""
+    if not out:
+        enter(usual.parent, [usual.with_suffix(f".{kind}").name for kind in METADATA])
+    for path in write_figure(figure, out or usual):
+        print(path)
+
+
 def write_figures(figures: dict[Path, Figure]) -> list[Path]:
     """Writes each figure under its name, which ends in .pdf, and as PNG beside it: all of them, or none."""
     writers = {}

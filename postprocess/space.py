@@ -10,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, to_rgb
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.bodies import FILLS, LIGHT, Bodies, far_range, place_words, stress_range
+from postprocess.bodies import FILLS, LIGHT, ZONES, Bodies, far_range, place_words, stress_range
 from postprocess.results import ResultsError
 from postprocess.vtu import Grid, cut
 
@@ -227,6 +227,36 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
     axes.set_xlabel(f"{words[0]} [{units.length}]")
     axes.set_ylabel(f"{words[1]} [{units.length}]")
     return colours
+
+
+def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
+    """What sticks and slips on one contact's surface, and arrows: the shear on the slave. Returns the greatest.
+
+    beside: the panel with the contact's pressure, of which this one shows the same part.
+    """
+    table, touched = bodies.table, bodies.touching(contact)
+    view, _ = facing(pressing(bodies, contact)[1])
+    mine = table["contact"] == contact
+    place, seen = (bodies.points[mine] @ view.T)[:, :2], (bodies.points[touched] @ view.T)[:, :2]
+    state = np.where(touched, table["slide"], 0)[mine].astype(int)
+    shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[touched, :2]
+    greatest = np.linalg.norm(shear, axis=1).max()
+    limits = beside.get_xlim(), beside.get_ylim()
+    # each place is of the state of the point that is next to it
+    right, up = (low + (high - low) * (np.arange(160) + 0.5) / 160 for low, high in limits)
+    nearest = [((right[:, None] - place[:, 0]) ** 2 + (y - place[:, 1]) ** 2).argmin(axis=1) for y in up]
+    colours = np.array([to_rgb(colour) for colour in ("white", *ZONES.values())])
+    box = (*limits[0], *limits[1])
+    axes.imshow(colours[state[np.array(nearest)]], extent=box, origin="lower", interpolation="nearest")
+    length = 0.85 * np.ptp(limits, axis=1).max() / np.sqrt(min(max(len(seen), 16), 250))
+    part = slice(None, None, 1 + len(seen) // 250)
+    arrows = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
+    axes.quiver(*seen[part].T, *(shear[part] / max(greatest, 1e-300) * length).T, pivot="mid", **arrows)
+    axes.set_xlim(limits[0])
+    axes.set_ylim(limits[1])
+    axes.set_xlabel(beside.get_xlabel())
+    axes.set_ylabel(beside.get_ylabel())
+    return greatest
 
 
 def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):

@@ -24,38 +24,23 @@ SMALL = {
 }
 RADIUS, MODULUS = 10, 100 / 0.91
 
+
+def quadrilateral(body, size, corners, names):
+    """gmsh's geometry of one body: corners "x, y" in turn, names of its sides, from the first corner on."""
+    lines = [f"Point({k}) = {{{corner}, 0, {size}}};" for k, corner in enumerate(corners, 1)]
+    lines += [f"Line({k}) = {{{k}, {k % 4 + 1}}};" for k in (1, 2, 3, 4)]
+    lines += ["Curve Loop(1) = {1 : 4};", "Plane Surface(1) = {1};"]
+    lines += [f'Physical Curve("{name}") = {{{k}}};' for k, name in names.items()]
+    return "\n".join([*lines, f'Physical Surface("{body}") = {{1}};\n'])
+
+
 WEDGE = """
 DefineConstant[ slope = {0.3, Name "slope"} ];
 DefineConstant[ size = {0.1, Name "size"} ];
-Point(1) = {0, 0, 0, size};
-Point(2) = {0.5, 0, 0, size};
-Point(3) = {0.5 + slope, 1, 0, size};
-Point(4) = {0, 1, 0, size};
-For k In {1 : 4}
-  Line(k) = {k, k % 4 + 1};
-EndFor
-Curve Loop(1) = {1 : 4};
-Plane Surface(1) = {1};
-Physical Curve("tip") = {1};
-Physical Curve("flank") = {2};
-Physical Curve("head") = {3};
-Physical Curve("mirror") = {4};
-Physical Surface("wedge") = {1};
-"""
-SQUARE = """
-Point(1) = {0, 0, 0, 0.2};
-Point(2) = {1, 0, 0, 0.2};
-Point(3) = {1, 1, 0, 0.2};
-Point(4) = {0, 1, 0, 0.2};
-For k In {1 : 4}
-  Line(k) = {k, k % 4 + 1};
-EndFor
-Curve Loop(1) = {1 : 4};
-Plane Surface(1) = {1};
-Physical Curve("base") = {1};
-Physical Curve("head") = {3};
-Physical Surface("block") = {1};
-"""
+""" + quadrilateral(
+    "wedge", "size", ["0, 0", "0.5, 0", "0.5 + slope, 1", "0, 1"], {1: "tip", 2: "flank", 3: "head", 4: "mirror"}
+)
+SQUARE = quadrilateral("block", 0.2, ["0, 0", "1, 0", "1, 1", "0, 1"], {1: "base", 3: "head"})
 STACK = """
 For k In {0 : 1}
   Point(4 * k + 1) = {0, k, 0};
@@ -120,21 +105,7 @@ Physical Curve("tip") = {6};
 Physical Surface("left") = {1};
 Physical Surface("right") = {2};
 """
-ONE = """
-Point(1) = {0, 0, 0, 0.04};
-Point(2) = {4, 0, 0, 0.04};
-Point(3) = {4, 1, 0, 0.04};
-Point(4) = {0, 1, 0, 0.04};
-For k In {1 : 4}
-  Line(k) = {k, k % 4 + 1};
-EndFor
-Curve Loop(1) = {1 : 4};
-Plane Surface(1) = {1};
-Physical Curve("below") = {1};
-Physical Curve("tip") = {2};
-Physical Curve("wall") = {4};
-Physical Surface("beam") = {1};
-"""
+ONE = quadrilateral("beam", 0.04, ["0, 0", "4, 0", "4, 1", "0, 1"], {1: "below", 2: "tip", 4: "wall"})
 PUNCH = """body lower E 100 nu 0.3
 body upper E 100 nu 0.3
 contact contact master gap vertical law power kappa 1e3 m 3 d0 -0.05 friction 0.3

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, snippet, told
+from test_meshes import read
 
 BALL = """SetFactory("OpenCASCADE"); Sphere(1) = {{0, 0, 0, 1}};
 Mesh.MeshSizeMin = {size}; Mesh.MeshSizeMax = {size}; Mesh.ElementOrder = {order};
@@ -24,19 +25,8 @@ def gmsh(folder, geo, name="a.msh"):
 
 def skin(text):
     """Places of the six nodes of the second-order triangles of a mesh file: corners, middles of sides 1-2, 2-3, 3-1."""
-    lines = iter(text.splitlines())
-    place, faces = {}, []
-    for line in lines:
-        if line == "$Nodes":
-            for _ in range(int(next(lines))):
-                number, *at = next(lines).split()
-                place[int(number)] = np.array(at, float)
-        elif line == "$Elements":
-            for _ in range(int(next(lines))):
-                _, kind, tags, *rest = map(int, next(lines).split())
-                if kind == 9:
-                    faces.append([place[node] for node in rest[tags:]])
-    return np.array(faces)
+    _, place, elements = read(text)
+    return np.array([[place[node] for node in nodes] for _, nodes in elements[9]])
 
 
 def volume_and_area(faces):

@@ -31,9 +31,9 @@ MESHES = {
 }
 
 
-def read(path):
+def read(text):
     """({group number: name}, nodes, {element type: [(group, nodes)]}) of a version 2 file."""
-    lines = iter(path.read_text().splitlines())
+    lines = iter(text.splitlines())
     names, nodes, elements = {}, {}, {}
     for line in lines:
         if line == "$PhysicalNames":
@@ -61,7 +61,7 @@ def made(folder, name, dimension, *numbers):
     path = folder / "a.msh"
     code, stdout = execute(["gmsh", f"-{dimension}", "-v", 0, "-format", "msh22", *flags, source, "-o", path])
     assert code == 0, stdout
-    return read(path)
+    return read(path.read_text())
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.bodies import units_of
-from postprocess.output import enter, write_figure
+from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, read_run, read_table
 
 BASIC = "step fraction".split()
@@ -29,13 +29,8 @@ def run(arguments: argparse.Namespace) -> None:
     """Reads the run, draws its series and prints the paths."""
     chosen = read_run(arguments.folder)
     with style.look():
-        paths = write_figure(
-            drawn(chosen, units_of(chosen, arguments.units).length), arguments.out or chosen.path / "curve.pdf"
-        )
-    if not arguments.out:
-        enter(chosen.path, [path.name for path in paths])
-    for path in paths:
-        print(path)
+        figure = drawn(chosen, units_of(chosen, arguments.units).length)
+        write_own(figure, arguments.out, chosen.path / "curve.pdf")
 
 
 def series(chosen: Run) -> dict:

@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 
 from postprocess import style
 from postprocess.bodies import ZONES, units_of, zones
-from postprocess.output import enter, write_figure
+from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, read_run, read_table
 
 COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
@@ -37,11 +37,7 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     with style.look():
         figure = draw(chosen, units_of(chosen, arguments.units), arguments)
-        paths = write_figure(figure, arguments.out or chosen.path / "hysteresis.pdf")
-    if not arguments.out:
-        enter(chosen.path, [path.name for path in paths])
-    for path in paths:
-        print(path)
+        write_own(figure, arguments.out, chosen.path / "hysteresis.pdf")
 
 
 def last_loop(drag: np.ndarray, shear: np.ndarray) -> tuple[int, int] | None:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.bodies import units_of
-from postprocess.output import enter, write_figure
+from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, read_run, read_table
 
 SIZE = (style.PAGE, 0.42 * style.PAGE)
@@ -31,11 +31,7 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     path = table_of(chosen, arguments.name)
     with style.look():
-        paths = write_figure(drawn(path, units_of(chosen, arguments.units)), arguments.out or path.with_suffix(".pdf"))
-    if not arguments.out:
-        enter(chosen.path, [written.name for written in paths])
-    for written in paths:
-        print(written)
+        write_own(drawn(path, units_of(chosen, arguments.units)), arguments.out, path.with_suffix(".pdf"))
 
 
 def table_of(chosen: Run, name: str | None):

@@ -10,7 +10,6 @@ coloured.
 import argparse
 
 import numpy as np
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -112,36 +111,6 @@ def eye(bodies: Bodies, contact: int, view: tuple | None) -> np.ndarray:
     return space.sight(*(view or space.onto(space.pressing(bodies, contact)[1])))
 
 
-def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
-    """What sticks and slips on one contact's surface, and arrows: the shear on the slave. Returns the greatest.
-
-    beside: the panel with the contact's pressure, of which this one shows the same part.
-    """
-    table, touched = bodies.table, bodies.touching(contact)
-    view, _ = space.facing(space.pressing(bodies, contact)[1])
-    mine = table["contact"] == contact
-    place, seen = (bodies.points[mine] @ view.T)[:, :2], (bodies.points[touched] @ view.T)[:, :2]
-    state = np.where(touched, table["slide"], 0)[mine].astype(int)
-    shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[touched, :2]
-    greatest = np.linalg.norm(shear, axis=1).max()
-    limits = beside.get_xlim(), beside.get_ylim()
-    # each place is of the state of the point that is next to it
-    right, up = (low + (high - low) * (np.arange(160) + 0.5) / 160 for low, high in limits)
-    nearest = [((right[:, None] - place[:, 0]) ** 2 + (y - place[:, 1]) ** 2).argmin(axis=1) for y in up]
-    colours = np.array([to_rgb(colour) for colour in ("white", *drawn.ZONES.values())])
-    box = (*limits[0], *limits[1])
-    axes.imshow(colours[state[np.array(nearest)]], extent=box, origin="lower", interpolation="nearest")
-    length = 0.85 * np.ptp(limits, axis=1).max() / np.sqrt(min(max(len(seen), 16), 250))
-    part = slice(None, None, 1 + len(seen) // 250)
-    arrows = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
-    axes.quiver(*seen[part].T, *(shear[part] / max(greatest, 1e-300) * length).T, pivot="mid", **arrows)
-    axes.set_xlim(limits[0])
-    axes.set_ylim(limits[1])
-    axes.set_xlabel(beside.get_xlabel())
-    axes.set_ylabel(beside.get_ylabel())
-    return greatest
-
-
 def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
     """The pressure on each contact's surface, with friction its shear; then the bodies with these from outside."""
     rubs = "slide" in bodies.table
@@ -155,7 +124,7 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
     for index, (letter, (contact, sheared)) in enumerate(zip(maps, shown, strict=True)):
         words = style.plain(bodies.names[contact])
         if sheared:
-            greatest = map_shear(panels[letter], bodies, contact, panels[maps[index - 1]])
+            greatest = space.map_shear(panels[letter], bodies, contact, panels[maps[index - 1]])
             unit = "" if units.stress == style.Units.stress else f" {units.stress}"
             words = f"{words} shear, up to ${style.number(float(f'{greatest:.3g}'))}${unit}".lstrip()
         else:
