@@ -138,12 +138,14 @@ def ring_stress(r: float, pressure: float, joint: float, outside: float) -> tupl
     return scale * (1 - (outside / r) ** 2), scale * (1 + (outside / r) ** 2)
 
 
-def snap_hook(arm: tuple[float, float], elastic: tuple[float, float], push: float, latch: float) -> tuple[float, float]:
+def snap_hook(
+    arm: tuple[float, float], elastic: tuple[float, float], push: float, latch: float, friction: float = 0
+) -> tuple[float, float]:
     """What pushes a round latch along a hook's ramp of 30 degrees, and the force normal to it, for a unit of width.
 
     arm: length and thickness; elastic: E, nu of plane stress; the latch's radius, its circle at rest on the ramp's
     middle, 2.5 beyond the arm and 0.634 below its lower side. The arm is Timoshenko's beam, the nose rigid, the ramp
-    turns with it.
+    turns with it. Friction drags the hook along its ramp, the way that the latch goes.
     """
     (length, thick), (young, poisson), ramp = arm, elastic, np.pi / 6
     inertia, shear = thick**3 / 12, young / 2 / (1 + poisson)
@@ -155,7 +157,7 @@ def snap_hook(arm: tuple[float, float], elastic: tuple[float, float], push: floa
         turn = 0.0
         for _ in range(50):
             normal = np.array([np.sin(ramp + turn), -np.cos(ramp + turn)])
-            axial, across = -force * normal
+            axial, across = force * (friction * np.array([normal[1], -normal[0]]) - normal)
             at = centre - latch * normal - end
             tip = at[0] * across - at[1] * axial  # the moment at the nose
             turn = (tip * length + across * length**2 / 2) / (young * inertia)
@@ -164,9 +166,12 @@ def snap_hook(arm: tuple[float, float], elastic: tuple[float, float], push: floa
         ) + 1.2 * across * length / shear / thick
         moved = np.array([axial * length / young / thick, rise])
         rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
-        return float((centre - end - moved - rotation @ (middle - end)) @ normal - latch), float(normal[0])
+        along = float(normal[0] - friction * normal[1])
+        return float((centre - end - moved - rotation @ (middle - end)) @ normal - latch), along
 
-    low, high = 0.0, young * thick
+    low, high = 0.0, 1e-9 * young * thick
+    while gap(high)[0] < 0:
+        high *= 2
     for _ in range(200):
         force = (low + high) / 2
         low, high = (force, high) if gap(force)[0] < 0 else (low, force)

@@ -201,9 +201,9 @@ def pressed_head(folder, case, clearance=0.06):
     return [case.first["pressureMax"], case.first["halfWidthMoment"]], [greatest, a]
 
 
-def pushed_hook(folder, case):
+def pushed_hook(folder, case, friction=0):
     """Of the snap hook the force along the latch's way and that on the ramp; a beam's."""
-    return [case.summary["force"], case.first["normalForce"]], forms.snap_hook((17, 3), (2600, 0.35), 0.5, 5)
+    return [case.summary["force"], case.first["normalForce"]], forms.snap_hook((17, 3), (2600, 0.35), 0.5, 5, friction)
 
 
 def joint(folder, case):
@@ -247,6 +247,18 @@ def test_snap_hook(tmp_path):
     assert found == pytest.approx(exact, rel=0.03)
     assert found[0] / found[1] > np.sin(np.pi / 6)  # steeper than at rest
     balanced(case)
+
+
+@pytest.mark.parametrize("friction", [0.1, pytest.param(0.3, marks=pytest.mark.long)])
+def test_snap_hook_with_friction(tmp_path, friction):
+    """Friction bends the arm too: the beam's force on the way in, not that without friction times a factor."""
+    text = (FOLDER / "snap-hook" / "snap-hook.case").read_text().replace("  yield 65", "").replace("ramp 0.01", "ramp 0.05")
+    (tmp_path / "a.case").write_text(text.replace("R 5", f"R 5  friction {friction}"))
+    flags = ("-estimate", "0", "-distance", "exact", "-history", "1", "-steps", "3")
+    case = solve(tmp_path, FOLDER / "snap-hook" / "snap-hook.geo", tmp_path / "a.case", False, *flags)
+    found, exact = pushed_hook(tmp_path, case, friction)
+    assert found == pytest.approx(exact, rel=0.04)
+    assert case.first["stickShare"] == 0
 
 
 def test_bolted_sleeve(tmp_path):

@@ -10,6 +10,7 @@ import time
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, Run, execute, flag_text, run_in, table
+from test_parts import Mesh, block, turn
 
 BLOCK = {"-force": 0, "-shear": 0, "-reach": 8, "-grading": 20, "-u0": 2, "-drag": 1, "-h": 0.25}
 TURNS = "1 0, 1 .05, 1 .2, 1 1, 1 -.2, .5 -.2, 1.25 .3"
@@ -415,10 +416,12 @@ def test_rotation_drags(tmp_path):
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range"),
+        (PUNCH.replace("contact contact master gap vertical", "tie contact master #") + "move pushed 0 -1\n", "not with tie"),
     ],
 )
 def test_refusals_of_a_case(tmp_path, text, words):
-    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", text, expect=10)
+    flags = ("-distance", "exact") if words == "not with tie" else ()
+    run = case(tmp_path, ROOT / "edp/examples/punch/punch.geo", text, *flags, expect=10)
     assert words in run.stdout
 
 
@@ -426,7 +429,7 @@ def test_refusals_of_a_case(tmp_path, text, words):
     ("flags", "words"),
     [
         ({"method": "paper"}, "only with -method xnewton"),
-        ({"distance": "exact"}, "-distance exact: not with friction"),
+        ({"distance": "exact"}, "-distance exact: with friction in own parts only"),
         ({"drag": 1}, "not with -drag"),
         ({"force": 0}, "only with a prescribed -force"),
         ({"legs": "1 0, 1 2 3 4"}, "4 numbers in leg 2"),
@@ -624,3 +627,91 @@ def test_the_campaign_begun(tmp_path, kind):
     command = [sys.executable, "tests/campaigns/friction.py", kind, "--paths", "2", "--out", tmp_path / "steps.csv"]
     code, stdout = execute(command)
     assert code == 0 and " 0 failed" in stdout, stdout
+
+
+# ---------------------------------------------------------------- the true distance
+
+HALF = """
+Point(5) = {-0.5, 1, 0, 0.3};
+Point(6) = {-1.5, 1, 0, 0.3};
+Point(7) = {0.5, 1, 0, 0.3};
+Point(8) = {-0.5, 0, 0, 0.1};
+Circle(5) = {6, 5, 8};
+Circle(6) = {8, 5, 7};
+Line(7) = {7, 5};
+Line(8) = {5, 6};
+Curve Loop(2) = {5 : 8};
+Plane Surface(2) = {2};
+Physical Curve("round") = {5, 6};
+Physical Curve("flat") = {7, 8};
+Physical Surface("disc") = {2};
+"""
+LOW = quadrilateral("block", 0.15, ["-2, -2", "2, -2", "2, 0", "-2, 0"], {1: "base", 3: "top"})
+BOTH = "body block E 100 nu 0.3\nbody disc E {} nu 0.3\n"
+EXACT = ("-distance", "exact")
+
+
+def pressed(legs, shape="circle {} {} R 1", at=(-0.4, 1), matrix=np.eye(3)):
+    """Case: a block and a rigid body, both turned by the matrix; legs: steps and the way of the rigid one."""
+
+    def placed(*x):
+        return [repr(float(v)) for v in (matrix @ [*x, 0])[:2]]
+
+    obstacle = "obstacle top " + shape.format(*placed(*at), *placed(0, 1))
+    lines = ["body block E 100 nu 0.3", "clamp base"]
+    for k, (steps, *way) in enumerate(legs):
+        line = " ".join([obstacle, *(["friction 0.3"] if k == 0 else []), "move", *placed(*way)])
+        lines += [line, f"leg {steps}"] if k == 0 else [f"leg {steps}", line]
+    return "\n".join([*lines, ""])
+
+
+def rows(run, *names):
+    found = series(run)
+    return np.array([np.atleast_1d(found[name]) for name in names])
+
+
+def test_true_distance_of_a_plane_is_the_linear_one(tmp_path):
+    """Pressed and dragged along a rigid plane by half the body's size, block and plane turned and mirrored."""
+    mesh, found = block(Mesh(), (4, 2), (16, 8), (-2, -2)), []
+    for k, (turned, flags) in enumerate([(False, ()), (False, EXACT), (True, EXACT)]):
+        matrix = turn(0.5) @ np.diag([-1.0, 1, 1]) if turned else np.eye(3)
+        (tmp_path / f"{k}.msh").write_text(mesh.text(matrix))
+        text = pressed([(1, 0, -0.05), (2, 1, -0.1), (2, -1, -0.06)], "plane {} {} {} {}", (0, 0), matrix)
+        text = re.sub(r"(plane \S+ \S+) (\S+) (\S+)", lambda m: f"{m[1]} {-float(m[2])!r} {-float(m[3])!r}", text)
+        text = text.replace("clamp base", "clamp bottom")
+        run = case(tmp_path, tmp_path / f"{k}.msh", text, *flags, "-tol", 1e-11)
+        found.append(rows(run, "force", "work", "stored", "dissipated"))
+        found[-1][0] = [run.summary["contacts"][0]["normalForce"]]
+    assert found[1] == pytest.approx(found[0], rel=1e-9)
+    assert found[2] == pytest.approx(found[0], rel=1e-9)
+
+
+def test_drag_over_many_elements(tmp_path):
+    """Over seven elements: a rigid disc and the same as a stiff body, whose surface is the master."""
+    rigid = case(tmp_path, LOW, pressed([(1, 0, -0.05), (2, 0.5, -0.05)], at=(-0.5, 1)), *EXACT)
+    text = BOTH.format(1e7) + "clamp base\ncontact top round friction 0.3\nleg 1\nmove flat 0 -0.05\n"
+    text += "leg 2\nmove flat 0.5 -0.05\n"
+    stiff = case(tmp_path, LOW.replace("Physical Curve", HALF + "Physical Curve", 1), text, *EXACT)
+    for name in ("force", "shearForce", "stored", "dissipated"):
+        assert rows(stiff, name)[0][1:] == pytest.approx(rows(rigid, name)[0][1:], rel=1e-3), name
+
+
+def test_little_friction_with_the_true_distance(tmp_path):
+    """Of a disc that goes far: the frictionless rounds and numbers."""
+    geometry = LOW.replace("Physical Curve", HALF + "Physical Curve", 1)
+    text = BOTH.format(100) + "clamp base\ncontact round top{}\nmove flat 0.5 -0.05\n"
+    flags = (*EXACT, "-history", 1, "-steps", 2, "-tol", 1e-10)
+    one, other = (case(tmp_path, geometry, text.format(words), *flags) for words in ("", " friction 1e-8"))
+    assert one.summary["rounds"] == other.summary["rounds"]
+    assert abs(one.summary["newton"] - other.summary["newton"]) < 0.5 * one.summary["newton"]
+    assert rows(other, "force")[0] == pytest.approx(rows(one, "force")[0], rel=1e-7)
+
+
+def test_work_with_the_true_distance(tmp_path):
+    """What goes in while all of it slides is what friction takes, and a rotation by 1 rad takes bound times way."""
+    run = case(tmp_path, LOW, pressed([(2, 0, -0.05), (6, 0.04, -0.05), (6, 0.4, -0.05)]), *EXACT)
+    work, stored, lost = rows(run, "work", "stored", "dissipated")
+    assert series(run)["stickingPoints"][8] == 0
+    off = np.diff(work - stored - lost)[8:]
+    assert abs(off.sum()) < 1e-3 * (lost[-1] - lost[8])
+    text = BOTH.format(100) + "clamp base\ncontact round top friction 0.3\nleg 2\nmove flat 0 -0.05\n"
