@@ -717,7 +717,7 @@ def test_work_with_the_true_distance(tmp_path):
 
 
 def test_rotation_by_a_radian_drags(tmp_path):
-    """A disc that turns on a block which is pushed up: what is lost is the bound times the way, less what sticks first."""
+    """A disc that turns on a block which is pushed up: what is lost is the bound times the way."""
     geometry = LOW.replace("Physical Curve", HALF + "Physical Curve", 1)
     text = BOTH.format(100) + "contact top round friction 0.3\nleg 4\nmove base 0 0.05\nrotate flat -0.5 1 -1\n"
     run = case(tmp_path, geometry, text, *EXACT)
