@@ -1,7 +1,7 @@
 // multigrid.cpp: a FreeFEM plugin on PETSc: the stiffness of bodies in space, spread over the ranks, solved by multigrid
 // Built by `make mpi`; operator/multigrid.idp is its only user. Needs PETSc 3.14 or newer; runs in FreeFem++ and FreeFem++-mpi.
 // Every rank reads the whole mesh. The nodes are cut into as many boxes as there are ranks; a rank assembles the elements that
-// touch a node of its own, so its rows are complete and no matrix entry is sent. PETSc numbers the nodes rank after rank.
+// touch a node of its own, so its rows are complete and no entry is sent. PETSc numbers the nodes rank after rank.
 // A held node has a projector P onto what it is free to do: the matrix is P K P, and a stiffness of its own along what is held, so
 // that directions which are no axes need no dofs of their own. K's entries at held nodes are kept apart: for the forces of the
 // supports, and for the load of supports that are moved: a load along what is held, a huge stiffness times the way, as the direct
@@ -28,8 +28,6 @@ const int modes = 6;                       // translations and rotations
 // nodes by FreeFEM's number: the rank that owns it, PETSc's number
 std::vector<int> ownerOf, numberOf;
 PetscInt ownNodes = 0, firstNode = 0;
-std::vector<int> elementNode;              // of the rank's elements, by the whole mesh's number: their nodes, -1 else
-std::vector<int> partNode;                 // of the part's nodes: their number in the whole mesh
 std::vector<double> place;                 // coordinates of all nodes, until the matrix is made
 
 Mat K = nullptr;
@@ -196,37 +194,17 @@ long multigridParts(pfes3 * const & space, KN<double> * const & own)
     numberOf.resize(nodes);
     for (int n = 0; n < nodes; n++) numberOf[n] = next[ownerOf[n]]++;
     long count = 0;
-    elementNode.assign((size_t) V.Th.nt * each, -1);
     for (int k = 0; k < V.Th.nt; k++)
     {
         bool mine = false;
         for (int j = 0; j < each; j++) mine = mine || ownerOf[nodeOf(V, k, j)] == rank;
         (*own)[k] = mine;
         count += mine;
-        for (int j = 0; j < each && mine; j++) elementNode[(size_t) k * each + j] = nodeOf(V, k, j);
     }
     return count;
 }
 
 // ---------------------------------------------------------------- the matrix
-
-void wholeNumbers(const FESpace3 & V, const KN<long> & old, std::vector<int> & node)
-// FreeFEM's number in the whole mesh of each node of the part; old: the elements' numbers there.
-{
-    int each = nodesOfElement(V);
-    std::vector<double> at;
-    placeNodes(V, at);
-    node.assign(V.NbOfDF / components, -1);
-    for (int k = 0; k < V.Th.nt; k++)
-        for (int j = 0; j < each; j++)
-        {
-            int n = nodeOf(V, k, j), whole = elementNode[(size_t) (old.N() ? old[k] : k) * each + j];
-            for (int c = 0; c < 3; c++)
-                if (whole < 0 || at[3 * n + c] != place[3 * whole + c])
-                    ExecError("multigrid: a part's element is not the whole's");
-            node[n] = whole;
-        }
-}
 
 long multigridHold(KN<double> * const & released, Matrice_Creuse<double> * const & turning)
 // released: 0 at held dofs; turning: their directions where they are no axes, a column each: the identity elsewhere, empty if all are.
@@ -274,15 +252,13 @@ long multigridHold(KN<double> * const & released, Matrice_Creuse<double> * const
 
 struct Entry { int row, column; double value; };         // FreeFEM's numbers of dofs
 
-template <class Each> void entriesOf(const HashMatrix<int, double> & A, const std::vector<int> & node, Each each)
-// All entries of a matrix, of which half may be stored; node: the part's nodes in the whole mesh, none: it is of the whole.
+template <class Each> void entriesOf(const HashMatrix<int, double> & A, Each each)
+// All entries of a matrix, of which half may be stored.
 {
-    auto whole = [&](int i) { return node.empty() ? i : components * node[i / components] + i % components; };
     for (size_t k = 0; k < A.nnz; k++)
     {
-        int i = whole(A.i[k]), j = whole(A.j[k]);
-        each(Entry{i, j, A.aij[k]});
-        if (A.half && i != j) each(Entry{j, i, A.aij[k]});
+        each(Entry{A.i[k], A.j[k], A.aij[k]});
+        if (A.half && A.i[k] != A.j[k]) each(Entry{A.j[k], A.i[k], A.aij[k]});
     }
 }
 
@@ -308,7 +284,7 @@ template <class Each> void heldTo(const Entry & e, Each each)
     }
 }
 
-void rowsOf(std::vector<std::pair<const HashMatrix<int, double> *, const std::vector<int> *>> parts,
+void rowsOf(const std::vector<const HashMatrix<int, double> *> & parts,
             std::vector<PetscInt> & start, std::vector<PetscInt> & column, std::vector<PetscScalar> & value)
 // The rank's rows, columns in order, out of the matrices' sum; those at held nodes are put aside too.
 {
@@ -318,8 +294,8 @@ void rowsOf(std::vector<std::pair<const HashMatrix<int, double> *, const std::ve
     start.assign(rows + 1, 0);
     for (int pass = 0; pass < 2; pass++)
     {
-        for (auto & part : parts)
-            entriesOf(*part.first, *part.second, [&](const Entry & e)
+        for (auto part : parts)
+            entriesOf(*part, [&](const Entry & e)
             {
                 if (!own(e.row)) return;
                 if (pass == 0 && (holdOf[e.row / components] >= 0 || holdOf[e.column / components] >= 0))
@@ -404,21 +380,20 @@ void setRigidBodies()
     for (int m = 0; m < modes; m++) CHECK(VecDestroy(&motion[m]));
 }
 
-long multigridMatrix(Matrice_Creuse<double> * const & matrix, Matrice_Creuse<double> * const & more, pfes3 * const & space,
-                     KN<long> * const & old)
-// The part's matrix goes to PETSc, and is emptied. more: is added to it, of the whole mesh, may be empty. old: the part's elements in
-// the whole mesh, empty if the part is the whole.
+long multigridMatrix(Matrice_Creuse<double> * const & matrix, Matrice_Creuse<double> * const & more, pfes3 * const & space)
+// The matrix of the rank's elements goes to PETSc, and is emptied. more: is added to it, of all elements, may be empty.
 {
     HashMatrix<int, double> & A = *matrix->pHM();
-    FESpace3 & V = *(FESpace3 *) **space;
-    wholeNumbers(V, *old, partNode);
-    std::vector<int>().swap(elementNode);
+    std::vector<double> at;
+    placeNodes(*(FESpace3 *) **space, at);
+    if (at != place) ExecError("multigrid: the nodes are not those that were cut into parts");
+    apart.clear();
     {
         std::vector<PetscInt> start, column;
         std::vector<PetscScalar> value;
-        const std::vector<int> whole;
-        if (more->pHM() && more->pHM()->nnz > 0) rowsOf({{&A, &partNode}, {more->pHM(), &whole}}, start, column, value);
-        else rowsOf({{&A, &partNode}}, start, column, value);
+        std::vector<const HashMatrix<int, double> *> parts(1, &A);
+        if (more->pHM()) parts.push_back(more->pHM());
+        rowsOf(parts, start, column, value);
         A.resize(0, 0, 0);
         PetscInt rows = components * ownNodes;
         CHECK(MatCreate(PETSC_COMM_WORLD, &K));
@@ -558,22 +533,6 @@ void collect(Vec from, KN_<double> to)
         for (int c = 0; c < components; c++) to[components * n + c] = value[components * numberOf[n] + c];
     CHECK(VecRestoreArrayRead(here, &value));
     CHECK(VecDestroy(&here));
-}
-
-long multigridWhole(KN<double> * const & part, KN<double> * const & whole)
-// Nodal forces of the part, complete at the rank's own nodes: those of the whole, on every rank.
-{
-    double * value;
-    CHECK(VecGetArray(work, &value));
-    for (int n = 0; n < (int) partNode.size(); n++)
-    {
-        PetscInt at = numberOf[partNode[n]] - firstNode;
-        if (at >= 0 && at < ownNodes)
-            for (int c = 0; c < components; c++) value[components * at + c] = (*part)[components * n + c];
-    }
-    CHECK(VecRestoreArray(work, &value));
-    collect(work, *whole);
-    return 0;
 }
 
 long multigridWatch(KN<long> * const & dofs)
@@ -733,10 +692,9 @@ void start()
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
     Global.Add("multigridHold", "(", new OneOperator2_<long, KN<double> *, Matrice_Creuse<double> *>(multigridHold));
     Global.Add("multigridMatrix", "(",
-               new OneOperator4_<long, Matrice_Creuse<double> *, Matrice_Creuse<double> *, pfes3 *, KN<long> *>(multigridMatrix));
+               new OneOperator3_<long, Matrice_Creuse<double> *, Matrice_Creuse<double> *, pfes3 *>(multigridMatrix));
     Global.Add("multigridFloat", "(", new OneOperator1_<long, KNM<double> *>(multigridFloat));
     Global.Add("multigridDiagonal", "(", new OneOperator1_<long, KN<double> *>(multigridDiagonal));
-    Global.Add("multigridWhole", "(", new OneOperator2_<long, KN<double> *, KN<double> *>(multigridWhole));
     Global.Add("multigridSetUp", "(", new OneOperator1_<long, string *>(multigridSetUp));
     Global.Add("multigridWatch", "(", new OneOperator1_<long, KN<long> *>(multigridWatch));
     Global.Add("multigridSolve", "(", new OneOperator3_<long, KN<double> *, double, bool>(multigridSolve));
