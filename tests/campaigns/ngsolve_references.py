@@ -98,7 +98,7 @@ def compliant(problem: Problem, edge: float, refinement: Refinement):
         start = solution.displacement
     x, s = trace(problem, start, lobatto(2 * order + 1), "contact|open")
     half_width = contact_edge(x, s)
-    results = {"force": contact_force(problem, start, 2)}
+    results = {"force": contact_force(solution, 2)}
     results["pressureMax"] = float(problem.kappa * s.ravel()[np.argmin(x)] ** problem.m)
     results["halfWidth"] = half_width
     return results, profile(x, s, half_width, lambda value: problem.kappa * np.maximum(value, 0) ** problem.m)
