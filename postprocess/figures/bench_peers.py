@@ -14,6 +14,7 @@ READ = read_campaign
 CODES = ("this package", "NGSolve")
 COLORS = (style.BLUE, style.VERMILION)
 SHAPES = dict(zip(range(1, 8), style.MARKERS, strict=True))  # by degree
+SCENES = {"sphere-on-block": "sphere, ", "two-cylinders": "two cylinders, ", "pin-in-hole": "pin, "}
 COLUMNS = (
     "script flags status scene kappa m order h forceError secondsBefore "
     "seconds_assembly seconds_factorisation seconds_contact"
@@ -65,7 +66,7 @@ def of(row: Row) -> int:
 
 def name_of(scene: str, kappa: float, m: float) -> str:
     law = rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
-    return "sphere" if scene == "sphere-on-block" else law
+    return SCENES.get(scene, "") + law
 
 
 def draw_code(axes, rows: list[Row], color: str) -> None:

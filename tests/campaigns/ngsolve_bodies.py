@@ -16,10 +16,8 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import netgen.occ as occ
-import ngsolve as ng
 import numpy as np
-from ngsolve_contact import CORNER_RATIO, Problem, ladder
+from ngsolve_contact import CORNER_RATIO, Problem, ladder, ng, occ
 
 REACH = 2.0  # of the cylinders: contact is looked for up to it (length)
 

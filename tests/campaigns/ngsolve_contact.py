@@ -20,14 +20,18 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import netgen.occ as occ
-import ngsolve as ng
 import numpy as np
-from netgen.geom2d import SplineGeometry
-from ngsolve.krylovspace import CGSolver
-from ngsolve.meshes import MakeStructured3DMesh
 from numpy.polynomial import legendre
 from numpy.polynomial.chebyshev import Chebyshev
+
+try:
+    import netgen.occ as occ
+    import ngsolve as ng
+    from netgen.geom2d import SplineGeometry
+    from ngsolve.krylovspace import CGSolver
+    from ngsolve.meshes import MakeStructured3DMesh
+except ImportError as error:
+    sys.exit(f"no NGSolve here ({error}); `make bench-peers` gets it, in an environment of its own")
 
 CORNER_RATIO = 0.2  # of one layer's size to the next towards a clamped corner
 

@@ -74,7 +74,7 @@ PEER_SPACE = [
     ({"order": 3, "mesh": "hexes", "corners": 1, "reuse": 1}, (1.5,)),
 ]
 PEER_SPACE_ENDS = [({"order": 3, "reuse": 1}, (1,))]
-# Stiff: a factorisation a step, for with one that is reused a step takes 80 iterations; circles as told by a coarse run.
+# Stiff: a factorisation a step, for one that is reused takes 80 iterations a step; rims as told by a coarse run.
 PEER_SPACE_STIFF = [({"order": 2, "mesh": "tetrahedra"}, (1,))]
 PEER_SPACE_STIFF_ENDS = [({"order": 2, "start": 2}, (1.5,)), ({"order": 3, "start": 2}, (2, 1.5))]
 PEER_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.4, 0.2))]
