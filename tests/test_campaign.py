@@ -296,7 +296,11 @@ def peer_row(seconds, error, script="edp/main.edp", flags="-h 1", **cells):
     }
     common |= {"status": "converged", "message": "", "ndof": "10", "newton": "3", "kernelNewton": "4"}
     common |= {"seconds_assembly": str(seconds), "seconds_factorisation": "0", "seconds_contact": "0"}
-    return common | {"seconds_mesh": "0.5", "forceError": str(error), "secondsBefore": "", **dict.fromkeys(peers.OTHERS, "")} | cells
+    return (
+        common
+        | {"seconds_mesh": "0.5", "forceError": str(error), "secondsBefore": "", **dict.fromkeys(peers.OTHERS, "")}
+        | cells
+    )
 
 
 def test_report_of_the_peers():

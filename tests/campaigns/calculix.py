@@ -277,14 +277,14 @@ def main() -> int:
     parser.add_argument("--space", action="store_true", help="the ball on a block")
     parser.add_argument("--sizes", type=float, nargs="*", help="of the sides in contact (default: 0.02 0.01; 0.04)")
     parser.add_argument("--penalties", type=float, nargs="*", default=[1e4, 1e5, 1e6, 1e8], help="CalculiX's")
-    parser.add_argument("--finest", type=float, help="sides of the mesh that gives the reference (0.0025; 0.015)")
+    parser.add_argument("--finest", type=float, help="sides of the mesh that gives the reference (0.0025; 0.02)")
     arguments = parser.parse_args()
     space = arguments.space
     sizes = arguments.sizes or ([0.04] if space else [0.02, 0.01])
     if not shutil.which("ccx"):
         parser.error("no ccx here; apt-get install calculix-ccx")
     rows, wanted = [], None
-    for size in (arguments.finest or (0.015 if space else 0.0025), *sizes):
+    for size in (arguments.finest or (0.02 if space else 0.0025), *sizes):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             mesh = meshed(folder, size, space)
