@@ -368,9 +368,11 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 	}
 	@touch $@
 
-bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, into results/bench/
+bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and a part by CalculiX, into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
+	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space; \
+	else echo 'a part in space beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
 
 # Code 1: a run failed or a check did not pass; the figures show it.
 stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffness, meshes, loads and friction, into results/stability/, results/friction/

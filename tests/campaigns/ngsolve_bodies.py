@@ -2,8 +2,8 @@
 
 `python ngsolve_bodies.py -problem two-cylinders -order 4 -h 0.2 -kappa 1e9 -out DIR` writes DIR/summary.json. Exit code
 0 converged, 20 not converged. `ContactBoundary` finds what lies opposite, once: displacements are small, as in the
-package; its forces are a form of their own, beside the elastic one that is assembled once, with static condensation. For
-the rest, Newton's method, start and quadrature are those of ngsolve_contact.py.
+package; its forces are a form of their own, beside the elastic one that is assembled once, with static condensation.
+For the rest, Newton's method, start and quadrature are those of ngsolve_contact.py.
 
 Lengths, forces and pressures are those of the package's scene two-cylinders, and of pin.geo beside this file.
 """
@@ -16,10 +16,8 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import netgen.occ as occ
-import ngsolve as ng
 import numpy as np
-from ngsolve_contact import CORNER_RATIO, Problem, newton
+from ngsolve_contact import CORNER_RATIO, Problem, ladder, ng, occ
 
 REACH = 2.0  # of the cylinders: contact is looked for up to it (length)
 
@@ -84,9 +82,13 @@ class Cylinders(Bodies):
     separation: float = 0.1
     push: float = 0.5
     apart = 1.0
+    scene = "two-cylinders"
 
     def mesh(self, h: float, far: float, layers: int, order: int) -> ng.Mesh:
-        faces = [self.half(0.0, 1, "slave", "clamped", h), self.half(2 * self.R + self.separation, -1, "master", "pushed", h)]
+        faces = [
+            self.half(0.0, 1, "slave", "clamped", h),
+            self.half(2 * self.R + self.separation, -1, "master", "pushed", h),
+        ]
         mesh = ng.Mesh(occ.OCCGeometry(occ.Compound(faces), dim=2).GenerateMesh(maxh=far, grading=0.3))
         if layers:
             mesh.RefineHP(layers, CORNER_RATIO)
@@ -126,7 +128,7 @@ class Cylinders(Bodies):
         flat.Set(ng.CoefficientFunction((0, levels - ng.y)), definedon=space.mesh.Boundaries("slave|master"))
         return flat
 
-    
+
 @dataclass(frozen=True)
 class Pin(Bodies):
     """A pin of radius R around a rigid core, in a hole of a ring that is held outside; gaps along the radius."""
@@ -137,6 +139,7 @@ class Pin(Bodies):
     outside: float = 30.0
     push: float = 0.3
     apart = 1.0
+    scene = "pin-in-hole"
 
     def mesh(self, h: float, far: float, _layers: int, order: int) -> ng.Mesh:
         disc = {r: occ.Circle((0, 0), r).Face() for r in (self.core, self.R, self.R + self.clearance, self.outside)}
@@ -160,7 +163,7 @@ class Pin(Bodies):
         return self.clearance
 
 
-PROBLEMS = {"two-cylinders": Cylinders, "pin-in-hole": Pin}
+PROBLEMS = {problem.scene: problem for problem in (Cylinders, Pin)}
 
 
 def arc(radius: float, level: float, begin: float, end: float):
@@ -175,8 +178,7 @@ def solve(flags: argparse.Namespace) -> dict:
     begin = time.process_time()
     mesh = problem.mesh(flags.h, flags.far, flags.corners, flags.order)
     meshed = time.process_time()
-    first = newton(problem, mesh, 1, tol=1e-3, most=flags.maxNewton) if flags.order > 1 else None
-    solution = newton(problem, mesh, flags.order, first and first.displacement, tol=flags.tol, most=flags.maxNewton)
+    before, solution = ladder(problem, mesh, flags, most=flags.maxNewton)
     used = time.process_time() - meshed
     seconds = {**solution.seconds, "mesh": meshed - begin, "total": time.process_time() - begin}
     seconds["contact"] = used - seconds["assembly"] - seconds["factorisation"]
@@ -187,10 +189,10 @@ def solve(flags: argparse.Namespace) -> dict:
         "converged": converged,
         "message": "" if converged else f"residual {solution.residual:.1e} after {solution.steps} Newton steps",
         "newton": solution.steps,
-        "kernelNewton": first.steps if first else 0,
+        "kernelNewton": sum(each.steps for each in before),
         "adaptations": 1,
-        "factorisations": solution.factorisations + (first.factorisations if first else 0),
-        "backsolves": solution.backsolves + (first.backsolves if first else 0),
+        "factorisations": sum(each.factorisations for each in [*before, solution]),
+        "backsolves": sum(each.backsolves for each in [*before, solution]),
         "ndof": solution.displacement.space.ndof,
         "residual": solution.residual,
         "force": reaction(solution, "slave"),
@@ -218,6 +220,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("-m", type=int, default=3)
     parser.add_argument("-far", type=float, default=2.5, help="greatest element size")
     parser.add_argument("-corners", type=int, default=4, help="layers of geometric refinement to the held corners")
+    parser.add_argument("-start", type=int, choices=[1, 2, 3], default=1, help="degrees solved before, from 1 to it")
     parser.add_argument("-tol", type=float, default=1e-8, help="of the residual, relative to the contact forces")
     parser.add_argument("-maxNewton", type=int, default=200)
     parser.add_argument("-vtu", type=int, default=0, help="has no effect")

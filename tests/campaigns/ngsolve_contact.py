@@ -5,8 +5,10 @@ the plane, DIR/contact.csv. Exit code 0 converged, 20 not converged. Needs the p
 
 It is written as one who knows NGSolve would write it for speed: elasticity is assembled once with static condensation;
 a Newton step assembles the contact boundary alone, adds it to the condensed matrix and factorises that in place, the
-ordering kept; the first iterate is the solution with P1 on the same mesh. `-assembly whole -start 0` is the
-straightforward form of it. Newton's steps are not damped. One thread.
+ordering kept; the first iterate is the solution with P1 on the same mesh, of stiff laws with P1 and then P2, which
+takes a quarter off. `-assembly whole -start 0` is the straightforward form of it. Newton's steps are not damped. The
+quadrature of the contact has 2 p + 1 points an edge: with p to p + 2 of them, Gauss's or Lobatto's, a stiff law's force
+is 3 to 100 times further off. One thread.
 
 Lengths, forces and pressures are those of the package's scenes; pressures are positive in compression.
 """
@@ -18,14 +20,18 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import netgen.occ as occ
-import ngsolve as ng
 import numpy as np
-from netgen.geom2d import SplineGeometry
-from ngsolve.krylovspace import CGSolver
-from ngsolve.meshes import MakeStructured3DMesh
 from numpy.polynomial import legendre
 from numpy.polynomial.chebyshev import Chebyshev
+
+try:
+    import netgen.occ as occ
+    import ngsolve as ng
+    from netgen.geom2d import SplineGeometry
+    from ngsolve.krylovspace import CGSolver
+    from ngsolve.meshes import MakeStructured3DMesh
+except ImportError as error:
+    sys.exit(f"no NGSolve here ({error}); `make bench-peers` gets it, in an environment of its own")
 
 CORNER_RATIO = 0.2  # of one layer's size to the next towards a clamped corner
 
@@ -48,6 +54,10 @@ class Problem:
     gap: float = 0.5
     u0: float = 2.5
     d0: float = -0.25
+
+    @property
+    def scene(self) -> str:
+        return "sphere-on-block" if self.space else "disc-on-block"
 
     @property
     def lame(self) -> tuple[float, float]:
@@ -171,20 +181,44 @@ def graded(h: float, even: float, growth: float, end: float, layers: int, ratio:
 
 def quarter_tetrahedra(problem: Problem, h: float) -> ng.Mesh:
     """A quarter of the block in tetrahedra, size h where contact is looked for."""
-    side, reach, depth = 0.5 * problem.width, problem.reach, problem.depth
-    block = occ.Box((0, 0, 0), (side, side, depth))
+    reach, depth = problem.reach, problem.depth
+    block = quarter(problem)
     below = occ.Box((0, 0, depth - h), (reach, reach, depth))
-    for face in [*block.faces, *below.faces]:
-        face.name = "inner"
-    block = occ.Glue([block - below, below])
+    whole = occ.Glue([block - below, below])
+    name_faces(whole, problem, lambda x, y: max(x, y) < reach, h)
+    return ng.Mesh(occ.OCCGeometry(whole).GenerateMesh(maxh=0.25 * depth, grading=0.4))
+
+
+def quarter_rings(problem: Problem, h: float, radius: float, clamped: float = 0.0) -> ng.Mesh:
+    """The same, contact in a circle of this radius, where the mesh has edges of half the size; clamped: size there."""
+    reach, depth, deep = problem.reach, problem.depth, 0.1 * problem.depth
+    block = quarter(problem)
+    inner, outer = (occ.Cylinder((0, 0, depth - deep), occ.Z, r=each, h=deep) * block for each in (radius, reach))
+    whole = occ.Glue([block - outer, outer - inner, inner])
+    name_faces(whole, problem, lambda x, y: np.hypot(x, y) < 0.9 * reach, h)
+    for edge in whole.edges:
+        x, y, z = edge.center
+        if abs(z - depth) < 1e-9 and abs(edge.mass - 0.5 * np.pi * radius) < 1e-6:
+            edge.maxh = 0.5 * h
+        if clamped and abs(z) < 1e-9 and max(x, y) > 0.5 * problem.width - 1e-9:
+            edge.maxh = clamped
+    return ng.Mesh(occ.OCCGeometry(whole).GenerateMesh(maxh=0.25 * depth, grading=0.4))
+
+
+def quarter(problem: Problem):
+    """A quarter of the block."""
+    return occ.Box((0, 0, 0), (0.5 * problem.width, 0.5 * problem.width, problem.depth))
+
+
+def name_faces(block, problem: Problem, touching, h: float) -> None:
+    """Names the faces of a quarter; those of the top where touching(x, y) are of size h."""
     for face in block.faces:
         x, y, z = face.center
-        name = {(x < 1e-9): "axis x", (y < 1e-9): "axis y", (z < 1e-9): "clamped"}.get(True)
-        top = z > depth - 1e-9
-        face.name = name or ("contact" if top and max(x, y) < reach else "free")
+        top, side = z > problem.depth - 1e-9, max(x, y) > 0.5 * problem.width - 1e-9
+        name = {x < 1e-9: "axis x", y < 1e-9: "axis y", z < 1e-9: "clamped"}.get(True)
+        face.name = name or ("contact" if top and touching(x, y) else "free" if top or side else "inner")
         if face.name == "contact":
             face.maxh = h
-    return ng.Mesh(occ.OCCGeometry(block).GenerateMesh(maxh=0.25 * depth, grading=0.4))
 
 
 # ---------------------------------------------------------------- Newton's method
@@ -291,6 +325,15 @@ def newton(
     return Solution(found, force, steps, error, seconds, assembled - begin + linear, factorised, solves)
 
 
+def ladder(problem, mesh: ng.Mesh, flags: argparse.Namespace, **how) -> tuple[list[Solution], Solution]:
+    """The solutions of degree 1 to flags.start, each the start of the next, and the one of flags.order."""
+    found = []
+    for degree in [*range(1, min(flags.start + 1, flags.order)), flags.order]:
+        tol = flags.tol if degree == flags.order else 1e-3
+        found.append(newton(problem, mesh, degree, found[-1].displacement if found else None, tol=tol, **how))
+    return found[:-1], found[-1]
+
+
 def positions(matrix: ng.BaseMatrix, part: ng.BaseMatrix) -> np.ndarray:
     """Where the stored entries of a part of a sparse matrix stand among those of the whole."""
     _, columns, first = (np.asarray(found) for found in matrix.CSR())
@@ -316,7 +359,7 @@ def on_edges(mesh: ng.Mesh, functions: list, nodes: np.ndarray, where: str) -> l
 
 
 def contact_force(solution: Solution, copies: int) -> float:
-    """What holds the elastic forces, by the solve's own quadrature, times the copies that make a whole of what is meshed.
+    """What holds the elastic forces, by the solve's own quadrature, times the copies that make a whole of the mesh.
 
     It is as good as the energy. An integral of the pressure by other points is not: of a stiff law the pressure between
     those of the quadrature is wrong by the force's own size.
@@ -402,14 +445,15 @@ def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
     begin = time.process_time()
     if not problem.space:
         mesh = plane_mesh(problem, flags.h, min(flags.far, 10 * flags.h), flags.corners, flags.ends)
+    elif flags.ends:
+        mesh = quarter_rings(problem, flags.h, flags.ends, flags.h)
     elif flags.mesh == "hexes":
         mesh = quarter_hexes(problem, flags.h, 1.8, flags.corners)
     else:
         mesh = quarter_tetrahedra(problem, flags.h)
     meshed = time.process_time()
     how = {"whole": flags.assembly == "whole", "reuse": flags.reuse == 1, "most": flags.maxNewton}
-    first = newton(problem, mesh, 1, tol=1e-3, **how) if flags.start and flags.order > 1 else None
-    solution = newton(problem, mesh, flags.order, first and first.displacement, tol=flags.tol, **how)
+    before, solution = ladder(problem, mesh, flags, **how)
     used = time.process_time() - meshed
     seconds = {**solution.seconds, "mesh": meshed - begin, "total": time.process_time() - begin}
     seconds["contact"] = used - seconds["assembly"] - seconds["factorisation"]
@@ -425,10 +469,10 @@ def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
         "converged": converged,
         "message": "" if converged else f"residual {solution.residual:.1e} after {solution.steps} Newton steps",
         "newton": solution.steps,
-        "kernelNewton": first.steps if first else 0,
+        "kernelNewton": sum(each.steps for each in before),
         "adaptations": 1,
-        "factorisations": solution.factorisations + (first.factorisations if first else 0),
-        "backsolves": solution.backsolves + (first.backsolves if first else 0),
+        "factorisations": sum(each.factorisations for each in [*before, solution]),
+        "backsolves": sum(each.backsolves for each in [*before, solution]),
         "ndof": solution.displacement.space.ndof,
         "residual": solution.residual,
         **results,
@@ -451,7 +495,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("-corners", type=int, default=5, help="layers of geometric refinement to the clamped edges")
     parser.add_argument("-ends", type=float, default=0, help="half the contact's width, if known: layers to its ends")
     parser.add_argument("-mesh", choices=["hexes", "tetrahedra"], default="hexes", help="in space")
-    parser.add_argument("-start", type=int, choices=[0, 1], default=1, help="degree of the solution to start from")
+    parser.add_argument("-start", type=int, choices=[0, 1, 2, 3], default=1, help="degrees solved before, from 1 to it")
     parser.add_argument("-assembly", choices=["contact", "whole"], default="contact", help="what every step assembles")
     parser.add_argument("-reuse", type=int, choices=[0, 1], default=0, help="1: one factorisation, then gradients")
     parser.add_argument("-tol", type=float, default=1e-8, help="of the residual, relative to the contact forces")
