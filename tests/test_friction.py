@@ -171,7 +171,15 @@ def test_cattaneo_and_mindlin(tmp_path):
     assert abs(stick.max() - inner) <= cell and abs(stick.min() + inner) <= cell
     root = lambda b: np.sqrt(np.maximum(1 - (x / b) ** 2, 0))  # noqa: E731
     exact = friction * 2 * force / np.pi / half * (root(half) - inner / half * root(inner))
-    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.03
+    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.02
+    # most is of the point beside the edge of what sticks, where the exact one has a vertical tangent: means of elements
+    order = np.argsort(x)
+    ends, shears = x[order][::2], rows["shear"][order]
+    sine = lambda b: np.clip(ends / b, -1, 1)  # noqa: E731
+    area = lambda b: b / 2 * (sine(b) * root(b)[order][::2] + np.arcsin(sine(b)))  # noqa: E731
+    exact = friction * 2 * force / np.pi / half * np.diff(area(half) - inner / half * area(inner)) / np.diff(ends)
+    means = (shears[:-2:2] + 4 * shears[1::2] + shears[2::2]) / 6
+    assert np.sqrt(((means - exact) ** 2).sum() / (exact**2).sum()) < 0.01
     # the loop between -Q and Q
     rate = friction * 2 / np.pi / MODULUS
     left = lambda s: force - s / friction  # noqa: E731
