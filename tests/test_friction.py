@@ -293,6 +293,7 @@ def test_friction_alone_holds_a_block(tmp_path):
         run = case(folder, folder / "mesh.msh", text + f"traction head {vector(0.2, -1)}\n", "-tol", 1e-12)
         contact = run.summary["contacts"][0]
         assert contact["normalForce"] == pytest.approx(2, rel=1e-9)
+        assert run.summary["stored"] == pytest.approx(-run.summary["energy"], rel=2e-3)  # nearly all of it sticks
         assert contact["shearForce"] == pytest.approx(matrix @ [-0.4, 0], abs=1e-9)
         rows = run.contact[np.argsort(run.contact["pressure"])]
         inside = table(run.folder / "line-middle.csv")["vonMises"]
