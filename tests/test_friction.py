@@ -171,7 +171,15 @@ def test_cattaneo_and_mindlin(tmp_path):
     assert abs(stick.max() - inner) <= cell and abs(stick.min() + inner) <= cell
     root = lambda b: np.sqrt(np.maximum(1 - (x / b) ** 2, 0))  # noqa: E731
     exact = friction * 2 * force / np.pi / half * (root(half) - inner / half * root(inner))
-    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.03
+    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.02
+    # most is of the point beside the edge of what sticks, where the exact one has a vertical tangent: means of elements
+    order = np.argsort(x)
+    ends, shears = x[order][::2], rows["shear"][order]
+    sine = lambda b: np.clip(ends / b, -1, 1)  # noqa: E731
+    area = lambda b: b / 2 * (sine(b) * root(b)[order][::2] + np.arcsin(sine(b)))  # noqa: E731
+    exact = friction * 2 * force / np.pi / half * np.diff(area(half) - inner / half * area(inner)) / np.diff(ends)
+    means = (shears[:-2:2] + 4 * shears[1::2] + shears[2::2]) / 6
+    assert np.sqrt(((means - exact) ** 2).sum() / (exact**2).sum()) < 0.01
     # the loop between -Q and Q
     rate = friction * 2 / np.pi / MODULUS
     left = lambda s: force - s / friction  # noqa: E731
@@ -281,12 +289,15 @@ def test_friction_alone_holds_a_block(tmp_path):
         (folder / "mesh.msh").write_text(moved((tmp_path / "a.msh").read_text(), matrix, 1))
         vector = lambda *v, m=matrix: " ".join(repr(float(c)) for c in m @ v)  # noqa: E731
         text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 {vector(0, 1)} friction 0.3\n"
+        text += f"stresses\nline middle {vector(1, 0.01)} {vector(1, 1)}\n"
         run = case(folder, folder / "mesh.msh", text + f"traction head {vector(0.2, -1)}\n", "-tol", 1e-12)
         contact = run.summary["contacts"][0]
         assert contact["normalForce"] == pytest.approx(2, rel=1e-9)
+        assert run.summary["stored"] == pytest.approx(-run.summary["energy"], rel=2e-3)  # nearly all of it sticks
         assert contact["shearForce"] == pytest.approx(matrix @ [-0.4, 0], abs=1e-9)
         rows = run.contact[np.argsort(run.contact["pressure"])]
-        found.append((rows["pressure"], abs(rows["shear"]), abs(rows["slip"]), rows["slide"]))
+        inside = table(run.folder / "line-middle.csv")["vonMises"]
+        found.append((rows["pressure"], abs(rows["shear"]), abs(rows["slip"]), rows["slide"], inside))
     for other in found[1:]:
         for one, two in zip(found[0], other, strict=True):
             assert abs(one - two).max() <= 1e-9 * abs(one).max()
@@ -535,6 +546,10 @@ def test_rotation_drags(tmp_path):
     ("text", "words"),
     [
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
+        (
+            PUNCH + "move pushed 0 -1\nexpand upper 1e-5 10\n",
+            "expand, preload: allowed in edp/parts.edp, without friction",
+        ),
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range"),
         (
