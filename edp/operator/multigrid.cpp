@@ -630,12 +630,12 @@ long multigridField(KN<double> * const & field, const bool & ofCarried)
     return 0;
 }
 
-long multigridDiagonal(KN<double> * const & diagonal)
-// Of the matrix; at held dofs, along their own directions, what holds them.
+long multigridDiagonal(KN<double> * const & diagonal, const bool & holding)
+// Of the matrix; holding: at held dofs, along their own directions, what holds them, else 0.
 {
     CHECK(MatGetDiagonal(K, work));
     collect(work, *diagonal);
-    for (int d = 0; d < (int) heldDof.size(); d++) if (heldDof[d]) (*diagonal)[d] = heldStiffness;
+    for (int d = 0; d < (int) heldDof.size(); d++) if (heldDof[d]) (*diagonal)[d] = holding ? heldStiffness : 0;
     return 0;
 }
 
@@ -694,7 +694,7 @@ void start()
     Global.Add("multigridMatrix", "(",
                new OneOperator3_<long, Matrice_Creuse<double> *, Matrice_Creuse<double> *, pfes3 *>(multigridMatrix));
     Global.Add("multigridFloat", "(", new OneOperator1_<long, KNM<double> *>(multigridFloat));
-    Global.Add("multigridDiagonal", "(", new OneOperator1_<long, KN<double> *>(multigridDiagonal));
+    Global.Add("multigridDiagonal", "(", new OneOperator2_<long, KN<double> *, bool>(multigridDiagonal));
     Global.Add("multigridSetUp", "(", new OneOperator1_<long, string *>(multigridSetUp));
     Global.Add("multigridWatch", "(", new OneOperator1_<long, KN<long> *>(multigridWatch));
     Global.Add("multigridSolve", "(", new OneOperator3_<long, KN<double> *, double, bool>(multigridSolve));
