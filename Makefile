@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -81,7 +81,7 @@ echo "Installing $< into $(VENV)"; \
 	$$pip || { sleep 5; $$pip; }
 endef
 
-setup: $(VENV)/dev.stamp | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
+setup: $(VENV)/dev.stamp try-fast | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
 
 # Installs the Debian packages in $$missing, if any. A failed update is no reason to stop: the lists may be good enough, and if
 # not, the install fails.
@@ -130,9 +130,31 @@ python: | system
 	@test -e $(VENV)/run.stamp || PIP_RETRIES=1 $(MAKE) -s --no-print-directory $(VENV)/run.stamp || \
 	  echo 'no Python for the pictures: make setup says more'
 
+# The plugin that assembles and sorts: put in place once it has been loaded, the .idp that names it last. FreeFEM's program is a
+# prerequisite: a plugin is of one version.
+fast: | system ## build the plugin that assembles and sorts matrices faster, where there is a compiler
+	@$(MAKE) -s --no-print-directory $(BUILD)/fast-plugin.idp
+
+try-fast: | system
+	@if command -v ff-c++ >/dev/null && command -v $${CXX:-g++} >/dev/null; then \
+	  $(MAKE) -s --no-print-directory $(BUILD)/fast-plugin.idp >/dev/null 2>&1 || \
+	  echo 'the plugin of make fast could not be built ($(BUILD)/fast.log): runs go on without it'; fi
+
+$(BUILD)/fast-plugin.idp: edp/operator/fast.cpp $(wildcard /usr/bin/FreeFem++)
+	@rm -rf $(BUILD)/fast-new $@; mkdir -p $(BUILD)/fast-new && cp $< $(BUILD)/fast-new && cd $(BUILD)/fast-new && \
+	echo 'load "./fast"' >try.edp && { ff-c++ fast.cpp && FreeFem++ -nw -v 0 try.edp; } >../fast.log 2>&1 && mv fast.so .. || { \
+	  cd .. && rm -rf fast-new && echo 'the plugin of make fast could not be built: $(BUILD)/fast.log'; exit 1; \
+	}
+	@rm -rf $(BUILD)/fast-new
+	@printf '%s\n' '// written by make fast' 'load "fast"' 'macro fastBuilt() 1 //' >$@
+	@$(NAME_BUILD)
+
 # The plugin for -solver multigrid, on Debian's PETSc or on the one in $(PETSC), which has include/ and lib/ (named on the command
 # line, or the variables PETSC_DIR/PETSC_ARCH of a PETSc of one's own).
 PETSC = $(firstword $(if $(PETSC_DIR),$(PETSC_DIR)/$(PETSC_ARCH)) $(wildcard /usr/lib/petscdir/petsc*/*-linux-gnu-real))
+
+NAME_BUILD = test -z "$(CACHE)" || { cat ~/.freefem++.pref 2>/dev/null; \
+	  printf '%s += "$(BUILD)"\n' loadpath includepath; } >$(BUILD)/.freefem++.pref
 
 mpi: | petsc ## build the plugin for -solver multigrid and several processes: make mpi [PETSC=/its/folder]
 	@$(MAKE) -s --no-print-directory $(BUILD)/multigrid-plugin.idp
@@ -155,8 +177,7 @@ $(BUILD)/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
 	}
 	@rm -rf $(BUILD)/new
 	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
-	@test -z "$(CACHE)" || { cat ~/.freefem++.pref 2>/dev/null; \
-	  printf '%s += "$(BUILD)"\n' loadpath includepath; } >$(BUILD)/.freefem++.pref
+	@$(NAME_BUILD)
 	@echo 'built: -solver multigrid, in scenes in space'
 
 # ---------------------------------------------------------------- runs
@@ -191,7 +212,9 @@ install: ## put scripts, Python commands and the starter stiff-contact below PRE
 	rm -rf "$$share"; mkdir -p "$$share" "$$bin"; \
 	tar -cf - --exclude=__pycache__ --exclude=generated --exclude='*.msh' --exclude='.making-*' \
 	  edp meshes postprocess README.md CHANGELOG.md CITATION.cff LICENSE requirements.txt freefem++.pref | (cd "$$share" && tar -xof -); \
-	test ! -e $(BUILD)/multigrid-plugin.idp || { mkdir "$$share/build"; cp $(BUILD)/multigrid.so $(BUILD)/multigrid-plugin.idp "$$share/build"; }; \
+	for plugin in multigrid fast; do \
+	  test ! -e $(BUILD)/$$plugin-plugin.idp || { mkdir -p "$$share/build"; cp $(BUILD)/$$plugin.so $(BUILD)/$$plugin-plugin.idp "$$share/build"; }; \
+	done; \
 	printf '%s\n' '#!/bin/sh' '# $(NAME): scenes and Python commands of the package from any folder: $(NAME) wavy -h 0.1' \
 	  "CONTACT_STARTER=\$$0 exec sh '$$PREFIX/share/$(NAME)/edp/freefem.sh' \"\$$@\"" >"$$bin/$(NAME)"; \
 	: >"$$share/.installed"; chmod -R a+rX "$$share"; chmod 755 "$$bin/$(NAME)"; \
@@ -345,9 +368,11 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 	}
 	@touch $@
 
-bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, into results/bench/
+bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and a part by CalculiX, into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
+	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space; \
+	else echo 'a part in space beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
 
 # Code 1: a run failed or a check did not pass; the figures show it.
 stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffness, meshes, loads and friction, into results/stability/, results/friction/
@@ -447,5 +472,5 @@ clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))
 
 distclean: clean ## remove the virtual environment and caches as well
-	rm -rf $(dir $(wildcard $(VENV)/run.stamp $(VENV)-peers/run.stamp $(BUILD)/multigrid.log)) .pytest_cache .ruff_cache
+	rm -rf $(dir $(wildcard $(VENV)/run.stamp $(VENV)-peers/run.stamp $(BUILD)/multigrid.log $(BUILD)/fast.log)) .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

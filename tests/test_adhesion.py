@@ -257,12 +257,43 @@ def test_linearisations_of_a_loop(mu, most):
     assert done.backsolves <= done.points + 5
 
 
+def test_error_of_a_path():
+    """What the mesh has a path's numbers off by shall be in their errors, which are no more than some times it."""
+    ends = "-path", "-0.0031 0.0011 -0.0031"
+    told, silent = (run(SPHERE, *ends, "-steps", 5, "-estimate", wanted) for wanted in (1, 0))
+    assert (table(told.folder / "path.csv") == table(silent.folder / "path.csv")).all()
+    # P2, h = 0.005
+    jumps = [
+        {"approach": -0.00162493, "forceBefore": -0.0235411, "forceAfter": -0.0465583, "dissipated": 1.57822e-6},
+        {"approach": -0.00173697, "forceBefore": -0.0355372, "forceAfter": -0.0169113, "dissipated": 1.09669e-6},
+    ]
+    pairs = [(told.pullOff, told.pathErrors["pullOff"], -0.0576604)]
+    pairs += [(told.dissipated, told.pathErrors["dissipated"], 2.67491e-6)]
+    pairs += [(told.force, told.estimates["force"]["error"], -0.00574563)]
+    for jump, error, known in zip(told.jumps, told.pathErrors["jumps"], jumps, strict=True):
+        pairs += [(jump[name], error[name], known[name]) for name in known]
+    shares = [abs(value - known) / error for value, error, known in pairs]
+    assert max(shares) <= 1 and np.median(shares) > 0.2
+    assert told.pathErrors["loopWork"] == pytest.approx(told.pathErrors["dissipated"], rel=1e-6)
+    assert told.pathErrors["notKnown"] == ""
+
+
+def test_accuracy_of_a_law_that_falls(tmp_path):
+    """New meshes shall bring the force to what is asked for, of a law whose tangent is not positive."""
+    given = "-u0", -0.0005, "-accuracy", 1e-3, "-order", 2, "-vtu", 0
+    done = run_in(ROOT, script(SPHERE), *given, out=tmp_path / "out")
+    assert done.accuracy["met"] and abs(done.force / -0.0563099 - 1) <= done.accuracy["reached"] <= 1e-3
+    assert abs(done.halfWidth - 0.1527) <= done.estimates["halfWidth"]["error"] + 1e-4
+
+
 def test_path_of_forces(tmp_path):
     """Prescribed forces shall be met, on the approaches' own curve, and refused by name beyond the least one."""
     given = ["-control", "force", "-steps", 2]
-    done = run(SPHERE, *given, "-path", "0.02 -0.03")
+    done = run(SPHERE, *given, "-path", "0.02 -0.03", "-estimate", 1)
     rows = table(done.folder / "path.csv")
     np.testing.assert_allclose(rows["force"], [0.02, -0.005, -0.03], atol=1e-8)
+    off = abs(done.approach - 0.001046811)  # P2, h = 0.006
+    assert off <= done.estimates["approach"]["error"] < 20 * off
     assert run(SPHERE, "-u0", float(rows["approach"][2])).force == pytest.approx(-0.03, rel=1e-6)
     lost = run(SPHERE, *given, "-path", "0 -0.09", expect=20)
     assert "no stable state carries the force -0.09" in lost.message
@@ -387,6 +418,7 @@ def test_figures_and_movie(tmp_path):
         (["-path", "0 1", "-history", 1], "not with -history 1"),
         (["-path", "0 1 0", "-branch", "unstable"], "not with -branch unstable"),
         (["-branch", "unstable"], "-branch unstable: only with"),
+        (["-path", "0 1", "-accuracy", 0.1], "not with -accuracy"),
         (["-T0", 0, "-method", "paper"], "-T0 0: out of range"),
         (["-h", 0.08], "-h 0.08: a point's body is"),
     ],

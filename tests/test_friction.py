@@ -172,7 +172,15 @@ def test_cattaneo_and_mindlin(tmp_path):
     assert abs(stick.max() - inner) <= cell and abs(stick.min() + inner) <= cell
     root = lambda b: np.sqrt(np.maximum(1 - (x / b) ** 2, 0))  # noqa: E731
     exact = friction * 2 * force / np.pi / half * (root(half) - inner / half * root(inner))
-    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.03
+    assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.02
+    # most is of the point beside the edge of what sticks, where the exact one has a vertical tangent: means of elements
+    order = np.argsort(x)
+    ends, shears = x[order][::2], rows["shear"][order]
+    sine = lambda b: np.clip(ends / b, -1, 1)  # noqa: E731
+    area = lambda b: b / 2 * (sine(b) * root(b)[order][::2] + np.arcsin(sine(b)))  # noqa: E731
+    exact = friction * 2 * force / np.pi / half * np.diff(area(half) - inner / half * area(inner)) / np.diff(ends)
+    means = (shears[:-2:2] + 4 * shears[1::2] + shears[2::2]) / 6
+    assert np.sqrt(((means - exact) ** 2).sum() / (exact**2).sum()) < 0.01
     # the loop between -Q and Q
     rate = friction * 2 / np.pi / MODULUS
     left = lambda s: force - s / friction  # noqa: E731
@@ -265,6 +273,131 @@ def test_turned_mirrored_and_in_other_units(tmp_path):
     for other in found[1:]:
         for one, two in zip(found[0], other, strict=True):
             assert abs(one - two).max() <= 1e-9 * abs(one).max()
+
+
+LYING = quadrilateral("block", 0.25, ["0, 0", "2, 0", "2, 1", "0, 1"], {1: "base", 2: "side", 3: "head"})
+
+
+def test_friction_alone_holds_a_block(tmp_path):
+    """It lies on a plane and is dragged by its head: all of the drag goes through; turned, mirrored: the same."""
+    (tmp_path / "a.geo").write_text(LYING)
+    execute(["gmsh", "-2", "-format", "msh22", "-v", 0, tmp_path / "a.geo", "-o", tmp_path / "a.msh"])
+    turn = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
+    found = []
+    for k, matrix in enumerate([np.eye(2), turn, np.diag([-1.0, 1])]):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        (folder / "mesh.msh").write_text(moved((tmp_path / "a.msh").read_text(), matrix, 1))
+        vector = lambda *v, m=matrix: " ".join(repr(float(c)) for c in m @ v)  # noqa: E731
+        text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 {vector(0, 1)} friction 0.3\n"
+        text += f"stresses\nline middle {vector(1, 0.01)} {vector(1, 1)}\n"
+        run = case(folder, folder / "mesh.msh", text + f"traction head {vector(0.2, -1)}\n", "-tol", 1e-12)
+        contact = run.summary["contacts"][0]
+        assert contact["normalForce"] == pytest.approx(2, rel=1e-9)
+        assert run.summary["stored"] == pytest.approx(-run.summary["energy"], rel=2e-3)  # nearly all of it sticks
+        assert contact["shearForce"] == pytest.approx(matrix @ [-0.4, 0], abs=1e-9)
+        rows = run.contact[np.argsort(run.contact["pressure"])]
+        inside = table(run.folder / "line-middle.csv")["vonMises"]
+        found.append((rows["pressure"], abs(rows["shear"]), abs(rows["slip"]), rows["slide"], inside))
+    for other in found[1:]:
+        for one, two in zip(found[0], other, strict=True):
+            assert abs(one - two).max() <= 1e-9 * abs(one).max()
+
+
+def test_no_equilibrium_is_named(tmp_path):
+    """Dragged by more than friction bears, in the second leg; tipped over."""
+    text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\nleg 1\ntraction head 0 -1\nleg 2\n"
+    run = case(tmp_path, LYING, text + "traction head 0.4 -1\n", expect=20)
+    assert "leg 2: block: along x: no equilibrium: friction and contact bear 75 % of what drives it" in run.message
+    assert "traction head" in run.message
+    last = series(run)
+    assert len(last["leg"]) == 2 and last["shearForce"][1] == pytest.approx(-0.4, rel=1e-6)
+    text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 2\ntraction head 1.1 -1\n"
+    assert "block: rotation" in case(tmp_path, LYING, text, expect=10).stdout
+
+
+JAWS = """
+Point(1) = {0, 0, 0, 0.25};
+Point(2) = {2, 0, 0, 0.25};
+Point(3) = {4, 0, 0, 0.25};
+Point(4) = {4, 1, 0, 0.25};
+Point(5) = {2, 1, 0, 0.25};
+Point(6) = {0, 1, 0, 0.25};
+Point(7) = {0, 1, 0, 0.2};
+Point(8) = {2, 1, 0, 0.2};
+Point(9) = {2, 2, 0, 0.2};
+Point(10) = {0, 2, 0, 0.2};
+For k In {1 : 6}
+  Line(k) = {k, k % 6 + 1};
+EndFor
+For k In {7 : 10}
+  Line(k) = {k, (k - 6) % 4 + 7};
+EndFor
+Curve Loop(1) = {1 : 6};
+Curve Loop(2) = {7 : 10};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Physical Curve("under") = {1};
+Physical Curve("end") = {3};
+Physical Curve("over") = {5};
+Physical Curve("grip") = {7};
+Physical Curve("top") = {9};
+Physical Surface("plate") = {1};
+Physical Surface("jaw") = {2};
+"""
+
+
+@pytest.mark.parametrize(("pull", "code"), [(1.18, 0), pytest.param(1.22, 20, marks=pytest.mark.long)])
+def test_clamped_between_two_jaws(tmp_path, pull, code):
+    """A plate, pressed by 2 from both sides, carries up to 2 mu 2."""
+    text = "body plate E 1000 nu 0.3\nbody jaw E 2000 nu 0.3\nobstacle under plane 0 0 0 1 friction 0.3\n"
+    text += "contact grip over friction 0.3\nforce top 0 -2\nleg 1\ntraction end 0 0\nleg 2\n"
+    run = case(tmp_path, JAWS, text + f"traction end {pull} 0\n", expect=code)
+    if code == 20:
+        assert "plate: along x: no equilibrium" in run.message and "(traction end)" in run.message
+    else:
+        under, over = (contact["shearForce"][0] for contact in run.summary["contacts"])
+        assert over - under == pytest.approx(pull, rel=1e-6) and max(-under, over) <= 0.6
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("friction", [0.2, 0.3, 0.8])
+def test_plank_against_a_wall(tmp_path, friction):
+    """Leaning at 1 rad, its foot on the floor: where statics have an equilibrium it stands, and balances."""
+    turn = np.array([[np.cos(1), -np.sin(1)], [np.sin(1), np.cos(1)]])
+    corners = np.array([[0, 0], [3, 0], [3, 0.3], [0, 0.3]]) @ turn.T
+    text = ["{}, {}".format(*corner) for corner in corners]
+    geometry = quadrilateral("plank", 0.2, text, {4: "foot", 1: "below"})
+    (wall, up), middle = corners[1], corners.mean(0)[0]
+    drags = np.linspace(-1, 1, 2001)  # of the wall
+    presses = (middle - wall * drags) / up  # moments about the foot
+    stands = ((presses >= abs(drags) / friction) & (presses <= friction * (1 - drags))).any()
+    text = f"body plank E 1e4 nu 0.3\nobstacle foot plane 0 0 0 1 friction {friction}\nweight plank 0 {-1 / 0.9}\n"
+    text += f"obstacle below plane {wall} 0 -1 0 friction {friction}\n"
+    run = case(tmp_path, geometry, text, expect=0 if stands else 20)
+    if not stands:
+        assert "no equilibrium" in run.message and "(weight)" in run.message
+        return
+    foot, top = (np.array(contact["force"]) for contact in run.summary["contacts"])
+    assert foot + top == pytest.approx([0, 1], abs=1e-6) and wall * top[1] - up * top[0] == pytest.approx(middle)
+
+
+@pytest.mark.long
+def test_random_loads_on_a_block(tmp_path):
+    """None fails that has an equilibrium: on one flat face friction bears mu N, within the face."""
+    random = np.random.default_rng(3)
+    (tmp_path / "a.geo").write_text(LYING)
+    for _ in range(30):
+        friction, law = random.choice([0.1, 0.3, 0.6, 1.5]), random.choice(["", "law power kappa 1e4 m 2 d0 -0.001 "])
+        (tx, sx), (ty, sy) = random.normal(0, [0.4, 0.3]), random.normal([-1, 0], 0.3)
+        normal, drag = -(2 * ty + sy), 2 * tx + sx
+        at = (2 * ty - 2 * tx + 2 * sy - 0.5 * sx) / -normal
+        text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 {law}friction {friction}\n"
+        text += f"traction head {tx} {ty}\ntraction side {sx} {sy}\n"
+        (tmp_path / "a.case").write_text(text)
+        words = ["-mesh", tmp_path / "a.geo", "-case", tmp_path / "a.case", "-vtu", 0, "-estimate", 0]
+        code, _ = execute([*FREEFEM, "edp/parts.edp", *map(flag_text, [*words, "-out", tmp_path / "out"])])
+        assert (code == 0) == (normal > 0 and abs(drag) <= friction * normal and 0 <= at <= 2), text
 
 
 def test_mirrored_parts_bear_the_opposite_shear(tmp_path):
@@ -414,9 +547,17 @@ def test_rotation_drags(tmp_path):
     ("text", "words"),
     [
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
+        (
+            PUNCH + "move pushed 0 -1\nexpand upper 1e-5 10\n",
+            "expand, preload: allowed in edp/parts.edp, without friction",
+        ),
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range"),
         (PUNCH.replace("contact contact", "tie contact").replace("gap", "#") + "move pushed 0 -1\n", "not with tie"),
+        (
+            PUNCH.replace(" friction 0.3", "") + "leg 1\nmove pushed 0 -1\nleg 1\nmove pushed 0 -2\n",
+            "2 legs without friction",
+        ),
     ],
 )
 def test_refusals_of_a_case(tmp_path, text, words):
@@ -430,9 +571,12 @@ def test_refusals_of_a_case(tmp_path, text, words):
     [
         ({"method": "paper"}, "only with -method xnewton"),
         ({"distance": "exact"}, "-distance exact: with friction in own parts only"),
-        ({"drag": 1}, "not with -drag"),
+        ({"drag": 1, "shear": 1}, "not with -drag"),
+        ({"drag": 1, "geometry": "axisymmetric"}, "a drag across a symmetry"),
         ({"force": 0}, "only with a prescribed -force"),
         ({"legs": "1 0, 1 2 3 4"}, "4 numbers in leg 2"),
+        ({"legs": "-1 0"}, "pulls the bodies apart"),
+        ({"friction": 0, "legs": "1 0, 1 1"}, "only with friction"),
     ],
 )
 def test_refusals(tmp_path, flags, words):
@@ -569,7 +713,7 @@ def test_tie_bears_shear(tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("order", [1, 2, 3])
 def test_tie_reproduces_uniform_tension_in_space(tmp_path, order):
     text = "body low E 100 nu 0.3\nbody up E 100 nu 0.3\ntie foot head\nsymmetry base\n"
     text += "".join(f"symmetry {name}\n" for name in ("lx", "ly", "ux", "uy")) + "traction top 0 0 1\n"

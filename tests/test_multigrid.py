@@ -11,8 +11,10 @@ import subprocess
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
-from freefem import ROOT, environment, execute, flag_text, run, run_in, script, tree
+from freefem import ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
+from test_parts import Mesh, cube, turn_in_space, vector
 
 built = pytest.mark.skipif(
     not (ROOT / "build" / "multigrid-plugin.idp").exists(), reason="the plugin is not built: make mpi"
@@ -116,7 +118,7 @@ REFUSED = [
     (1, "sphere-on-block", ["-solver", "multigrid", "-accuracy", 0.01], "-accuracy"),
     (1, "sphere-on-block", ["-solver", "multigrid", "-order", 4], "-order"),
     (2, "disc-on-block", ["-order", 4], "scenes in space"),
-    (2, "sphere-on-block", [], "-solver direct runs on one process"),
+    (2, "sphere-on-block", ["-solver", "direct"], "-solver direct runs on one process"),
     pytest.param(
         2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa", marks=pytest.mark.long
     ),
@@ -136,8 +138,8 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
 
 @built
 def test_words_reach_several_processes_as_they_are(tmp_path):
-    """No shell shall read the flags of a run on several processes again."""
-    flags = ["-order", 1, "-h", 1.2, "-layers", 1, "-solver", "multigrid", "-vtu", 0, "-estimate", 0]
+    """No shell shall read the flags of a run on several processes again, whose engine needs no flag."""
+    flags = ["-order", 1, "-h", 1.2, "-layers", 1, "-vtu", 0, "-estimate", 0]
     package = tree(tmp_path / "package")
     (package / "build").symlink_to(ROOT / "build")
     code, output = on_ranks(2, script("sphere-on-block"), *flags, "-out", "a b;touch F $(touch F)", cwd=package)
@@ -168,13 +170,71 @@ def test_several_processes_of_freefem_itself(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+STACK = 'body block E 100 nu 0.3\nbody upper E 100 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
+PULLED = STACK + 'clamp "upper left"\nforce "upper right" {}\nweight block {}\n'
+FLOATS = STACK + 'symmetry "upper left"\npressure "upper top" 2\n'
+MOVED = STACK + 'move "upper top" {}\n'
+PARTS = [
+    (FLOATS, [], ["-order", 1], 2),  # grounded, its symmetry across no axis
+    (PULLED, [(0, 0, -1), (0, 0, -1)], ["-order", 2, "-estimate", 1], 1),
+    (MOVED, [(2e-3, 1e-3, -1e-2)], ["-order", 1, "-history", 1, "-steps", 2], 1),
+    (MOVED, [(2e-3, 1e-3, -1e-2)], ["-order", 1, "-distance", "exact"], 2),
+    (MOVED.replace('bottom"', 'bottom" friction 0.3', 1), [(2e-3, 1e-3, -1e-2)], ["-order", 1], 1),
+]
+
+
 @built
-def test_case_is_refused(tmp_path):
-    example = "edp/examples/ball-on-bracket/ball-on-bracket"
-    flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-solver", "multigrid"]
+@pytest.mark.parametrize(
+    "case, ways, flags, ranks",
+    [pytest.param(*PARTS[k], marks=[] if k < 2 else [pytest.mark.long]) for k in range(len(PARTS))],
+)
+def test_case(case, ways, flags, ranks, tmp_path):
+    """Two boxes, turned: the direct engine's pressures, forces and motions, on any number of processes."""
+    matrix = turn_in_space(1)
+    mesh = cube(Mesh(), cells=(4, 4, 3))
+    cube(mesh, cells=(5, 3, 2), at=(0, 0, 1), prefix="upper ", name="upper")
+    (tmp_path / "a.msh").write_text(mesh.text(matrix))
+    (tmp_path / "a.case").write_text(case.format(*(vector(way, matrix, 3) for way in ways)))
+    given = ["-mesh", tmp_path / "a.msh", "-case", tmp_path / "a.case", "-tol", 1e-8, "-vtu", 0, *flags]
+    given += [] if "-estimate" in flags else ["-estimate", 0]
+    handed = "-history" in flags or "exact" in flags or "friction" in case
+    asked = f"scenes/asked/parts-3d-{'friction' if 'friction' in case else 'asked'}"
+    name = f"edp/{asked if handed else 'parts-3d'}.edp"
+    found = []
+    for solver, count in (("direct", 1), ("multigrid", ranks)):
+        code, output = on_ranks(count, name, *given, "-solver", solver, "-out", tmp_path / solver)
+        assert code == 0, output[-2000:]
+        found.append(Run(code, output, tmp_path / solver))
+    one, other = found
+    assert other.summary["iterations"] > 0 == one.summary["iterations"]
+    assert abs(other.newton - one.newton) <= 1
+    assert other.contact["pressure"] == pytest.approx(one.contact["pressure"], abs=1e-6 * one.pressureMax)
+    for a, b in zip(one.summary["contacts"], other.summary["contacts"], strict=True):
+        assert b["force"] == pytest.approx(a["force"], abs=1e-6 * np.linalg.norm(a["force"]))
+    force = np.linalg.norm(one.summary["contacts"][0]["force"])
+    for a, b in zip(one.summary["bodies"], other.summary["bodies"], strict=True):
+        assert b["motion"] == pytest.approx(a["motion"], rel=1e-5, abs=1e-8)
+        assert b["reaction"] == pytest.approx(a["reaction"], abs=1e-5 * force)
+
+
+@built
+def test_case_that_turns_is_refused(tmp_path):
+    (tmp_path / "a.msh").write_text(cube(Mesh()).text())
+    case = "body block E 100 nu 0.3\nobstacle top plane 0 0 1.1 0 0 -1\nrotate bottom 0 0 0 0 0 1 0.01\n"
+    (tmp_path / "a.case").write_text(case)
+    flags = ["-mesh", tmp_path / "a.msh", "-case", tmp_path / "a.case", "-solver", "multigrid"]
     code, output = on_ranks(1, "edp/parts-3d.edp", *flags, "-out", tmp_path / "out")
-    assert code == 10
-    assert said(output) == ["-solver multigrid: not with a case file; allowed: direct"]
+    assert code == 10 and "rotate bottom: not with -solver multigrid; allowed: -solver direct" in said(output)[-1]
+
+
+@built
+@pytest.mark.long
+def test_engine_chosen_by_size(tmp_path):
+    """Beyond 50 000 unknowns of P1 the engine is multigrid, said in one line."""
+    flags = ["-order", 1, "-vtu", 0, "-estimate", 0, "-tol", 1e-3, "-out", tmp_path / "out"]
+    code, output = on_ranks(1, script("sphere-on-block"), "-h", 0.265, *flags)
+    assert code == 0 and output.count("engine: multigrid, for ") == 1, output
+    assert "faster than -solver direct" in output and "their iterations" in output
 
 
 @built

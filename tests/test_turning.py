@@ -1,5 +1,6 @@
 """Bodies that turn by any angle, each solved in axes of its own: as the same mesh drawn turned, as statics."""
 
+import csv
 import itertools
 import json
 from itertools import count
@@ -219,7 +220,14 @@ Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeM
 """
 
 
-def test_hook_in_and_out(solve):
+def series(folder):
+    """A run's load series, by column."""
+    with (folder / "out/series.csv").open() as file:
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
+
+def test_hook_in_and_out(solve, tmp_path):
     """A hook that slides over a bump, on to points that nothing faced at first, shall press, and be free at the end."""
     case = "body hook E 2800 nu 0.39\nbody catch E 2800 nu 0.39\ncontact nose bump\nclamp root\nmove base {} 0\n"
     flags = ("-distance", "exact", "-history", 1, "-estimate", 0)
@@ -227,3 +235,40 @@ def test_hook_in_and_out(solve):
     whole = solve(HOOK, case.format(-4.8), *flags, "-steps", 10)[0]
     assert half["contacts"][0]["normalForce"] > 0.05
     assert abs(whole["contacts"][0]["normalForce"]) < 1e-9
+    steps = series(tmp_path / "1")
+    assert steps["stored energy"][-1] == 0 and steps["move base displacement"][-1] == pytest.approx(4.8)
+    # the force turns round on the bump's top, where most is stored
+    top = steps["stored energy"].argmax()
+    assert steps["move base reaction"][: top + 1].max() > 0 > steps["move base reaction"][top + 1 :].min()
+
+
+def slab(matrix=None):
+    """A thin slab of half a cylinder on one of a block, of boxes of equal sizes, bent."""
+    mesh = cube(Mesh(), size=(5, 0.5, 2), cells=(25, 2, 2), at=(-3, 0, -2), prefix="b")
+    first = len(mesh.nodes)
+    cube(mesh, size=(1, 0.5, 1), cells=(40, 2, 2), prefix="c", name="cylinder")
+    for k, (a, y, c) in enumerate(mesh.nodes[first:]):
+        radius, angle = 2 * (1 - 0.75 * c), (a - 0.5) * np.pi
+        mesh.nodes[first + k] = (-1 + radius * np.sin(angle), y, 2 - radius * np.cos(angle))
+    return mesh.text() if matrix is None else mesh.text(matrix)
+
+
+def test_dragged_in_space(solve, tmp_path):
+    """A cylinder dragged over elements of a block between mirrors: hardly a force, steady energy, turned the same."""
+    case = (
+        "body block E 100 nu 0.3\nbody cylinder E 100 nu 0.3\ncontact btop cbottom interference 0.03\nclamp bbottom\n"
+    )
+    case += "symmetry bleft\nsymmetry bright\nsymmetry cleft\nsymmetry cright\nmove ctop {}\n"
+    flags = ("-distance", "exact", "-history", 1, "-steps", 3, "-order", 1, "-estimate", 0)
+    matrix = rotation(0.8, (1, -2, 0.5))
+    runs = []
+    for number, turned in enumerate((np.eye(3), matrix)):
+        way = " ".join(repr(float(v)) for v in turned @ (0.6, 0, 0))
+        summary, _ = solve(slab(turned), case.format(way), *flags, space=True)
+        runs.append(series(tmp_path / str(number)))
+        assert summary["newton"] <= 8 * 3
+    told, again = runs
+    assert told["stored energy"] == pytest.approx(told["stored energy"].mean(), rel=0.01)
+    assert abs(told["move ctop reaction"]).max() < 3e-3 * told["btop cbottom normal force"].min()
+    for name in ("stored energy", "btop cbottom normal force"):
+        assert again[name] == pytest.approx(told[name], rel=1e-5)

@@ -5,7 +5,7 @@
 #        folder with a file .shared also MESH.of, the geometries' checksum, for there they may be another copy's of the package.
 # Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 130 interrupted.
 # gmsh's own exit code means little: what it wrote is looked at, then moved into place. It ends with its run, however that ends.
-. "${0%/*}/../case/process.sh"
+. "${programs:-${0%/*}/..}/case/process.sh"
 run=$1
 mesh=$2
 geo=$3
@@ -15,12 +15,14 @@ generated=${mesh%/*}
 
 shared=
 test ! -e "$generated/.shared" || shared=$(cat "$meshes"/*.geo | cksum)
-test -s "$mesh" && test -z "$(find "$meshes" -maxdepth 1 -name '*.geo' -newer "$mesh")" \
+newer=
+for file in "$meshes"/*.geo; do test ! "$file" -nt "$mesh" || newer=$file; done
+test -s "$mesh" && test -z "$newer" \
     && { test -z "$shared" || test "$(cat "$mesh.of" 2> /dev/null)" = "$shared"; } && exit 0
 command -v gmsh > /dev/null || exit 3
 place=$meshes
 test ! -e "$generated" || place=$generated
-work=$place/.making-$(uname -n)
+work=$place/.making-$computer
 for left in "$work"-*; do                   # of a run that was killed
     test ! -e "$left" || test -n "$(started "${left##*-}")" || rm -rf "$left"
 done

@@ -10,39 +10,39 @@
 # FOLDER, and the lock .lock-N. The lock with the highest N counts, until it says "done" or the process that it names has ended:
 # nothing needs to take it away after a kill. The next run adds .lock-<N + 1>, which only one can make, and removes the older ones
 # after that.
-. "${0%/*}/process.sh"
+. "${programs:-${0%/*}/..}/case/process.sh"
 run=$1
 task=$2
 folder=$3
 shift 3
 case $folder in *[[:cntrl:]]*) exit 3;; -*) folder=./$folder;; esac
 
+# the number of the newest lock in a folder, in n
 newest()
 {
     n=0
-    for lock in .lock-*; do
-        k=${lock#.lock-}
+    for lock in "$1"/.lock-*; do
+        k=${lock##*/.lock-}
         case $k in '' | *[!0-9]*) ;; *) test "$k" -le "$n" || n=$k;; esac
     done
-    echo "$n"
 }
 
 owner()
 {
-    echo "$1 $(started "$1") $(uname -n)"
+    echo "$1 $(started "$1") $computer"
 }
 
-# whose folder is it? In .run: returns 0 if nobody's (or this run's)
+# whose is the folder $1 by its lock $2? Returns 0 if nobody's (or this run's)
 free()
 {
-    test "$1" -gt 0 || return 0
-    read -r line 2> /dev/null < ".lock-$1"
+    test "$2" -gt 0 || return 0
+    read -r line 2> /dev/null < "$1/.lock-$2"
     if test -z "$line"; then        # its run is just writing it, or was killed there
         sleep 1
-        read -r line 2> /dev/null < ".lock-$1"
+        read -r line 2> /dev/null < "$1/.lock-$2"
     fi
     case $line in '' | done | "$run "*) return 0;; esac
-    test "${line##* }" = "$(uname -n)" || return 6
+    test "${line##* }" = "$computer" || return 6
     test "$line" != "$(owner "${line%% *}")" || return 5
 }
 
@@ -55,11 +55,16 @@ foreign()
 # of the files with these names, those there are must be a run's: in the list, and no links
 known()
 {
+    list=$newline
+    while IFS= read -r name; do list=$list$name$newline; done 2> /dev/null < "$at/.run/.written"
     for name; do
         test -e "$at/$name" || test -h "$at/$name" || continue
-        test ! -h "$at/$name" && grep -qxF -e "$name" "$at/.run/.written" 2> /dev/null || foreign "$name"
+        test ! -h "$at/$name" || foreign "$name"
+        case $list in *"$newline$name$newline"*) ;; *) foreign "$name";; esac
     done
 }
+newline='
+'
 
 # is the folder free, and what is in it of runs alone? .run has a lock or a list, or is empty, and has no links
 look()
@@ -68,11 +73,18 @@ look()
     own=$folder/.run
     if test -h "$own" || test -e "$own"; then
         test ! -h "$own" && test -d "$own" || foreign .run
-        if test -n "$(ls -A "$own" 2> /dev/null)"; then
-            for mark in "$own/.written" "$own"/.lock-*; do test ! -e "$mark" || break; done
-            test -e "$mark" && test -z "$(find "$own" -type l)" || foreign .run
-        fi
-        (cd "$own" 2> /dev/null || exit 4; free "$(newest)") || exit
+        any=
+        mark=
+        for file in "$own"/* "$own"/.[!.]* "$own"/..?*; do
+            test ! -h "$file" || foreign .run
+            test ! -d "$file" || test -z "$(find "$file" -type l)" || foreign .run
+            test ! -e "$file" || any=1
+            case $file in "$own/.written" | "$own"/.lock-*) test ! -e "$file" || mark=1;; esac
+        done
+        test "$any" = "$mark" || foreign .run
+        test -x "$own" || exit 4
+        newest "$own"
+        free "$own" "$n" || exit
     fi
     known summary.json contact.csv history.csv adaptations.csv "$@"
 }
@@ -83,9 +95,13 @@ check)
     there=$folder
     while ! test -e "$there"; do there=$(dirname "$there"); done
     test -d "$there" || exit 4
+    if test "$there" = "$folder"; then
+        test -w "$folder" && test -x "$folder" || exit 4
+        exit 0
+    fi
     new=${folder#"$there"}
     case /$new/ in */../*) new=;; esac
-    try=$there/.try-$(uname -n)-$run
+    try=$there/.try-$computer-$run
     rm -rf "$try" 2> /dev/null
     mkdir "$try" 2> /dev/null || exit 4
     mkdir -p "$try/$new" 2> /dev/null
@@ -94,15 +110,17 @@ check)
     test $code = 0 || exit 4;;
 open)
     look "$@"
-    mkdir -p "$folder/.run" 2> /dev/null && cd "$folder/.run" || exit 4
+    { test -d "$folder/.run" || mkdir -p "$folder/.run" 2> /dev/null; } && cd "$folder/.run" || exit 4
     while :; do
-        last=$(newest)
-        free "$last" || exit
+        newest .
+        last=$n
+        free . "$last" || exit
         mine=$((last + 1))
         if (set -C; : > ".lock-$mine") 2> /dev/null; then
             owner "$run" > ".lock-$mine"
             test -s ".lock-$mine" || { rm -f ".lock-$mine"; exit 7; }
-            test "$(newest)" != $mine || break
+            newest .
+            test "$n" != $mine || break
             rm -f ".lock-$mine"     # there is a higher one, of a run that removed the ones seen here
         else test -e ".lock-$mine" || exit 4
         fi
@@ -126,7 +144,8 @@ open)
     done > .written || exit 7;;
 publish)
     cd "$folder/.run" 2> /dev/null || exit 4
-    mine=$(newest)
+    newest .
+    mine=$n
     read -r whose rest < ".lock-$mine"
     test "$whose" = "$run" || exit 1
     held()                          # a run killed meanwhile has lost the folder to the next one: hands off
@@ -140,11 +159,17 @@ publish)
         exit 1
     }
     # a full disk cuts a file off silently: .ends has how long each was for its writer
-    wc -c -- * 2> /dev/null | awk '
-        NR == FNR { size[$1] = $2; missing++; next }
-        $2 in size { cut += size[$2] != $1; missing--; next }
-        $2 != "total" { cut++ }
-        END { exit cut || missing }' .ends - 2> /dev/null || fail
+    ends=$newline
+    while read -r name size; do ends=$ends$size" "$name$newline; done 2> /dev/null < .ends || fail
+    wc -c -- * 2> /dev/null | (
+        while read -r size name; do
+            case $ends in
+            *"$newline$size $name$newline"*) ends=${ends%%"$newline$size $name$newline"*}$newline${ends#*"$newline$size $name$newline"};;
+            *) test "$name" = total || exit 1;;
+            esac
+        done
+        test "$ends" = "$newline"
+    ) || fail
     at=..
     (known *) || {
         held

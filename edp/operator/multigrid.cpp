@@ -1,13 +1,17 @@
 // multigrid.cpp: a FreeFEM plugin on PETSc: the stiffness of bodies in space, spread over the ranks, solved by multigrid
 // Built by `make mpi`; operator/multigrid.idp is its only user. Needs PETSc 3.14 or newer; runs in FreeFem++ and FreeFem++-mpi.
 // Every rank reads the whole mesh. The nodes are cut into as many boxes as there are ranks; a rank assembles the elements that
-// touch a node of its own, so its rows are complete and no matrix entry is sent. PETSc numbers the nodes rank after rank.
-// Held dofs are taken out of the matrix: their rows and columns are 0 but for the diagonal. The rows' entries are kept apart,
-// for the forces of the supports.
+// touch a node of its own, so its rows are complete and no entry is sent. PETSc numbers the nodes rank after rank.
+// A held node has a projector P onto what it is free to do: the matrix is P K P, and a stiffness of its own along what is held, so
+// that directions which are no axes need no dofs of their own. K's entries at held nodes are kept apart: for the forces of the
+// supports, and for the load of supports that are moved: a load along what is held, a huge stiffness times the way, as the direct
+// engine has it. Bodies that nothing holds are grounded at dofs that are held; their rigid motions are taken from loads and
+// displacements.
 #include "ff++.hpp"
 #include "AFunction_ext.hpp"
 #include <petsc.h>
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <new>
 #include <numeric>
@@ -24,8 +28,6 @@ const int modes = 6;                       // translations and rotations
 // nodes by FreeFEM's number: the rank that owns it, PETSc's number
 std::vector<int> ownerOf, numberOf;
 PetscInt ownNodes = 0, firstNode = 0;
-std::vector<int> elementNode;              // of the rank's elements, by the whole mesh's number: their nodes, -1 else
-std::vector<int> partNode;                 // of the part's nodes: their number in the whole mesh
 std::vector<double> place;                 // coordinates of all nodes, until the matrix is made
 
 Mat K = nullptr;
@@ -34,9 +36,15 @@ Vec load = nullptr, last = nullptr, carried = nullptr, work = nullptr;
 VecScatter toWatched = nullptr;
 Vec watchedValues = nullptr;
 std::vector<int> watched;                  // dofs by FreeFEM's number
-struct HeldEntry { int row, column; double value; };     // PETSc's numbers of dofs
-std::vector<HeldEntry> heldEntries;
-std::vector<PetscInt> heldRows;            // of this rank, from 0
+struct ApartEntry { int row, column; double value; };    // the rank's row, from 0; FreeFEM's number of the dof
+std::vector<ApartEntry> apart;             // K at nodes that are held, or beside one
+typedef std::array<double, 9> Projector;
+std::vector<int> holdOf;                   // of each node: its place in `loose`, -1: it is free
+std::vector<Projector> loose;              // onto what a held node is free to do
+std::vector<char> heldDof;                 // by FreeFEM's number; of a turned node along its own directions
+std::vector<int> ownHeld;                  // the held nodes of this rank
+double heldStiffness = 0;                  // a load over it is how far a held dof is moved
+std::vector<Vec> rigidMotions;             // what nothing holds, orthonormal
 
 // ---------------------------------------------------------------- failures
 
@@ -186,63 +194,123 @@ long multigridParts(pfes3 * const & space, KN<double> * const & own)
     numberOf.resize(nodes);
     for (int n = 0; n < nodes; n++) numberOf[n] = next[ownerOf[n]]++;
     long count = 0;
-    elementNode.assign((size_t) V.Th.nt * each, -1);
     for (int k = 0; k < V.Th.nt; k++)
     {
         bool mine = false;
         for (int j = 0; j < each; j++) mine = mine || ownerOf[nodeOf(V, k, j)] == rank;
         (*own)[k] = mine;
         count += mine;
-        for (int j = 0; j < each && mine; j++) elementNode[(size_t) k * each + j] = nodeOf(V, k, j);
     }
     return count;
 }
 
 // ---------------------------------------------------------------- the matrix
 
-void wholeNumbers(const FESpace3 & V, const KN<long> & old, std::vector<int> & node)
-// FreeFEM's number in the whole mesh of each node of the part; old: the elements' numbers there.
+long multigridHold(KN<double> * const & released, Matrice_Creuse<double> * const & turning)
+// released: 0 at held dofs; turning: their directions where they are no axes, a column each: the identity elsewhere, empty if all are.
 {
-    int each = nodesOfElement(V);
-    std::vector<double> at;
-    placeNodes(V, at);
-    node.assign(V.NbOfDF / components, -1);
-    for (int k = 0; k < V.Th.nt; k++)
-        for (int j = 0; j < each; j++)
+    int nodes = released->N() / components;
+    std::vector<Projector> frame(1, Projector{1, 0, 0, 0, 1, 0, 0, 0, 1});
+    std::vector<int> frameOf(nodes, 0);
+    HashMatrix<int, double> * T = turning->pHM();
+    for (size_t k = 0; T && k < T->nnz; k++)
+    {
+        int i = T->i[k], j = T->j[k], n = i / components;
+        if (i == j && T->aij[k] == 1) continue;
+        if (frameOf[n] == 0)
         {
-            int n = nodeOf(V, k, j), whole = elementNode[(size_t) (old.N() ? old[k] : k) * each + j];
-            for (int c = 0; c < 3; c++)
-                if (whole < 0 || at[3 * n + c] != place[3 * whole + c])
-                    ExecError("multigrid: a part's element is not the whole's");
-            node[n] = whole;
+            frameOf[n] = frame.size();
+            frame.push_back(Projector{});
         }
+        frame[frameOf[n]][3 * (i % components) + j % components] = T->aij[k];
+    }
+    // a column of a turned node may be an axis
+    for (size_t k = 0; T && k < T->nnz; k++)
+        if (T->i[k] == T->j[k] && frameOf[T->i[k] / components])
+            frame[frameOf[T->i[k] / components]][4 * (T->i[k] % components)] = T->aij[k];
+    holdOf.assign(nodes, -1);
+    loose.clear();
+    heldDof.assign(released->N(), 0);
+    for (int n = 0; n < nodes; n++)
+    {
+        const Projector & t = frame[frameOf[n]];
+        Projector P{};
+        bool held = false;
+        for (int b = 0; b < components; b++)
+        {
+            bool moves = (*released)[components * n + b] != 0;
+            held = held || !moves;
+            heldDof[components * n + b] = !moves;
+            for (int c = 0; c < 9 && moves; c++) P[c] += t[3 * (c / 3) + b] * t[3 * (c % 3) + b];
+        }
+        if (!held) continue;
+        holdOf[n] = loose.size();
+        loose.push_back(P);
+    }
+    return loose.size();
 }
 
-void rowsOf(const HashMatrix<int, double> & A, const std::vector<int> & node, const KN<double> & released,
+struct Entry { int row, column; double value; };         // FreeFEM's numbers of dofs
+
+template <class Each> void entriesOf(const HashMatrix<int, double> & A, Each each)
+// All entries of a matrix, of which half may be stored.
+{
+    for (size_t k = 0; k < A.nnz; k++)
+    {
+        each(Entry{A.i[k], A.j[k], A.aij[k]});
+        if (A.half && A.i[k] != A.j[k]) each(Entry{A.j[k], A.i[k], A.aij[k]});
+    }
+}
+
+template <class Each> void heldTo(const Entry & e, Each each)
+// What an entry adds to P K P and along what is held: its own diagonal, of a turned node what fills the diagonal by a mean.
+{
+    int n = e.row / components, m = e.column / components, a = e.row % components, b = e.column % components;
+    const Projector * P = holdOf[n] < 0 ? nullptr : &loose[holdOf[n]], * Q = holdOf[m] < 0 ? nullptr : &loose[holdOf[m]];
+    for (int c = P ? 0 : a; c <= (P ? components - 1 : a); c++)
+        for (int d = Q ? 0 : b; d <= (Q ? components - 1 : b); d++)
+        {
+            double share = (P ? (*P)[3 * c + a] : 1.) * (Q ? (*Q)[3 * b + d] : 1.);
+            if (share != 0) each(Entry{components * n + c, components * m + d, share * e.value});
+        }
+    if (e.row != e.column || !P) return;
+    bool axes = true;
+    for (int c = 0; c < 9; c++) axes = axes && ((*P)[c] == 0 || (c % 4 == 0 && (*P)[c] == 1));
+    for (int c = 0; c < 9; c++)
+    {
+        double share = (c % 4 == 0) - (*P)[c];
+        if (share != 0 && (!axes || c == 4 * a))
+            each(Entry{components * n + c / 3, components * n + c % 3, share * e.value / (axes ? 1 : components)});
+    }
+}
+
+void rowsOf(const std::vector<const HashMatrix<int, double> *> & parts,
             std::vector<PetscInt> & start, std::vector<PetscInt> & column, std::vector<PetscScalar> & value)
-// The rank's rows, columns in order, out of the elements' matrix, all or half of it stored; held dofs' are put aside.
+// The rank's rows, columns in order, out of the matrices' sum; those at held nodes are put aside too.
 {
     PetscInt first = components * firstNode, rows = components * ownNodes;
-    auto number = [&](int i) { return components * numberOf[node[i / components]] + i % components; };
-    auto freed = [&](int i) { return released[components * node[i / components] + i % components] != 0; };
+    auto number = [&](int i) { return components * numberOf[i / components] + i % components; };
+    auto own = [&](int i) { PetscInt r = number(i) - first; return r >= 0 && r < rows; };
     start.assign(rows + 1, 0);
     for (int pass = 0; pass < 2; pass++)
     {
-        for (size_t k = 0; k < A.nnz; k++)
-            for (int turned = 0; turned < (A.half && A.i[k] != A.j[k] ? 2 : 1); turned++)
+        for (auto part : parts)
+            entriesOf(*part, [&](const Entry & e)
             {
-                int i = turned ? A.j[k] : A.i[k], j = turned ? A.i[k] : A.j[k];
-                PetscInt row = number(i) - first;
-                if (row < 0 || row >= rows) continue;
-                if (!freed(i) && pass == 0) heldEntries.push_back({(int) (row + first), (int) number(j), A.aij[k]});
-                if (i != j && !(freed(i) && freed(j))) continue;
-                if (pass == 0) start[row + 1]++;
-                else
+                if (!own(e.row)) return;
+                if (pass == 0 && (holdOf[e.row / components] >= 0 || holdOf[e.column / components] >= 0))
+                    apart.push_back({(int) (number(e.row) - first), e.column, e.value});
+                heldTo(e, [&](const Entry & h)
                 {
-                    column[start[row]] = number(j);
-                    value[start[row]++] = A.aij[k];
-                }
-            }
+                    PetscInt row = number(h.row) - first;
+                    if (pass == 0) start[row + 1]++;
+                    else
+                    {
+                        column[start[row]] = number(h.column);
+                        value[start[row]++] = h.value;
+                    }
+                });
+            });
         if (pass == 0)
         {
             std::partial_sum(start.begin(), start.end(), start.begin());
@@ -253,16 +321,25 @@ void rowsOf(const HashMatrix<int, double> & A, const std::vector<int> & node, co
     for (PetscInt r = rows; r > 0; r--) start[r] = start[r - 1];
     start[0] = 0;
     std::vector<std::pair<PetscInt, PetscScalar>> entries;
+    PetscInt used = 0;
     for (PetscInt r = 0; r < rows; r++)
     {
         entries.clear();
         for (PetscInt k = start[r]; k < start[r + 1]; k++) entries.emplace_back(column[k], value[k]);
         std::sort(entries.begin(), entries.end());
-        for (PetscInt k = start[r]; k < start[r + 1]; k++) std::tie(column[k], value[k]) = entries[k - start[r]];
+        start[r] = used;
+        for (size_t k = 0; k < entries.size(); k++)
+        {
+            if (k > 0 && entries[k].first == entries[k - 1].first) value[used - 1] += entries[k].second;
+            else std::tie(column[used], value[used]) = entries[k], used++;
+        }
     }
+    start[rows] = used;
+    column.resize(used);
+    value.resize(used);
 }
 
-void setRigidBodies(const KN<double> & released)
+void setRigidBodies()
 // What the coarse levels must carry: rigid motions. Taking out the held dofs gains nothing.
 {
     Vec motion[modes];
@@ -279,8 +356,6 @@ void setRigidBodies(const KN<double> & released)
         const double * p = &place[3 * n];
         for (int c = 0; c < 3; c++)
         {
-            bool moves = released[3 * n + c] != 0;
-            if (!moves) heldRows.push_back(3 * at + c);
             for (int m = 0; m < 3; m++) value[m][3 * at + c] = c == m;
             // about axis m: e_m x p
             for (int m = 0; m < 3; m++)
@@ -305,18 +380,20 @@ void setRigidBodies(const KN<double> & released)
     for (int m = 0; m < modes; m++) CHECK(VecDestroy(&motion[m]));
 }
 
-long multigridMatrix(Matrice_Creuse<double> * const & matrix, pfes3 * const & space, KN<long> * const & old,
-                     KN<double> * const & released)
-// The part's matrix goes to PETSc, and is emptied. old: the part's elements in the whole mesh, empty if the part is the whole.
+long multigridMatrix(Matrice_Creuse<double> * const & matrix, Matrice_Creuse<double> * const & more, pfes3 * const & space)
+// The matrix of the rank's elements goes to PETSc, and is emptied. more: is added to it, of all elements, may be empty.
 {
     HashMatrix<int, double> & A = *matrix->pHM();
-    FESpace3 & V = *(FESpace3 *) **space;
-    wholeNumbers(V, *old, partNode);
-    std::vector<int>().swap(elementNode);
+    std::vector<double> at;
+    placeNodes(*(FESpace3 *) **space, at);
+    if (at != place) ExecError("multigrid: the nodes are not those that were cut into parts");
+    apart.clear();
     {
         std::vector<PetscInt> start, column;
         std::vector<PetscScalar> value;
-        rowsOf(A, partNode, *released, start, column, value);
+        std::vector<const HashMatrix<int, double> *> parts(1, &A);
+        if (more->pHM()) parts.push_back(more->pHM());
+        rowsOf(parts, start, column, value);
         A.resize(0, 0, 0);
         PetscInt rows = components * ownNodes;
         CHECK(MatCreate(PETSC_COMM_WORLD, &K));
@@ -332,7 +409,13 @@ long multigridMatrix(Matrice_Creuse<double> * const & matrix, pfes3 * const & sp
     CHECK(VecDuplicate(last, &work));
     CHECK(VecSet(carried, 0));
     CHECK(VecSet(last, 0));
-    setRigidBodies(*released);
+    setRigidBodies();
+    ownHeld.clear();
+    for (int n = 0; n < (int) numberOf.size(); n++)
+        if (holdOf[n] >= 0 && numberOf[n] >= firstNode && numberOf[n] < firstNode + ownNodes) ownHeld.push_back(n);
+    CHECK(MatGetDiagonal(K, work));
+    CHECK(VecMax(work, nullptr, &heldStiffness));
+    heldStiffness *= 1e20;
     std::vector<double>().swap(place);
     std::vector<int>().swap(ownerOf);
     return components * ownNodes;
@@ -364,7 +447,7 @@ PetscInt numberOfDof(int dof)
 }
 
 void spread(const KN_<double> & from, Vec to)
-// A field at FreeFEM's dofs, the same on every rank, into PETSc's vector; 0 at held dofs.
+// A field at FreeFEM's dofs, the same on every rank, into PETSc's vector.
 {
     double * value;
     CHECK(VecGetArray(to, &value));
@@ -374,8 +457,58 @@ void spread(const KN_<double> & from, Vec to)
         if (at >= 0 && at < ownNodes)
             for (int c = 0; c < components; c++) value[components * at + c] = from[components * n + c];
     }
-    for (PetscInt row : heldRows) value[row] = 0;
     CHECK(VecRestoreArray(to, &value));
+}
+
+void letGo(Vec v)
+// What held nodes are free to do remains.
+{
+    double * value;
+    CHECK(VecGetArray(v, &value));
+    for (int n : ownHeld)
+    {
+        double * at = value + components * (numberOf[n] - firstNode);
+        const Projector & P = loose[holdOf[n]];
+        const double x = at[0], y = at[1], z = at[2];
+        for (int c = 0; c < components; c++) at[c] = P[3 * c] * x + P[3 * c + 1] * y + P[3 * c + 2] * z;
+    }
+    CHECK(VecRestoreArray(v, &value));
+}
+
+void balance(Vec v)
+{
+    for (Vec motion : rigidMotions)
+    {
+        PetscScalar share;
+        CHECK(VecDot(v, motion, &share));
+        CHECK(VecAXPY(v, -share, motion));
+    }
+}
+
+void heldPart(const KN_<double> & field, std::vector<double> & part)
+// At all held nodes what is along what is held; of the others nothing is looked at.
+{
+    for (int n = 0; n < (int) holdOf.size(); n++)
+        if (holdOf[n] >= 0)
+            for (int c = 0; c < components; c++)
+            {
+                part[components * n + c] = field[components * n + c];
+                for (int d = 0; d < components; d++)
+                    part[components * n + c] -= loose[holdOf[n]][3 * c + d] * field[components * n + d];
+            }
+}
+
+long multigridFloat(KNM<double> * const & motions)
+// ndof x n, orthonormal: what nothing holds.
+{
+    for (Vec & motion : rigidMotions) CHECK(VecDestroy(&motion));
+    rigidMotions.assign(motions->M(), nullptr);
+    for (int m = 0; m < motions->M(); m++)
+    {
+        CHECK(VecDuplicate(load, &rigidMotions[m]));
+        spread((*motions)(':', m), rigidMotions[m]);
+    }
+    return rigidMotions.size();
 }
 
 Vec gathered(Vec from)
@@ -402,22 +535,6 @@ void collect(Vec from, KN_<double> to)
     CHECK(VecDestroy(&here));
 }
 
-long multigridWhole(KN<double> * const & part, KN<double> * const & whole)
-// Nodal forces of the part, complete at the rank's own nodes: those of the whole, on every rank.
-{
-    double * value;
-    CHECK(VecGetArray(work, &value));
-    for (int n = 0; n < (int) partNode.size(); n++)
-    {
-        PetscInt at = numberOf[partNode[n]] - firstNode;
-        if (at >= 0 && at < ownNodes)
-            for (int c = 0; c < components; c++) value[components * at + c] = (*part)[components * n + c];
-    }
-    CHECK(VecRestoreArray(work, &value));
-    collect(work, *whole);
-    return 0;
-}
-
 long multigridWatch(KN<long> * const & dofs)
 // The dofs whose displacements every rank is told of after a solve.
 {
@@ -437,12 +554,46 @@ long multigridWatch(KN<long> * const & dofs)
 
 long multigridSolve(KN<double> * const & forces, const double & tolerance, const bool & go)
 // K u = forces, |residual| <= tolerance |forces|; go: from the displacement that is carried along, which the solution replaces.
-// Forces on held dofs are left out. Returns the iterations, -1 without convergence.
+// Forces along what is held move it. Returns the iterations, -1 without convergence.
 {
+    Vec u = go ? carried : last;
     spread(*forces, load);
+    balance(load);
+    letGo(load);
+    std::vector<double> moved;
+    double way = 0, greatest;
+    CHECK(VecNorm(load, NORM_INFINITY, &greatest));
+    if (!loose.empty())
+    {
+        moved.assign(forces->N(), 0.);
+        heldPart(*forces, moved);
+        for (double & x : moved) x /= heldStiffness;
+        for (double x : moved) way = std::max(way, std::abs(x));
+    }
+    // less is what the supports take of other forces
+    bool moves = way * heldStiffness > 1e8 * greatest;
+    if (moves)
+    {
+        CHECK(VecSet(work, 0));
+        double * f;
+        CHECK(VecGetArray(work, &f));
+        for (const ApartEntry & e : apart) f[e.row] -= e.value * moved[e.column];
+        CHECK(VecRestoreArray(work, &f));
+        letGo(work);
+        CHECK(VecAXPY(load, 1, work));
+    }
+    if (go) letGo(u);
     CHECK(KSPSetTolerances(solver, tolerance, 1e-300, 1e10, 2000));
     CHECK(KSPSetInitialGuessNonzero(solver, go ? PETSC_TRUE : PETSC_FALSE));
-    CHECK(KSPSolve(solver, load, go ? carried : last));
+    CHECK(KSPSolve(solver, load, u));
+    if (moves)
+    {
+        double * value;
+        CHECK(VecGetArray(u, &value));
+        for (int n : ownHeld)
+            for (int c = 0; c < components; c++) value[components * (numberOf[n] - firstNode) + c] += moved[components * n + c];
+        CHECK(VecRestoreArray(u, &value));
+    }
     KSPConvergedReason why;
     PetscInt count;
     CHECK(KSPGetConvergedReason(solver, &why));
@@ -450,10 +601,20 @@ long multigridSolve(KN<double> * const & forces, const double & tolerance, const
     return why > 0 ? count : -1;
 }
 
+Vec balanced(bool ofCarried)
+// The displacement without what nothing holds: grounded dofs move then too.
+{
+    Vec from = ofCarried ? carried : last;
+    if (rigidMotions.empty()) return from;
+    CHECK(VecCopy(from, work));
+    balance(work);
+    return work;
+}
+
 long multigridWatched(KN<double> * const & field, const bool & ofCarried)
 // The displacement at the watched dofs, the others of the field are left as they are.
 {
-    Vec from = ofCarried ? carried : last;
+    Vec from = balanced(ofCarried);
     CHECK(VecScatterBegin(toWatched, from, watchedValues, INSERT_VALUES, SCATTER_FORWARD));
     CHECK(VecScatterEnd(toWatched, from, watchedValues, INSERT_VALUES, SCATTER_FORWARD));
     const double * value;
@@ -465,7 +626,16 @@ long multigridWatched(KN<double> * const & field, const bool & ofCarried)
 
 long multigridField(KN<double> * const & field, const bool & ofCarried)
 {
-    collect(ofCarried ? carried : last, *field);
+    collect(balanced(ofCarried), *field);
+    return 0;
+}
+
+long multigridDiagonal(KN<double> * const & diagonal, const bool & holding)
+// Of the matrix; holding: at held dofs, along their own directions, what holds them, else 0.
+{
+    CHECK(MatGetDiagonal(K, work));
+    collect(work, *diagonal);
+    for (int d = 0; d < (int) heldDof.size(); d++) if (heldDof[d]) (*diagonal)[d] = holding ? heldStiffness : 0;
     return 0;
 }
 
@@ -478,19 +648,37 @@ long multigridCarry(const double & share)
 }
 
 long multigridForces(KN<double> * const & field, KN<double> * const & forces)
-// K u with the rows of held dofs: the forces on the supports; u is 0 there.
+// K u, as if nothing held the bodies.
 {
     spread(*field, work);
+    letGo(work);
     CHECK(MatMult(K, work, load));
-    Vec here = gathered(work);
-    const double * u;
+    std::vector<double> moved(field->N(), 0.), held(components * ownNodes, 0.);
+    heldPart(*field, moved);
+    // P K P u is there; rows of held nodes lack (1 - P) K u, and all what the ways of held ones do
     double * f;
-    CHECK(VecGetArrayRead(here, &u));
+    CHECK(VecSet(work, 0));
+    CHECK(VecGetArray(work, &f));
+    for (const ApartEntry & e : apart)
+    {
+        held[e.row] += e.value * (*field)[e.column];
+        f[e.row] += e.value * moved[e.column];
+    }
+    CHECK(VecRestoreArray(work, &f));
+    letGo(work);
+    CHECK(VecAXPY(load, 1, work));
     CHECK(VecGetArray(load, &f));
-    for (const HeldEntry & e : heldEntries) f[e.row - components * firstNode] += e.value * u[e.column];
-    CHECK(VecRestoreArrayRead(here, &u));
+    for (int n : ownHeld)
+    {
+        int at = components * (numberOf[n] - firstNode);
+        const Projector & P = loose[holdOf[n]];
+        for (int c = 0; c < components; c++)
+        {
+            f[at + c] += held[at + c];
+            for (int d = 0; d < components; d++) f[at + c] -= P[3 * c + d] * held[at + d];
+        }
+    }
     CHECK(VecRestoreArray(load, &f));
-    CHECK(VecDestroy(&here));
     collect(load, *forces);
     return 0;
 }
@@ -502,9 +690,11 @@ void start()
     Global.Add("meetRanks", "(", new OneOperator0<long>(meetRanks));
     Global.Add("firstRankSays", "(", new OneOperator1_<long, long>(firstRankSays));
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
+    Global.Add("multigridHold", "(", new OneOperator2_<long, KN<double> *, Matrice_Creuse<double> *>(multigridHold));
     Global.Add("multigridMatrix", "(",
-               new OneOperator4_<long, Matrice_Creuse<double> *, pfes3 *, KN<long> *, KN<double> *>(multigridMatrix));
-    Global.Add("multigridWhole", "(", new OneOperator2_<long, KN<double> *, KN<double> *>(multigridWhole));
+               new OneOperator3_<long, Matrice_Creuse<double> *, Matrice_Creuse<double> *, pfes3 *>(multigridMatrix));
+    Global.Add("multigridFloat", "(", new OneOperator1_<long, KNM<double> *>(multigridFloat));
+    Global.Add("multigridDiagonal", "(", new OneOperator2_<long, KN<double> *, bool>(multigridDiagonal));
     Global.Add("multigridSetUp", "(", new OneOperator1_<long, string *>(multigridSetUp));
     Global.Add("multigridWatch", "(", new OneOperator1_<long, KN<long> *>(multigridWatch));
     Global.Add("multigridSolve", "(", new OneOperator3_<long, KN<double> *, double, bool>(multigridSolve));

@@ -14,6 +14,7 @@ READ = read_campaign
 CODES = ("this package", "NGSolve")
 COLORS = (style.BLUE, style.VERMILION)
 SHAPES = dict(zip(range(1, 8), style.MARKERS, strict=True))  # by degree
+SCENES = {"sphere-on-block": "sphere, ", "two-cylinders": "cylinders, ", "pin-in-hole": "pin, "}
 COLUMNS = (
     "script flags status scene kappa m order h forceError secondsBefore "
     "seconds_assembly seconds_factorisation seconds_contact"
@@ -21,8 +22,12 @@ COLUMNS = (
 
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
-    """A panel per problem: a mark a run, its shape the degree; the line joins what no run of the same code beats."""
-    rows = [row for row in runs[0].rows("peers", COLUMNS) if good(row) and number(row, "forceError") > 0]
+    """A panel per problem: a mark a run, its shape the degree; the line joins what no run of the same code beats.
+
+    Runs that came to nothing are counted in words, code by code.
+    """
+    every = runs[0].rows("peers", COLUMNS)
+    rows = [row for row in every if good(row) and number(row, "forceError") > 0]
     problems = list(dict.fromkeys(map(problem, rows)))
     if not problems:
         raise ResultsError(runs[0].path / "peers.csv", "no run of it converged")
@@ -32,6 +37,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for axes, which in zip(grid.flat, problems, strict=False):
         for code, color in enumerate(COLORS):
             draw_code(axes, [row for row in rows if problem(row) == which and of(row) == code], color)
+        name_lost(axes, [row for row in every if not good(row) and problem(row) == which])
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
@@ -55,7 +61,24 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
 
 
 def problem(row: Row) -> tuple[str, float, float]:
-    return row["scene"], number(row, "kappa"), number(row, "m")
+    """Scene, kappa and m of a run; also of one that has come to nothing, by its flags."""
+    words = row["flags"].split()
+    flags = dict(zip(words[::2], words[1::2], strict=True))
+    if "-case" in flags:
+        kappa, m = flags["-case"].removesuffix(".case").split("-")[1:]
+        return "pin-in-hole", float(kappa), float(m)
+    return flags.get("-problem", row["scene"]), number(row, "kappa"), number(row, "m")
+
+
+def name_lost(axes, rows: list[Row]) -> None:
+    """How many cases of each code came to nothing, and how."""
+    lines = []
+    for code, name in enumerate(CODES):
+        lost = {row["flags"]: row["status"] for row in rows if of(row) == code}
+        lines += [f"{name}: {list(lost.values()).count(how)} {how}" for how in sorted(set(lost.values()))]
+    axes.text(
+        0.97, 0.97, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=7, color=style.GREY
+    )
 
 
 def of(row: Row) -> int:
@@ -65,7 +88,7 @@ def of(row: Row) -> int:
 
 def name_of(scene: str, kappa: float, m: float) -> str:
     law = rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
-    return "sphere" if scene == "sphere-on-block" else law
+    return SCENES.get(scene, "") + law
 
 
 def draw_code(axes, rows: list[Row], color: str) -> None:

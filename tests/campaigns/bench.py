@@ -559,9 +559,11 @@ def meshes_table(rows: list[dict]) -> str:
     return markdown(["κ, m", "method", "element", *(decade(error) for error in ERRORS)], lines)
 
 
-def cheapest(rows: list[dict], error: float, seconds: Callable[[dict], float]) -> dict | None:
-    """The converged run of least seconds among those at least as close in force as `error`, relative; None: none is."""
-    close = [row for row in rows if row["status"] == "converged" and value(row, "forceError") <= error]
+def cheapest(
+    rows: list[dict], error: float, seconds: Callable[[dict], float], column: str = "forceError"
+) -> dict | None:
+    """The converged run of least seconds among those at least as close as `error`, relative; None: none is."""
+    close = [row for row in rows if row["status"] == "converged" and value(row, column) <= error]
     return min(close, key=seconds, default=None)
 
 

@@ -1,14 +1,16 @@
-"""The package beside CalculiX on one mesh: a cylinder pressed on a block and dragged, with friction.
+"""The package beside CalculiX on one mesh: in space a ball pressed on a block; in the plane a cylinder, then dragged.
 
 Both read the same triangles of second order, made by gmsh: a round body of radius 1 and a block, equal in modulus, on
 meshes that do not match; pressed by a prescribed displacement, then dragged by one. CalculiX (`ccx`, Debian's
 calculix-ccx) takes contact by a penalty, face to face, in steps of its own choice. Tractions are compared
-with the package's on a finer mesh. A row per run into results/bench/calculix.csv; seconds are CPU seconds of the whole
-program.
+with the package's on a finer mesh. In space a quarter of it without friction, tetrahedra of second order, hard contact
+here, penalties there. A row per run into results/bench/calculix.csv, of space calculix-space.csv; seconds
+are CPU seconds of the whole program.
 """
 
 import argparse
 import csv
+import json
 import os
 import re
 import resource
@@ -22,6 +24,7 @@ import campaign
 import numpy as np
 
 FILE = campaign.RESULTS_FOLDER / "bench" / "calculix.csv"
+FILE_SPACE = FILE.with_name("calculix-space.csv")
 YOUNG, POISSON, FRICTION, PRESS, DRAG = 100.0, 0.3, 0.3, 0.02, 0.009
 LONGEST = 60  # CPU seconds of a run
 GEO = """
@@ -52,23 +55,57 @@ move pushed {DRAG} -{PRESS}
 """
 
 
-def mesh_of(path: Path) -> tuple[np.ndarray, dict, dict]:
-    """Nodes (n, 2); by group the sides (., 3) and triangles (., 6) of a mesh of gmsh's of second order, from 0."""
+GEO_SPACE = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, -2, 2, 2, 2};
+Sphere(2) = {0, 0, 1, 1};
+Box(3) = {0, 0, 0, 1, 1, 1};
+BooleanIntersection(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+e = 1e-6;
+Physical Volume("lower") = {1}; Physical Volume("upper") = {4};
+Physical Surface("clamped") = Surface In BoundingBox{-e, -e, -2 - e, 2 + e, 2 + e, -2 + e};
+Physical Surface("flat") = Surface In BoundingBox{-e, -e, -e, 2 + e, 2 + e, e};
+Physical Surface("pushed") = Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 1 + e, 1 + e};
+Physical Surface("xs") = Surface In BoundingBox{-e, -e, -2 - e, e, 2 + e, 1 + e};
+Physical Surface("ys") = Surface In BoundingBox{-e, -e, -2 - e, 2 + e, e, 1 + e};
+every[] = Abs(Boundary{ Volume{4}; });
+named[] = {Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 1 + e, 1 + e},
+    Surface In BoundingBox{-e, -e, -e, e, 1 + e, 1 + e}, Surface In BoundingBox{-e, -e, -e, 1 + e, e, 1 + e}};
+every[] -= named[];
+Physical Surface("round") = every[];
+Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
+Field[1] = MathEval;
+r = "(Sqrt(x*x+y*y+z*z)-0.2)";
+Field[1].F = StrCat(Sprintf("%g*(1+0.15*(1+z/(Fabs(z)+1e-9)))+0.25*(", H), r, "+Fabs", r, ")");
+Background Field = 1;
+"""
+CASE_SPACE = f"""body lower E {YOUNG} nu {POISSON}
+body upper E {YOUNG} nu {POISSON}
+contact flat round
+clamp clamped
+symmetry xs
+symmetry ys
+move pushed 0 0 -{PRESS}
+"""
+
+
+def mesh_of(path: Path, kind: int = 8) -> tuple[np.ndarray, dict, dict]:
+    """Nodes (n, 3); by group sides, of gmsh's number `kind`, and elements, of a mesh of second order, from 0."""
     text = path.read_text()
     names = {int(tag): name for tag, name in re.findall(r'^\d (\d+) "(.*)"$', text, re.M)}
     nodes = text.split("$Nodes\n")[1].split("$EndNodes")[0].splitlines()[1:]
-    place = np.array([line.split()[1:3] for line in nodes], float)
+    place = np.array([line.split()[1:4] for line in nodes], float)
     sides, triangles = {}, {}
     for line in text.split("$Elements\n")[1].split("$EndElements")[0].splitlines()[1:]:
         words = [int(word) for word in line.split()]
-        (sides if words[1] == 8 else triangles).setdefault(names[words[3]], []).append([k - 1 for k in words[5:]])
+        (sides if words[1] == kind else triangles).setdefault(names[words[3]], []).append([k - 1 for k in words[5:]])
     return place, {k: np.array(v) for k, v in sides.items()}, {k: np.array(v) for k, v in triangles.items()}
 
 
 def deck(path: Path, place, sides, triangles, stiffness: float, stick: float) -> None:
     """CalculiX's input: penalty `stiffness` for the pressure, `stick` for the shear, both pressure/length."""
     elements = np.concatenate(list(triangles.values()))
-    lines = ["*NODE"] + [f"{k + 1},{x:.11g},{y:.11g},0" for k, (x, y) in enumerate(place)]
+    lines = ["*NODE"] + [f"{k + 1},{x:.11g},{y:.11g},0" for k, (x, y, _) in enumerate(place)]
     lines += ["*ELEMENT,TYPE=CPE6,ELSET=ALL"]
     lines += [f"{k + 1}," + ",".join(str(n + 1) for n in nodes) for k, nodes in enumerate(elements)]
     for group in ("clamped", "pushed", "flat", "round"):
@@ -95,6 +132,30 @@ def deck(path: Path, place, sides, triangles, stiffness: float, stick: float) ->
         if step == 0:
             lines += ["*BOUNDARY", "clamped,1,2", "pushed,1,1"]
         lines += ["*BOUNDARY", f"pushed,1,1,{x:g}", f"pushed,2,2,{-PRESS:g}", *output, "*END STEP"]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def deck_in_space(path: Path, place, sides, tetrahedra, stiffness: float) -> None:
+    """CalculiX's input: penalty `stiffness`, pressure/length; gmsh's last two nodes are the other way round there."""
+    elements = np.concatenate(list(tetrahedra.values()))[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
+    lines = ["*NODE"] + [f"{k + 1},{x:.11g},{y:.11g},{z:.11g}" for k, (x, y, z) in enumerate(place)]
+    lines += ["*ELEMENT,TYPE=C3D10,ELSET=ALL"]
+    lines += [f"{k + 1}," + ",".join(str(n + 1) for n in nodes) for k, nodes in enumerate(elements)]
+    for group, nodes in sides.items():
+        lines += [f"*NSET,NSET={group}"] + [f"{n + 1}," for n in np.unique(nodes)]
+    corners = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
+    faces = {
+        frozenset(e[list(three)]): (k + 1, f + 1) for k, e in enumerate(elements) for f, three in enumerate(corners)
+    }
+    for group in ("flat", "round"):
+        lines += [f"*SURFACE,NAME=S{group},TYPE=ELEMENT"]
+        lines += ["{},S{}".format(*faces[frozenset(side[:3])]) for side in sides[group]]
+    lines += ["*MATERIAL,NAME=M", "*ELASTIC", f"{YOUNG},{POISSON}", "*SOLID SECTION,ELSET=ALL,MATERIAL=M"]
+    lines += ["*SURFACE INTERACTION,NAME=I", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:g}"]
+    lines += ["*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE", "Sflat,Sround"]
+    lines += ["*STEP,INC=1000", "*STATIC", "1.,1.", "*BOUNDARY", "clamped,1,3", "xs,1,1", "ys,2,2"]
+    lines += ["pushed,1,2", f"pushed,3,3,{-PRESS:g}"]
+    lines += ["*NODE PRINT,NSET=pushed,TOTALS=ONLY", "RF", "*CONTACT FILE", "CDIS,CSTR", "*END STEP"]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -134,12 +195,34 @@ def off(found: np.ndarray, wanted: np.ndarray) -> list[float]:
     return [norm(f - w) / norm(w) for f, w in zip(tractions, exact, strict=True)]
 
 
-def package(folder: Path, mesh: Path) -> dict:
-    (folder / "a.case").write_text(CASE)
+def off_radius(found: np.ndarray, wanted: np.ndarray) -> float:
+    """The same of a pressure over the radius (2, n: r, p), in the mean square over the area."""
+    radii = 0.5 * (np.linspace(0, 1, 41)[1:] + np.linspace(0, 1, 41)[:-1]) * 1.1 * wanted[0][wanted[1] > 0].max()
+    half = 0.5 * (radii[1] - radii[0])
+    squares = weight = 0.0
+    for r in radii:
+        inside = np.abs(found[0] - r) <= half
+        near = np.abs(wanted[0] - r) <= half
+        if inside.any() and near.any():
+            expected = wanted[1][near].mean()
+            squares += r * np.mean((found[1][inside] - expected) ** 2)
+            weight += r * expected**2
+    return float(np.sqrt(squares / weight))
+
+
+def package(folder: Path, mesh: Path, space: bool) -> dict:
+    (folder / "a.case").write_text(CASE_SPACE if space else CASE)
     words = ["-mesh", mesh, "-case", folder / "a.case", "-vtu", 0, "-estimate", 0, "-out", folder / "out"]
-    seconds, code, said = timed(["FreeFem++", "-nw", "-v", "0", "edp/parts.edp", *words], campaign.ROOT)
+    script = "edp/parts-3d.edp" if space else "edp/parts.edp"
+    seconds, code, said = timed(["FreeFem++", "-nw", "-v", "0", script, *words], campaign.ROOT)
     if code:
         return {"code": code, "seconds": seconds, "message": said.strip().splitlines()[-1]}
+    if space:
+        summary = json.loads((folder / "out/summary.json").read_text())
+        found = campaign.read_contact(folder / "out")
+        r, counts = np.hypot(found["x"], found["y"]), f"{summary['newton']} / {summary['backsolves']}"
+        common = {"code": 0, "seconds": seconds, "force": float(found["pressure"] @ found["weight"]), "count": counts}
+        return {**common, "dofs": summary["ndof"], "found": np.array([r, found["pressure"]])}
     rows = list(csv.DictReader((folder / "out/contact.csv").read_text().splitlines()))
     x, p, t, w = (np.array([float(row[name]) for row in rows]) for name in ("x", "pressure", "shear", "weight"))
     last = list(csv.DictReader((folder / "out/series.csv").read_text().splitlines()))[-1]
@@ -148,9 +231,12 @@ def package(folder: Path, mesh: Path) -> dict:
     return {"code": 0, "seconds": seconds, "force": p @ w, "pull": t @ w, "count": counts, "found": found}
 
 
-def calculix(folder: Path, mesh: Path, stiffness: float, stick: float) -> dict:
-    place, sides, triangles = mesh_of(mesh)
-    deck(folder / "a.inp", place, sides, triangles, stiffness, stick)
+def calculix(folder: Path, mesh: Path, stiffness: float, stick: float, space: bool) -> dict:
+    place, sides, elements = mesh_of(mesh, 9 if space else 8)
+    if space:
+        deck_in_space(folder / "a.inp", place, sides, elements, stiffness)
+    else:
+        deck(folder / "a.inp", place, sides, elements, stiffness, stick)
     seconds, code, said = timed(["ccx", "-i", "a"], folder)
     count = len(re.findall(r"^ iteration +\d+", said, re.M))
     if code or "Job finished" not in said:
@@ -160,9 +246,13 @@ def calculix(folder: Path, mesh: Path, stiffness: float, stick: float) -> dict:
         lines[-1] += f", {len(done)} increments converged"
         return {"code": code or 1, "seconds": seconds, "message": lines[-1], "count": count}
     totals = re.findall(r"total force.*\n\n +(\S+) +(\S+)", (folder / "a.dat").read_text())
-    pull, force = (float(number) for number in totals[-1])
     node, tractions = surface_stresses(folder / "a.frd", len(place))
     flat = np.isin(node, sides["flat"])
+    if space:
+        (force,) = re.findall(r"total force.*\n\n +\S+ +\S+ +(\S+)", (folder / "a.dat").read_text())[-1:]
+        found = np.array([np.hypot(*place[node[flat], :2].T), tractions[flat, 0]])
+        return {"code": 0, "seconds": seconds, "force": -float(force), "count": count, "found": found}
+    pull, force = (float(number) for number in totals[-1])
     found = np.array([place[node[flat], 0], tractions[flat, 0], -tractions[flat, 1]])
     return {"code": 0, "seconds": seconds, "force": -force, "pull": pull, "count": count, "found": found}
 
@@ -174,41 +264,47 @@ def say(row: dict) -> None:
     )
 
 
-def meshed(folder: Path, size: float) -> Path:
-    (folder / "a.geo").write_text(f"H = {size!r};{GEO}")
-    command = ["gmsh", "-2", "-order", "2", "-format", "msh22", "-v", "0", "a.geo", "-o", "a.msh"]
+def meshed(folder: Path, size: float, space: bool) -> Path:
+    (folder / "a.geo").write_text(f"H = {size!r};{GEO_SPACE if space else GEO}")
+    dimension = "-3" if space else "-2"
+    command = ["gmsh", dimension, "-order", "2", "-format", "msh22", "-v", "0", "a.geo", "-o", "a.msh"]
     subprocess.run(command, cwd=folder, check=True)
     return folder / "a.msh"
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sizes", type=float, nargs="*", default=[0.02, 0.01], help="of the sides in contact")
+    parser.add_argument("--space", action="store_true", help="the ball on a block")
+    parser.add_argument("--sizes", type=float, nargs="*", help="of the sides in contact (default: 0.02 0.01; 0.04)")
     parser.add_argument("--penalties", type=float, nargs="*", default=[1e4, 1e5, 1e6, 1e8], help="CalculiX's")
-    parser.add_argument("--finest", type=float, default=0.0025, help="sides of the mesh that gives the reference")
+    parser.add_argument("--finest", type=float, help="sides of the mesh that gives the reference (0.0025; 0.02)")
     arguments = parser.parse_args()
+    space = arguments.space
+    sizes = arguments.sizes or ([0.04] if space else [0.02, 0.01])
     if not shutil.which("ccx"):
         parser.error("no ccx here; apt-get install calculix-ccx")
     rows, wanted = [], None
-    for size in (arguments.finest, *arguments.sizes):
+    for size in (arguments.finest or (0.02 if space else 0.0025), *sizes):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            mesh = meshed(folder, size)
-            runs = [("package", package(folder, mesh))]
+            mesh = meshed(folder, size, space)
+            runs = [("package", package(folder, mesh, space))]
             if wanted is None:
                 wanted = runs[0][1]["found"]
             else:
-                runs += [
-                    (f"CalculiX {each:g}", calculix(folder, mesh, each, each / 10)) for each in arguments.penalties
-                ]
+                for each in arguments.penalties:
+                    runs += [(f"CalculiX {each:g}", calculix(folder, mesh, each, each / 10, space))]
         for who, run in runs:
             found = run.pop("found", None)
-            errors = {} if found is None else dict(zip("pt", off(found, wanted), strict=True))
+            errors = {}
+            if found is not None:
+                errors = {"p": off_radius(found, wanted)} if space else dict(zip("pt", off(found, wanted), strict=True))
             rows.append({"size": size, "by": who, **run, **errors})
             say(rows[-1])
-    FILE.parent.mkdir(parents=True, exist_ok=True)
-    with FILE.open("w", newline="") as file:
-        writer = csv.DictWriter(file, "size by code seconds force pull p t count message".split(), restval="")
+    path = FILE_SPACE if space else FILE
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, "size by code seconds dofs force pull p t count message".split(), restval="")
         writer.writeheader()
         writer.writerows(rows)
     return 0

@@ -132,7 +132,7 @@ def source_files(root: Path) -> list[Path]:
         *root.glob("edp/examples/**/*.geo"),
         *root.glob("edp/examples/**/*.case"),
         *root.glob("meshes/*.geo"),
-        *root.glob("*.py"),  # of a copy: what a campaign has added
+        *(path for kind in ("py", "geo", "case") for path in root.glob(f"*.{kind}")),  # of a copy: what is added
     ]
     return sorted(path for path in found if path.is_file())
 

@@ -5,8 +5,10 @@ the plane, DIR/contact.csv. Exit code 0 converged, 20 not converged. Needs the p
 
 It is written as one who knows NGSolve would write it for speed: elasticity is assembled once with static condensation;
 a Newton step assembles the contact boundary alone, adds it to the condensed matrix and factorises that in place, the
-ordering kept; the first iterate is the solution with P1 on the same mesh. `-assembly whole -start 0` is the
-straightforward form of it. Newton's steps are not damped. One thread.
+ordering kept; the first iterate is the solution with P1 on the same mesh, of stiff laws with P1 and then P2, which
+takes a quarter off. `-assembly whole -start 0` is the straightforward form of it. Newton's steps are not damped. The
+quadrature of the contact has 2 p + 1 points an edge: with p to p + 2 of them, Gauss's or Lobatto's, a stiff law's force
+is 3 to 100 times further off. One thread.
 
 Lengths, forces and pressures are those of the package's scenes; pressures are positive in compression.
 """
@@ -18,13 +20,18 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import netgen.occ as occ
-import ngsolve as ng
 import numpy as np
-from netgen.geom2d import SplineGeometry
-from ngsolve.krylovspace import CGSolver
-from ngsolve.meshes import MakeStructured3DMesh
+from numpy.polynomial import legendre
 from numpy.polynomial.chebyshev import Chebyshev
+
+try:
+    import netgen.occ as occ
+    import ngsolve as ng
+    from netgen.geom2d import SplineGeometry
+    from ngsolve.krylovspace import CGSolver
+    from ngsolve.meshes import MakeStructured3DMesh
+except ImportError as error:
+    sys.exit(f"no NGSolve here ({error}); `make bench-peers` gets it, in an environment of its own")
 
 CORNER_RATIO = 0.2  # of one layer's size to the next towards a clamped corner
 
@@ -47,6 +54,10 @@ class Problem:
     gap: float = 0.5
     u0: float = 2.5
     d0: float = -0.25
+
+    @property
+    def scene(self) -> str:
+        return "sphere-on-block" if self.space else "disc-on-block"
 
     @property
     def lame(self) -> tuple[float, float]:
@@ -72,17 +83,43 @@ class Problem:
         """kappa s_+^m of a coefficient function."""
         return self.kappa * ng.IfPos(s, s**self.m, 0)
 
+    def space_on(self, mesh: ng.Mesh, order: int) -> ng.VectorH1:
+        """Displacements of this degree, clamped below, symmetric where the mesh has axes."""
+        held = {f"dirichlet{name}": f"clamped|axis {name}" for name in "xy"} if self.space else {}
+        if "axis" in mesh.GetBoundaries():
+            held = {"dirichletx": "clamped|axis"}
+        return ng.VectorH1(mesh, order=order, dirichlet="clamped", **held)
+
+    def contact_on(self, space: ng.VectorH1, _stiffness: ng.BilinearForm, extra: int) -> ng.BilinearForm:
+        """The forces of the contact boundary; extra: degree of the quadrature beyond the form's own."""
+        u, v = space.TnT()
+        normal = 2 if self.space else 1
+        where = "contact|open" if "open" in space.mesh.GetBoundaries() else "contact"
+        form = ng.BilinearForm(space, symmetric=True)
+        form += self.pressure(self.overlap(u[normal])) * v[normal] * ng.ds(where, bonus_intorder=extra)
+        return form
+
 
 # ---------------------------------------------------------------- meshes
 
 
-def plane_mesh(problem: Problem, h: float, far: float, layers: int) -> ng.Mesh:
-    """The whole block in triangles, size h where contact is looked for, `far` away; `layers` to the clamped corners."""
+def plane_mesh(problem: Problem, h: float, far: float, layers: int, ends: float = 0) -> ng.Mesh:
+    """The whole block in triangles, size h where contact is looked for, `far` away; `layers` to the clamped corners.
+
+    ends: half the contact's width, if known: the ends are breakpoints, with layers as the corners have.
+    """
     half, reach, depth = 0.5 * problem.width, problem.reach, problem.depth
     points = [(-half, 0), (half, 0), (half, depth), (reach, depth), (-reach, depth), (-half, depth)]
     names = ["clamped", "free", "free", "contact", "free", "free"]
+    if ends:
+        points[4:4] = [(ends, depth), (-ends, depth)]
+        names[3:4] = ["contact"] * 3
     geometry = SplineGeometry()
-    numbers = [geometry.AppendPoint(*point, **({"hpref": 1} if point[1] == 0 else {})) for point in points]
+    singular = [y == 0 or abs(x) == ends for x, y in points]
+    numbers = [
+        geometry.AppendPoint(*point, **({"hpref": 1} if sharp else {}))
+        for point, sharp in zip(points, singular, strict=True)
+    ]
     for place, name in enumerate(names):
         size = {"maxh": h} if name == "contact" else {}
         geometry.Append(["line", numbers[place], numbers[(place + 1) % len(numbers)]], bc=name, **size)
@@ -144,20 +181,44 @@ def graded(h: float, even: float, growth: float, end: float, layers: int, ratio:
 
 def quarter_tetrahedra(problem: Problem, h: float) -> ng.Mesh:
     """A quarter of the block in tetrahedra, size h where contact is looked for."""
-    side, reach, depth = 0.5 * problem.width, problem.reach, problem.depth
-    block = occ.Box((0, 0, 0), (side, side, depth))
+    reach, depth = problem.reach, problem.depth
+    block = quarter(problem)
     below = occ.Box((0, 0, depth - h), (reach, reach, depth))
-    for face in [*block.faces, *below.faces]:
-        face.name = "inner"
-    block = occ.Glue([block - below, below])
+    whole = occ.Glue([block - below, below])
+    name_faces(whole, problem, lambda x, y: max(x, y) < reach, h)
+    return ng.Mesh(occ.OCCGeometry(whole).GenerateMesh(maxh=0.25 * depth, grading=0.4))
+
+
+def quarter_rings(problem: Problem, h: float, radius: float, clamped: float = 0.0) -> ng.Mesh:
+    """The same, contact in a circle of this radius, where the mesh has edges of half the size; clamped: size there."""
+    reach, depth, deep = problem.reach, problem.depth, 0.1 * problem.depth
+    block = quarter(problem)
+    inner, outer = (occ.Cylinder((0, 0, depth - deep), occ.Z, r=each, h=deep) * block for each in (radius, reach))
+    whole = occ.Glue([block - outer, outer - inner, inner])
+    name_faces(whole, problem, lambda x, y: np.hypot(x, y) < 0.9 * reach, h)
+    for edge in whole.edges:
+        x, y, z = edge.center
+        if abs(z - depth) < 1e-9 and abs(edge.mass - 0.5 * np.pi * radius) < 1e-6:
+            edge.maxh = 0.5 * h
+        if clamped and abs(z) < 1e-9 and max(x, y) > 0.5 * problem.width - 1e-9:
+            edge.maxh = clamped
+    return ng.Mesh(occ.OCCGeometry(whole).GenerateMesh(maxh=0.25 * depth, grading=0.4))
+
+
+def quarter(problem: Problem):
+    """A quarter of the block."""
+    return occ.Box((0, 0, 0), (0.5 * problem.width, 0.5 * problem.width, problem.depth))
+
+
+def name_faces(block, problem: Problem, touching, h: float) -> None:
+    """Names the faces of a quarter; those of the top where touching(x, y) are of size h."""
     for face in block.faces:
         x, y, z = face.center
-        name = {(x < 1e-9): "axis x", (y < 1e-9): "axis y", (z < 1e-9): "clamped"}.get(True)
-        top = z > depth - 1e-9
-        face.name = name or ("contact" if top and max(x, y) < reach else "free")
+        top, side = z > problem.depth - 1e-9, max(x, y) > 0.5 * problem.width - 1e-9
+        name = {x < 1e-9: "axis x", y < 1e-9: "axis y", z < 1e-9: "clamped"}.get(True)
+        face.name = name or ("contact" if top and touching(x, y) else "free" if top or side else "inner")
         if face.name == "contact":
             face.maxh = h
-    return ng.Mesh(occ.OCCGeometry(block).GenerateMesh(maxh=0.25 * depth, grading=0.4))
 
 
 # ---------------------------------------------------------------- Newton's method
@@ -168,6 +229,7 @@ class Solution:
     """Displacement, steps, residual over contact forces, CPU seconds: of assembly, of a factorisation, of the rest."""
 
     displacement: ng.GridFunction
+    force: ng.BaseVector  # of the contact, on each dof
     steps: int
     residual: float
     seconds: dict[str, float]
@@ -176,15 +238,7 @@ class Solution:
     backsolves: int
 
 
-def space_of(problem: Problem, mesh: ng.Mesh, order: int) -> ng.VectorH1:
-    """Displacements of this degree, clamped below, symmetric where the mesh has axes."""
-    held = {f"dirichlet{name}": f"clamped|axis {name}" for name in "xy"} if problem.space else {}
-    if "axis" in mesh.GetBoundaries():
-        held = {"dirichletx": "clamped|axis"}
-    return ng.VectorH1(mesh, order=order, dirichlet="clamped", **held)
-
-
-def elasticity(problem: Problem, space: ng.VectorH1):
+def elasticity(problem, space: ng.VectorH1):
     """The weak form of linear elasticity on this space."""
     u, v = space.TnT()
     (first, mu), strain = problem.lame, lambda w: 0.5 * (ng.Grad(w) + ng.Grad(w).trans)
@@ -193,7 +247,7 @@ def elasticity(problem: Problem, space: ng.VectorH1):
 
 
 def newton(
-    problem: Problem,
+    problem,
     mesh: ng.Mesh,
     order: int,
     start: ng.CoefficientFunction | None = None,
@@ -206,49 +260,46 @@ def newton(
 ) -> Solution:
     """Newton's method on the law, undamped, from `start` or no displacement, until the residual is tol of the forces.
 
+    problem: lame, space_on and contact_on, as of Problem; move(u), if it has that: sets the prescribed ones.
     whole: every step assembles the elasticity again. reuse: the first factorisation preconditions conjugate gradients
     in the steps after it. points: degree of the contact's quadrature beyond the form's own (default twice the order).
     """
     begin = time.process_time()
-    space = space_of(problem, mesh, order)
-    normal = 2 if problem.space else 1
-    u, v = space.TnT()
-    extra = 2 * order if points is None else points
-    where = "contact|open" if "open" in mesh.GetBoundaries() else "contact"
-    load = problem.pressure(problem.overlap(u[normal])) * v[normal] * ng.ds(where, bonus_intorder=extra)
+    space = problem.space_on(mesh, order)
     stiffness = ng.BilinearForm(space, symmetric=True, condense=True)
     stiffness += elasticity(problem, space)
-    contact = ng.BilinearForm(space, symmetric=True)
-    contact += load
+    contact = problem.contact_on(space, stiffness, 2 * order if points is None else points)
     found = ng.GridFunction(space)
     if start is not None:
         found.Set(start)
+    elif hasattr(problem, "move"):
+        problem.move(found)
     skeleton, inner = space.FreeDofs(True), space.FreeDofs() & ~space.FreeDofs(True)
     ng.Projector(inner, False).Project(found.vec)  # condensed: they follow from the others
     onto = ng.Projector(skeleton, True)
     stiffness.Assemble()
-    values = stiffness.mat.AsVector().FV().NumPy()
-    elastic = values.copy()
     contact.AssembleLinearization(found.vec)
-    places = positions(stiffness.mat, contact.mat)
+    matrix, places = stiffness.mat, positions(stiffness.mat, contact.mat)
+    values = matrix.AsVector().FV().NumPy()
+    elastic = values.copy()
     assembled = time.process_time()
     force, residual, step = (found.vec.CreateVector() for _ in range(3))
     inverse, steps, solves, factorised, linear = None, 0, 0, 0, 0.0
     while True:
         contact.Apply(found.vec, force)
-        residual.data = stiffness.mat * found.vec + force
+        residual.data = matrix * found.vec + force
         onto.Project(residual)
         error = residual.Norm() / max(force.Norm(), 1e-300)
         if error <= tol or steps == most or not np.isfinite(error):
             break
         if whole:
-            stiffness.Assemble()
+            stiffness.Assemble()  # of which the values are known: what it costs is asked
         if steps or start is not None:
             contact.AssembleLinearization(found.vec)
         values[places] += contact.mat.AsVector().FV().NumPy()
         before = time.process_time()
         if inverse is None:
-            inverse = stiffness.mat.Inverse(skeleton, "sparsecholesky")
+            inverse = matrix.Inverse(skeleton, "sparsecholesky")
         elif not reuse:
             inverse.Update()
         factorised += steps == 0 or not reuse
@@ -257,7 +308,7 @@ def newton(
             step.data = inverse * residual
             solves += 1
         else:
-            gradients = CGSolver(stiffness.mat, inverse, tol=1e-3 * tol / error if error < 1 else 1e-3, maxiter=200)
+            gradients = CGSolver(matrix, inverse, tol=1e-3 * tol / error if error < 1 else 1e-3, maxiter=200)
             step.data = gradients * residual
             solves += gradients.iterations
         if steps == 0:
@@ -271,7 +322,16 @@ def newton(
     end = time.process_time()
     seconds = {"assembly": assembled - begin, "factorisation": factorisation if steps else 0.0}
     seconds["contact"] = end - begin - sum(seconds.values())
-    return Solution(found, steps, error, seconds, assembled - begin + linear, factorised, solves)
+    return Solution(found, force, steps, error, seconds, assembled - begin + linear, factorised, solves)
+
+
+def ladder(problem, mesh: ng.Mesh, flags: argparse.Namespace, **how) -> tuple[list[Solution], Solution]:
+    """The solutions of degree 1 to flags.start, each the start of the next, and the one of flags.order."""
+    found = []
+    for degree in [*range(1, min(flags.start + 1, flags.order)), flags.order]:
+        tol = flags.tol if degree == flags.order else 1e-3
+        found.append(newton(problem, mesh, degree, found[-1].displacement if found else None, tol=tol, **how))
+    return found[:-1], found[-1]
 
 
 def positions(matrix: ng.BaseMatrix, part: ng.BaseMatrix) -> np.ndarray:
@@ -298,12 +358,16 @@ def on_edges(mesh: ng.Mesh, functions: list, nodes: np.ndarray, where: str) -> l
     return [np.array(function(points)).reshape(-1, len(nodes)) for function in functions]
 
 
-def contact_force(problem: Problem, displacement: ng.GridFunction, copies: int) -> float:
-    """The integral of the pressure, times the copies that make a whole of the meshed part."""
-    mesh = displacement.space.mesh
-    p = problem.pressure(problem.overlap(displacement.components[2 if problem.space else 1]))
-    where = "contact|open" if "open" in mesh.GetBoundaries() else "contact"
-    return copies * ng.Integrate(p * ng.ds(where, bonus_intorder=40), mesh)
+def contact_force(solution: Solution, copies: int) -> float:
+    """What holds the elastic forces, by the solve's own quadrature, times the copies that make a whole of the mesh.
+
+    It is as good as the energy. An integral of the pressure by other points is not: of a stiff law the pressure between
+    those of the quadrature is wrong by the force's own size.
+    """
+    space = solution.displacement.space
+    up = ng.GridFunction(space)
+    up.Set(ng.CoefficientFunction((0,) * (space.mesh.dim - 1) + (1,)))
+    return copies * ng.InnerProduct(solution.force, up.vec)
 
 
 def contact_edge(x: np.ndarray, s: np.ndarray) -> float | None:
@@ -338,13 +402,14 @@ def lobatto(count: int) -> np.ndarray:
 def plane_results(problem: Problem, solution: Solution, order: int) -> tuple[dict, np.ndarray]:
     """Force, greatest pressure, half-width; (points, 3) abscissa, pressure and weight at Gauss's points."""
     x, s = trace(problem, solution.displacement, lobatto(4 * order + 1), "contact")
-    results = {"force": contact_force(problem, solution.displacement, 1)}
-    results["pressureMax"] = float(problem.kappa * max(s.max(), 0) ** problem.m)
-    results["halfWidth"] = contact_edge(x, s)
-    at, weight = np.polynomial.legendre.leggauss(2 * order + 2)
+    results = {"force": contact_force(solution, 1), "halfWidth": contact_edge(x, s)}
+    at, weight = np.polynomial.legendre.leggauss(2 * order + 1)  # of newton's own rule
     gx, gs = trace(problem, solution.displacement, 0.5 + 0.5 * at, "contact")
+    p = problem.kappa * np.maximum(gs, 0) ** problem.m
+    fitted = legendre.legval(np.linspace(-1, 1, 41), legendre.legfit(at, p.T, order))
+    results["pressureMax"] = float(fitted.max())  # between these points a stiff law makes what it likes
     length = np.abs(x[:, -1:] - x[:, :1])
-    rows = [gx, problem.kappa * np.maximum(gs, 0) ** problem.m, 0.5 * length * weight]
+    rows = [gx, p, 0.5 * length * weight]
     return results, np.stack([np.broadcast_to(part, gx.shape).ravel() for part in rows], axis=1)
 
 
@@ -367,7 +432,7 @@ def space_results(problem: Problem, solution: Solution) -> dict:
         radii.append(low)
     area = 0.5 * np.pi * float(np.sum(weights * np.array(radii) ** 2))
     top = float(problem.kappa * overlap(0, 0) ** problem.m)
-    results = {"force": contact_force(problem, displacement, 4), "pressureMax": top}
+    results = {"force": contact_force(solution, 4), "pressureMax": top}
     return {**results, "contactArea": area, "contactRadius": float(np.sqrt(area / np.pi))}
 
 
@@ -379,15 +444,16 @@ def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
     problem = Problem(kappa=flags.kappa, m=flags.m, space=flags.problem == "sphere-on-block")
     begin = time.process_time()
     if not problem.space:
-        mesh = plane_mesh(problem, flags.h, min(flags.far, 10 * flags.h), flags.corners)
+        mesh = plane_mesh(problem, flags.h, min(flags.far, 10 * flags.h), flags.corners, flags.ends)
+    elif flags.ends:
+        mesh = quarter_rings(problem, flags.h, flags.ends, flags.h)
     elif flags.mesh == "hexes":
         mesh = quarter_hexes(problem, flags.h, 1.8, flags.corners)
     else:
         mesh = quarter_tetrahedra(problem, flags.h)
     meshed = time.process_time()
     how = {"whole": flags.assembly == "whole", "reuse": flags.reuse == 1, "most": flags.maxNewton}
-    first = newton(problem, mesh, 1, tol=1e-3, **how) if flags.start and flags.order > 1 else None
-    solution = newton(problem, mesh, flags.order, first and first.displacement, tol=flags.tol, **how)
+    before, solution = ladder(problem, mesh, flags, **how)
     used = time.process_time() - meshed
     seconds = {**solution.seconds, "mesh": meshed - begin, "total": time.process_time() - begin}
     seconds["contact"] = used - seconds["assembly"] - seconds["factorisation"]
@@ -403,10 +469,10 @@ def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
         "converged": converged,
         "message": "" if converged else f"residual {solution.residual:.1e} after {solution.steps} Newton steps",
         "newton": solution.steps,
-        "kernelNewton": first.steps if first else 0,
+        "kernelNewton": sum(each.steps for each in before),
         "adaptations": 1,
-        "factorisations": solution.factorisations + (first.factorisations if first else 0),
-        "backsolves": solution.backsolves + (first.backsolves if first else 0),
+        "factorisations": sum(each.factorisations for each in [*before, solution]),
+        "backsolves": sum(each.backsolves for each in [*before, solution]),
         "ndof": solution.displacement.space.ndof,
         "residual": solution.residual,
         **results,
@@ -427,8 +493,9 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("-m", type=int, default=3)
     parser.add_argument("-far", type=float, default=2.5, help="greatest element size, at most 10 h, in the plane")
     parser.add_argument("-corners", type=int, default=5, help="layers of geometric refinement to the clamped edges")
+    parser.add_argument("-ends", type=float, default=0, help="half the contact's width, if known: layers to its ends")
     parser.add_argument("-mesh", choices=["hexes", "tetrahedra"], default="hexes", help="in space")
-    parser.add_argument("-start", type=int, choices=[0, 1], default=1, help="degree of the solution to start from")
+    parser.add_argument("-start", type=int, choices=[0, 1, 2, 3], default=1, help="degrees solved before, from 1 to it")
     parser.add_argument("-assembly", choices=["contact", "whole"], default="contact", help="what every step assembles")
     parser.add_argument("-reuse", type=int, choices=[0, 1], default=0, help="1: one factorisation, then gradients")
     parser.add_argument("-tol", type=float, default=1e-8, help="of the residual, relative to the contact forces")

@@ -20,6 +20,7 @@ from pathlib import Path
 import netgen.occ  # noqa: F401  before ngsolve: it registers the geometries
 import ngsolve as ng
 import numpy as np
+from ngsolve_bodies import Bodies, Cylinders, Pin, reaction
 from ngsolve_contact import (
     Problem,
     contact_edge,
@@ -30,6 +31,7 @@ from ngsolve_contact import (
     newton,
     on_edges,
     quarter_hexes,
+    quarter_rings,
     space_results,
     trace,
 )
@@ -38,6 +40,7 @@ from numpy.polynomial.chebyshev import Chebyshev
 DATA = Path(__file__).resolve().parents[1] / "data"
 COLUMNS = "scene kappa m quantity value difference code".split()
 HARD = float("inf")
+STIFF = 1e6  # kappa from which on the sphere's mesh has the rim of contact
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,11 @@ FINE = (Refinement((4, 0.4), 12, 12, 0.15), Refinement((3, 0.3), 12, 16, 0.3))
 # of the quarter block: h (length), growth, layers, degree
 BRICKS = ((1.2, 1.6, 1, 4), (1.0, 1.6, 2, 4))
 
+# with a stiff law: h (length), size at the clamped edge, degree
+RINGS = ((1.0, 0.8, 4), (0.7, 0.6, 4))
+# of two bodies: h (length), degree
+PAIRS = ((0.2, 7), (0.1, 7))
+
 NODES = 17  # of a piece of a profile
 PIECES = 13
 TOWARDS_EDGE = 0.3  # of a piece's length to the one before it
@@ -68,6 +76,11 @@ CASES = {
     "k1e3-m20": (Problem(1e3, 20), 5.61),
     "hard": (Problem(HARD, 1), 4.24),
     "sphere": (Problem(1e3, 3, space=True), 5.4),
+    "sphere-k1e9": (Problem(1e9, 3, space=True), 4.883),
+    "cylinders-k1e3": (Cylinders(1e3, 3), None),
+    "cylinders-k1e9": (Cylinders(1e9, 3), None),
+    "pin-k1e3": (Pin(1e3, 3), None),
+    "pin-k1e9": (Pin(1e9, 3), None),
 }
 
 
@@ -98,7 +111,7 @@ def compliant(problem: Problem, edge: float, refinement: Refinement):
         start = solution.displacement
     x, s = trace(problem, start, lobatto(2 * order + 1), "contact|open")
     half_width = contact_edge(x, s)
-    results = {"force": contact_force(problem, start, 2)}
+    results = {"force": contact_force(solution, 2)}
     results["pressureMax"] = float(problem.kappa * s.ravel()[np.argmin(x)] ** problem.m)
     results["halfWidth"] = half_width
     return results, profile(x, s, half_width, lambda value: problem.kappa * np.maximum(value, 0) ** problem.m)
@@ -177,12 +190,42 @@ def sphere(problem: Problem, _edge: float) -> tuple[list[dict], None]:
     return found, None
 
 
+def stiff_sphere(problem: Problem, radius: float) -> tuple[list[dict], None]:
+    """The same in tetrahedra, the rim of contact a line of edges; its radius need be right to 1e-3 only."""
+    found = []
+    for h, clamped, order in RINGS:
+        mesh, start = quarter_rings(problem, h, radius, clamped), None
+        for degree, tol in ((1, 1e-3), (2, 1e-5), (3, 1e-7), (order, 1e-7)):
+            solution = newton(problem, mesh, degree, start, tol=tol)
+            start = solution.displacement
+        results = space_results(problem, solution)
+        print(f"  h = {h}, P{order}, {start.space.ndof} dofs: {results}", flush=True)
+        found.append({name: results[name] for name in ("force", "contactRadius")})
+    return found, None
+
+
+# ---------------------------------------------------------------- two bodies
+
+
+def pair(problem: Bodies, _edge) -> tuple[list[dict], None]:
+    """The force on both meshes; a pin's elements are twice as large as the cylinders'."""
+    found = []
+    for h, order in PAIRS:
+        mesh, start = problem.mesh((2 if isinstance(problem, Pin) else 1) * h, 2.5, 10, order), None
+        for degree, tol in ((1, 1e-3), (3, 1e-6), (order, 1e-10)):
+            solution = newton(problem, mesh, degree, start, tol=tol)
+            start = solution.displacement
+        found.append({"force": reaction(solution, "slave")})
+        print(f"  h = {h}, P{order}, {start.space.ndof} dofs: {found[-1]}", flush=True)
+    return found, None
+
+
 # ---------------------------------------------------------------- files
 
 
 def rows_of(problem: Problem, found: list[dict]) -> list[dict[str, str]]:
     """The lines of a case in references.csv: the values of the second, finer solution."""
-    scene = "sphere-on-block" if problem.space else "disc-on-block"
+    scene = problem.scene
     common = {"scene": scene, "kappa": f"{problem.kappa:g}", "m": str(problem.m), "code": f"NGSolve {ng.__version__}"}
     first, last = found
     return [
@@ -218,7 +261,9 @@ def main(argv: list[str] | None = None) -> int:
     for name in arguments.names or CASES:
         problem, edge = CASES[name]
         print(name, flush=True)
-        found, curve = (sphere if problem.space else plane)(problem, edge)
+        in_space = stiff_sphere if problem.kappa >= STIFF else sphere
+        solve = pair if isinstance(problem, Bodies) else in_space if problem.space else plane
+        found, curve = solve(problem, edge)
         update(arguments.out / "references.csv", rows_of(problem, found))
         if curve:
             points = np.column_stack([part.ravel() for part in curve])

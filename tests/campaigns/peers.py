@@ -18,56 +18,85 @@ from pathlib import Path
 import campaign
 import numpy as np
 import reference
-from bench import FOLDER, cheapest, contact_seconds, element, ends, problem, problem_words
+from bench import FOLDER, cheapest, contact_seconds, element, ends
 from campaign import case, decade, markdown, value
 
-PEER = "ngsolve_contact.py"
+PEER, BODIES = "ngsolve_contact.py", "ngsolve_bodies.py"  # the other code: rigid obstacles, two bodies
 PYTHON = (campaign.CACHE / "venv-peers" if campaign.CACHE else campaign.ROOT / ".venv-peers") / "bin" / "python"
-ROUNDS = 3
-ERRORS = (2e-3, 5e-4, 1e-4, 1e-5, 1e-6, 1e-7)  # errors in force that the table asks the price of
+ROUNDS = 5
+ERRORS = (2e-3, 5e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7)  # in force, that the table asks the price of
+OTHERS = {"pressureMaxError": "greatest pressure", "halfWidthError": "half-width"}  # columns that are asked too
+OTHERS_ERRORS = (1e-3, 1e-4, 1e-5, 1e-6)
+WRONG = 0.1  # error in force of a run that says it has converged
 TOL = 1e-8  # of the residual, for both
+CUBIC = False  # True: P3 in space, where the package has it
 
 LAWS = [(1e3, 3), (1e9, 3), (1e12, 3), (1e3, 10), (1e3, 20)]  # kappa, m
+LAWS_SPACE = LAWS_BODIES = LAWS[:2]
 # Series of runs: flags, and the sizes h (length) that they are run with. A further element or mesh is a further line.
 PACKAGE_PLANE = [
-    ({"order": 2}, (0.5, 0.25)),
+    ({"order": 2}, (0.5,)),
     ({"order": 3, "grading": 60, "corners": 0.1}, (2, 1, 0.5)),
-    ({"order": 3, "grading": 60}, (0.5, 0.25)),
-    ({"order": 4, "grading": 60, "corners": 0.1}, (1, 0.5)),
-    ({"order": 4, "grading": 120, "corners": 0.1}, (0.5,)),
-    ({"order": 4, "grading": 60}, (0.5, 0.25)),
+    ({"order": 3, "grading": 60}, (0.5,)),
+    ({"order": 4, "grading": 60, "corners": 0.1}, (1,)),
+    ({"order": 4, "grading": 60, "corners": 0.02, "reach": 6.95}, (0.5,)),  # NGSolve's meshes reach as far
+    ({"order": 4, "grading": 60}, (0.25,)),
 ]
 # With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
 PACKAGE_PLANE_ENDS = [
-    ({"order": 3, "grading": 60, "corners": 0.1}, (1, 0.5)),
+    ({"order": 3, "grading": 60, "corners": 0.1}, (1,)),
     ({"order": 4, "grading": 60, "corners": 0.1}, (1.5, 1)),
-    ({"order": 4, "grading": 60, "corners": 0.02}, (1.5, 0.5)),
-    ({"order": 4, "grading": 120, "corners": 0.02}, (0.5,)),
+    ({"order": 4, "grading": 60, "corners": 0.02}, (1,)),
 ]
 STIFF = 1e9
-COARSE = {"order": 2, "h": 0.5}
 PACKAGE_SPACE = [
-    ({"order": 2, "layers": 1, "grading": 10}, (2, 1.5, 1, 0.75)),
-    ({"order": 2, "layers": 1, "grading": 5}, (1.5,)),
+    ({"order": 1, "layers": 2}, (1,)),
+    ({"order": 2, "layers": 1, "grading": 10}, (1.5, 1, 0.75)),
+    *([({"order": 3, "layers": 1, "grading": grading}, (1.5,)) for grading in (40, 20, 10)] if CUBIC else []),
 ]
+PACKAGE_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.2,))]
+PACKAGE_PIN = [({"order": 2}, (0.8,)), ({"order": 3}, (0.8,)), ({"order": 4}, (0.8,))]
 PEER_PLANE = [
-    ({"order": 2, "corners": 3}, (0.5, 0.25)),
-    ({"order": 3, "corners": 4}, (1, 0.5, 0.25, 0.1)),
-    ({"order": 4, "corners": 5}, (1, 0.5, 0.25, 0.1)),
-    ({"order": 5, "corners": 6}, (1, 0.5, 0.25, 0.1)),
+    ({"order": 2, "corners": 3}, (0.5,)),
+    ({"order": 3, "corners": 4}, (1, 0.5)),
+    ({"order": 4, "corners": 5}, (1, 0.5)),
+    ({"order": 5, "corners": 6}, (1, 0.25)),
     ({"order": 5, "corners": 6, "far": 1.5}, (1,)),
 ]
-# With the first law alone: no refinement to the corners; the straightforward form of the same method.
-PEER_PLANE_FIRST = [
-    *(({"order": order, "corners": 0}, (0.5, 0.25)) for order in (2, 4)),
-    ({"order": 4, "corners": 5, "start": 0, "assembly": "whole"}, (1, 0.5)),
-]
+# With the stiff laws these are solved by degrees 1, 2 and their own; and meshes that are told the contact's width.
+PEER_PLANE_ENDS = [({"order": 3, "corners": 5}, (1,)), ({"order": 4, "corners": 5}, (1, 0.5))]
+# With the first law alone: the straightforward form of the same method. With the last one alone: a fine mesh.
+PEER_PLANE_FIRST = [({"order": 4, "corners": 5, "start": 0, "assembly": "whole"}, (1,))]
+PEER_PLANE_LAST = [({"order": 5, "corners": 6}, (0.1,))]
 PEER_SPACE = [
-    ({"order": 2, "mesh": "tetrahedra"}, (1.5, 1)),
-    ({"order": 2, "mesh": "hexes", "corners": 1}, (1.5,)),
-    ({"order": 3, "mesh": "tetrahedra", "reuse": 1}, (2, 1.5, 1)),
-    ({"order": 3, "mesh": "hexes", "corners": 1, "reuse": 1}, (2, 1.5)),
+    ({"order": 2, "mesh": "tetrahedra"}, (1,)),
+    ({"order": 3, "mesh": "tetrahedra", "reuse": 1}, (2,)),
+    ({"order": 3, "mesh": "hexes", "corners": 1, "reuse": 1}, (1.5,)),
 ]
+PEER_SPACE_ENDS = [({"order": 3, "reuse": 1}, (1,))]
+# Stiff: a factorisation a step, for one that is reused takes 80 iterations a step; rims as told by a coarse run.
+PEER_SPACE_STIFF = [({"order": 2, "mesh": "tetrahedra"}, (1,))]
+PEER_SPACE_STIFF_ENDS = [({"order": 2, "start": 2}, (1.5,)), ({"order": 3, "start": 2}, (2, 1.5))]
+PEER_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.4, 0.2))]
+PEER_PIN = [({"order": 2}, (0.8,)), ({"order": 3}, (0.8,)), ({"order": 4}, (0.8,))]
+# What tells the contact's width, of each code: flags of a run with the same law.
+COARSE = {"order": 2, "h": 0.5}
+PEER_COARSE = {
+    "disc-on-block": {"corners": 3, **COARSE},
+    "sphere-on-block": {"mesh": "tetrahedra", "order": 2, "h": 1.5},
+}
+
+# The pin: the law stands in a case file, the elements' size before the geometry.
+PIN = "pin-in-hole"
+PIN_CASE = """state strain
+body ring E 100 nu 0.3
+body pin E 100 nu 0.3
+contact bore pin-surface law power kappa {kappa:g} m {m:g} d0 -0.05
+clamp frame
+move core 0 -0.3
+"""
+OWN = {"method": "xnewton", "estimate": 0}  # of every run of the package
+CYLINDERS = {"d0": -0.05, "force": 0, "u0": 0.5}
 COLUMNS = [*reference.COLUMNS, "secondsBefore"]
 
 
@@ -75,34 +104,81 @@ def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
     """Round by round and problem by problem, the two codes in turn."""
     found = []
     for place in range(ROUNDS):
-        for kappa, m in LAWS:
+        for law in LAWS:
             ours, theirs = PACKAGE_PLANE, PEER_PLANE
-            if (kappa, m) == LAWS[0]:
+            if law == LAWS[0]:
                 theirs = theirs + PEER_PLANE_FIRST
-            if kappa >= STIFF:
-                ours = ours + [({**flags, "ends": ends(kappa, m)}, sizes) for flags, sizes in PACKAGE_PLANE_ENDS]
-            found += alternating(
-                series("disc-on-block", ours, place, kappa, m), series("disc-on-block", theirs, place, kappa, m, PEER)
+            if law == LAWS[-1]:
+                theirs = theirs + PEER_PLANE_LAST
+            if law[0] >= STIFF:
+                ours = ours + told(PACKAGE_PLANE_ENDS, ends(*law))
+                theirs = with_flags(theirs + told(PEER_PLANE_ENDS, ends(*law)), {"start": 2})
+            found += both("disc-on-block", place, law, ours, theirs)
+        for law in LAWS_SPACE:
+            radius = round(reference.values()["sphere-on-block", *law]["contactRadius"], 2)
+            theirs, rims = (
+                (PEER_SPACE, PEER_SPACE_ENDS) if law[0] < STIFF else (PEER_SPACE_STIFF, PEER_SPACE_STIFF_ENDS)
             )
-        ours = series("sphere-on-block", PACKAGE_SPACE, place, *LAWS[0])
-        found += alternating(ours, series("sphere-on-block", PEER_SPACE, place, *LAWS[0], PEER))
+            theirs = theirs + told(rims, radius)
+            found += both("sphere-on-block", place, law, PACKAGE_SPACE, theirs)
+        for law in LAWS_BODIES:
+            start = {"start": 2 if law[0] >= STIFF else 1}
+            found += both("two-cylinders", place, law, PACKAGE_CYLINDERS, with_flags(PEER_CYLINDERS, start), BODIES)
+            found += both(PIN, place, law, PACKAGE_PIN, with_flags(PEER_PIN, start), BODIES)
     return found
+
+
+def with_flags(lines: list, flags: dict) -> list:
+    """The series with these flags too."""
+    return [({**own, **flags}, sizes) for own, sizes in lines]
+
+
+def told(lines: list, width: float) -> list:
+    """The series, on meshes that are told the contact's half-width or radius."""
+    return with_flags(lines, {"ends": width})
+
+
+def both(scene: str, place: int, law: tuple, ours: list, theirs: list, script: str = PEER) -> list[campaign.Case]:
+    """The runs of one problem in one round, package and peer in turn."""
+    return alternating(series(scene, ours, place, *law), series(scene, theirs, place, *law, script))
 
 
 def series(scene: str, lines: list, place: int, kappa: float, m: int, script: str = "") -> list[campaign.Case]:
     """The runs of these series; `script`: the peer's, none for the package."""
     found = []
+    common = {"timeout": 100, "weight": 5 if scene == "sphere-on-block" else 1}
     for flags, sizes in lines:
         for h in sizes:
-            law = {"law": "power", "kappa": kappa, "m": m, "h": h, "tol": TOL}
+            law = {"law": "power", "kappa": kappa, "m": m}
             if script:
                 flags = {"problem": scene, "method": "ngsolve", **flags}
-                item = case(f"round {place + 1}", scene, timeout=300, weight=1.5, **flags, **law)
+                item = case(f"round {place + 1}", scene, **common, **flags, **law, h=h, tol=TOL)
                 item = dataclasses.replace(item, script=script, program=(str(PYTHON),))
+            elif scene == PIN:
+                files = {"mesh": pin_mesh(h), "case": pin_case(kappa, m)}
+                item = case(f"round {place + 1}", "parts", **common, **OWN, **flags, **files, tol=TOL)
             else:
-                item = case(f"round {place + 1}", scene, timeout=300, weight=1.5, method="xnewton", **flags, **law)
+                flags = {**flags, **(CYLINDERS if scene == "two-cylinders" else {})}
+                item = case(f"round {place + 1}", scene, **common, **OWN, **flags, **law, h=h, tol=TOL)
             found.append(item)
     return found
+
+
+def pin_mesh(h: float) -> str:
+    return f"pin-{h:g}.geo"
+
+
+def pin_case(kappa: float, m: float) -> str:
+    return f"pin-{kappa:g}-{m:g}.case"
+
+
+def added_files() -> dict[str, str]:
+    """What the frozen sources have beside the package: the other code's scripts, the pin's geometries and cases."""
+    folder = Path(__file__).parent
+    found = {name: (folder / name).read_text() for name in (PEER, BODIES)}
+    geometry = (folder / "pin.geo").read_text()
+    found |= {pin_mesh(h): f"h = {h:g};\n{geometry}" for _, sizes in PACKAGE_PIN for h in sizes}
+    return found | {pin_case(*law): PIN_CASE.format(kappa=law[0], m=law[1]) for law in LAWS_BODIES}
 
 
 def alternating(ours: list, theirs: list) -> list:
@@ -116,13 +192,22 @@ def alternating(ours: list, theirs: list) -> list:
 
 def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
     """COLUMNS: errors, and of a run with `-ends` the seconds of a coarse run without, mesh to displacement."""
-    errors = reference.errors(sources, processes)
 
     def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
-        found = errors(item, summary, folder)
-        if "ends" in item.parameters:
-            flags = {"law": "power", "kappa": item.parameters["kappa"], "m": item.parameters["m"], "tol": TOL}
-            coarse = case("coarse", method="xnewton", **COARSE, **flags)
+        flags, found = item.parameters, {}
+        if "case" in flags:
+            h, (kappa, m) = flags["mesh"][4:-4], flags["case"][4:-5].split("-")
+            found = {"scene": PIN, "kappa": float(kappa), "m": float(m), "h": float(h)}
+        else:
+            kappa, m = flags["kappa"], flags["m"]
+        found |= reference.compared(summary, (found or summary)["scene"], float(kappa), float(m), folder)
+        if "ends" in flags:
+            law = {"law": "power", "kappa": kappa, "m": m, "tol": TOL}
+            coarse = case("coarse", method="xnewton", **COARSE, **law)
+            if item.program:
+                scene = flags["problem"]
+                coarse = case("coarse", method="ngsolve", problem=scene, **PEER_COARSE[scene], **law)
+                coarse = dataclasses.replace(coarse, script=item.script, program=item.program)
             row = campaign.run_case(coarse, sources, processes)
             if row["status"] != "converged":
                 raise RuntimeError(f"{coarse.flags}: {row['message']}")
@@ -155,51 +240,124 @@ def seconds(row: dict[str, str]) -> float:
     return contact_seconds(row) + float(row["secondsBefore"] or 0)
 
 
-def table(rows: list[dict[str, str]]) -> str:
-    """Least seconds to each error in force and the element that took them, package / NGSolve, problem by problem."""
-    rows = medians(rows)
+def problem_of(row: dict[str, str]) -> tuple[str, float, float]:
+    """Scene, kappa and m of a run; also of one that has failed."""
+    found = dict(zip(row["flags"].split()[::2], row["flags"].split()[1::2], strict=True))
+    if "-case" in found:
+        kappa, m = found["-case"][4:-5].split("-")
+        return PIN, float(kappa), float(m)
+    scene = found.get("-problem", row["scene"])
+    return scene, float(found.get("-kappa", row["kappa"])), float(found.get("-m", row["m"]))
+
+
+SCENES = {"sphere-on-block": "sphere, ", "two-cylinders": "cylinders, ", PIN: "pin, "}
+
+
+def problem_words(which: tuple[str, float, float]) -> str:
+    scene, kappa, m = which
+    return f"{SCENES.get(scene, '')}{decade(kappa)}, {m:g}"
+
+
+def theirs(row: dict[str, str]) -> bool:
+    """Whether a run is the other code's."""
+    return row["script"] in (PEER, BODIES)
+
+
+def table(rows: list[dict[str, str]], column: str = "forceError", errors: tuple = ERRORS) -> str:
+    """Least seconds to each error and the element that took them, package / NGSolve, problem by problem."""
+    rows = [row for row in medians(rows) if row["status"] != "converged" or row[column] != ""]
     lines = []
-    for which in dict.fromkeys(map(problem, rows)):
-        group = [row for row in rows if problem(row) == which]
+    for which, group in by_problem(rows):
         cells = []
-        for error in ERRORS:
-            pair = [best(group, error, peer) for peer in (False, True)]
+        for error in errors:
+            pair = [best(group, error, peer, column) for peer in (False, True)]
             words = ["–" if row is None else f"{row['seconds']:.2g} {element(row)}" for row in pair]
-            cells.append(" / ".join(words))
-        lines.append([problem_words(group[0]), *cells])
-    return markdown(["κ, m", *(decade(error) for error in ERRORS)], lines)
+            sure = column != "forceError" or error >= 2 * reference.differences()[which]
+            cells.append(" / ".join(words) if sure else "")
+        if any(cell not in ("", "– / –") for cell in cells):
+            lines.append([problem_words(which), *cells])
+    return markdown(["κ, m", *(decade(error) for error in errors)], lines)
+
+
+def other_tables(rows: list[dict[str, str]]) -> str:
+    """The same of the other quantities, in the plane's problems; the quantity stands before the law."""
+    lines = []
+    for column, words in OTHERS.items():
+        plane = [row for row in rows if problem_of(row)[0] == "disc-on-block"]
+        head, rule, *body = table(plane, column, OTHERS_ERRORS).splitlines()
+        lines += [f"| {words} {line}" for line in body]
+    return "\n".join([f"| quantity {head}", f"| --- {rule}", *lines])
+
+
+def by_problem(rows: list[dict[str, str]]) -> list[tuple[tuple, list[dict[str, str]]]]:
+    """The problems in turn, and their runs."""
+    found: dict = {}
+    for row in rows:
+        found.setdefault(problem_of(row), []).append(row)
+    return list(found.items())
+
+
+def failed_table(rows: list[dict[str, str]]) -> str:
+    """What each code failed at, problem by problem: the least error of its meshes, and runs that came to nothing."""
+    lines = []
+    for which, group in by_problem(medians(rows)):
+        cells = []
+        for peer in (False, True):
+            own = [row for row in group if theirs(row) == peer]
+            known = [value(row, "forceError") for row in own if not failure(row)]
+            words = [f"least error {max(min(known), reference.differences()[which]):.0e}"] if known else ["nothing"]
+            for reason in ("not converged", "timeout", "wrong"):
+                lost = [f"P{value_of(row, 'order')} h = {value_of(row, 'h')}" for row in own if fate(row) == reason]
+                words += [f"{reason}: {', '.join(lost)}"] if lost else []
+            others = [row for row in own if fate(row) not in ("", "not converged", "timeout", "wrong")]
+            words += [f"{fate(row)}: {row['message']}" for row in others]
+            cells.append("; ".join(words))
+        lines.append([problem_words(which), *cells])
+    return markdown(["κ, m", "package", "NGSolve"], lines)
+
+
+def value_of(row: dict[str, str], flag: str) -> str:
+    """A flag of a run, as it was given; of the pin's size the number in its file's name."""
+    words = row["flags"].split()
+    found = dict(zip(words[::2], words[1::2], strict=True))
+    return found["-mesh"][4:-4] if flag == "h" and "-case" in found else found[f"-{flag}"]
+
+
+def fate(row: dict[str, str]) -> str:
+    """Why a run is no result; empty where it is one."""
+    if row["status"] != "converged":
+        return row["status"]
+    return "wrong" if value(row, "forceError") > WRONG else ""
 
 
 def report(rows: list[dict[str, str]]) -> str:
     """The cheapest run of each code to each error in force, problem by problem; then what failed."""
     short = table(rows)
-    rows = medians(rows)
+    failed = failed_table(rows)
     lines = []
-    for which in dict.fromkeys(map(problem, rows)):
-        group = [row for row in rows if problem(row) == which]
+    for which, group in by_problem(medians(rows)):
         for error in ERRORS:
             pair = [best(group, error, peer) for peer in (False, True)]
             if any(pair):
-                lines.append([problem_words(group[0]), decade(error), *map(words, pair)])
-    failed = [f"{row['script']} {row['flags']}: {row['status']}, {row['message']}" for row in rows if failure(row)]
+                lines.append([problem_words(which), decade(error), *map(words, pair)])
     header = ["kappa, m", "error in force", "package: s (mesh s), dofs, linearisations", "NGSolve: the same"]
-    return "\n".join([markdown(header, lines), "", short, "", *failed])
+    return "\n\n".join([markdown(header, lines), short, other_tables(rows), failed])
 
 
 def failure(row: dict) -> bool:
     return row["status"] != "converged"
 
 
-def best(rows: list[dict], error: float, peer: bool) -> dict | None:
-    """The cheapest run of one code to this error in force."""
-    return cheapest([row for row in rows if (row["script"] == PEER) == peer], error, lambda row: row["seconds"])
+def best(rows: list[dict], error: float, peer: bool, column: str = "forceError") -> dict | None:
+    """The cheapest run of one code to this error."""
+    return cheapest([row for row in rows if theirs(row) == peer], error, lambda row: row["seconds"], column)
 
 
 def words(row: dict | None) -> str:
     """A run's seconds, size and linearisations, its element and mesh; "-" where there is none."""
     if row is None:
         return "-"
-    steps = int(row["newton"]) + (int(row["kernelNewton"] or 0) if row["script"] == PEER else 0)
+    steps = int(row["newton"]) + (int(row["kernelNewton"] or 0) if theirs(row) else 0)
     return f"{row['seconds']:.3f} ({row['mesh']:.2f}), {row['ndof']}, {steps}: {element(row)}, h = {row['h']}"
 
 
@@ -209,10 +367,9 @@ def main(argv: list[str] | None = None) -> int:
     arguments = parser.parse_args(argv)
     if not PYTHON.exists():
         parser.exit(1, f"{parser.prog}: NGSolve is not installed in .venv-peers; `make bench-peers` does it\n")
-    files = {PEER: (campaign.ROOT / "tests" / "campaigns" / PEER).read_text()}
     try:
         rows = campaign.run(
-            cases(), arguments.out / "peers.csv", columns=COLUMNS, measure=measures, files=files, title="peers"
+            cases(), arguments.out / "peers.csv", columns=COLUMNS, measure=measures, files=added_files(), title="peers"
         )
     except KeyboardInterrupt:
         print("\ninterrupted; started again, it goes on from here", file=sys.stderr)

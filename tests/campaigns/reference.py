@@ -27,6 +27,14 @@ def values(path: Path = DATA / "references.csv") -> dict[tuple[str, float, float
     return found
 
 
+@functools.cache
+def differences(path: Path = DATA / "references.csv") -> dict[tuple[str, float, float], float]:
+    """(scene, kappa, m) to what is known of the force's own error: the relative difference of its two solutions."""
+    with path.open() as file:
+        rows = [row for row in csv.DictReader(file) if row["quantity"] == "force"]
+    return {(row["scene"], float(row["kappa"]), float(row["m"])): float(row["difference"]) for row in rows}
+
+
 def name_of(kappa: float, m: float) -> str:
     """The name of a law in the files' names: k1e9-m3, or hard."""
     mantissa, exponent = f"{kappa:e}".split("e") if np.isfinite(kappa) else ("", "")
@@ -68,14 +76,19 @@ def errors(*_) -> campaign.Measure:
     """COLUMNS of a run, relative differences to the reference: the plane's profile in L2, the others as they are."""
 
     def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
-        scene, (kappa, m) = summary["scene"], (float(item.parameters[name]) for name in ("kappa", "m"))
-        known = values()[scene, kappa, m]
-        found = {}
-        for column, name in ERRORS.items():
-            if name in known and summary.get(name) is not None:
-                found[column] = abs(summary[name] / known[name] - 1)
-        if scene == "disc-on-block":
-            found["profileError"] = profile_error(kappa, m, campaign.read_contact(folder))
-        return found
+        kappa, m = (float(item.parameters[name]) for name in ("kappa", "m"))
+        return compared(summary, summary["scene"], kappa, m, folder)
 
     return measure
+
+
+def compared(summary: dict, scene: str, kappa: float, m: float, folder: Path) -> dict:
+    """COLUMNS of a run of this problem."""
+    known = values()[scene, kappa, m]
+    found = {}
+    for column, name in ERRORS.items():
+        if name in known and summary.get(name) is not None:
+            found[column] = abs(summary[name] / known[name] - 1)
+    if scene == "disc-on-block":
+        found["profileError"] = profile_error(kappa, m, campaign.read_contact(folder))
+    return found

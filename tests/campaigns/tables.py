@@ -44,6 +44,8 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "large-laws": ("bench/large", bench.large_laws_table),
     "asked": ("bench/accuracy", bench.accuracy_runs),
     "peers": ("bench/peers", peers.table),
+    "peers-others": ("bench/peers", peers.other_tables),
+    "peers-failed": ("bench/peers", peers.failed_table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),

@@ -1,0 +1,72 @@
+"""The plugin of `make fast`: where it can be built it changes nothing but the time; where not, nothing at all."""
+
+import json
+import os
+import shutil
+
+import pytest
+from freefem import environment, execute, run_in, script, tree
+
+DONE = ["-o", "system", "-o", ".venv/dev.stamp"]
+RUNS = [  # elements with half matrices, bodies of two materials, and what the plugin sorts but does not assemble
+    ("disc-on-block", "-order", "2", "-h", "2"),
+    ("meshed-disc", "-order", "4", "-h", "4", "-Eratio", "3"),
+    ("disc-on-block", "-order", "3", "-h", "3", "-geometry", "axisymmetric"),
+    ("sphere-on-block", "-order", "2", "-h", "2", "-patch", "4", "-layers", "1", "-grading", "10"),
+]
+ROUNDING = 1e-8  # of what is no difference of large numbers
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    return tree(tmp_path_factory.mktemp("fast") / "package")
+
+
+def make(package, *words, **env):
+    return execute(["make", "-s", *DONE, *words], cwd=package, env=environment(**env))
+
+
+def results(package, out):
+    """The summaries of all runs."""
+    found = []
+    for k, (scene, *flags) in enumerate(RUNS):
+        run_in(package, script(scene), *flags, "-vtu", "0", "-estimate", "0", out=out / str(k))
+        found.append(json.loads((out / str(k) / "summary.json").read_text()))
+    return found
+
+
+def without(package, tmp_path, *missing):
+    """A PATH whose programs are this machine's, but for those that are missing."""
+    place = tmp_path / "programs"
+    place.mkdir()
+    for folder in reversed(os.environ["PATH"].split(os.pathsep)):
+        if os.path.isdir(folder):
+            for program in os.scandir(folder):
+                if program.name not in missing:
+                    link = place / program.name
+                    link.unlink(missing_ok=True)
+                    link.symlink_to(program.path)
+    return str(place)
+
+
+def test_no_compiler_no_word(package, tmp_path):
+    """`make setup` shall try to build it: without a compiler silently, with one that fails in one line, and go on."""
+    path = without(package, tmp_path, "g++", "c++")
+    assert make(package, "try-fast", PATH=path, CXX="g++") == (0, "")
+    code, stdout = make(package, "try-fast", CXX="false")
+    assert code == 0 and len(stdout.splitlines()) == 1, stdout
+    assert not (package / "build" / "fast-plugin.idp").exists()
+
+
+def test_same_numbers(package, tmp_path):
+    """With the plugin, where there is a compiler, every run shall have the same counts, and the same numbers but for rounding."""
+    plain = results(package, tmp_path / "plain")
+    assert all(summary["converged"] and '"fast"' not in json.dumps(summary["plugins"]) for summary in plain)
+    if shutil.which("ff-c++") and shutil.which("g++"):
+        assert make(package, "fast") == (0, "")
+        for before, after in zip(plain, results(package, tmp_path / "fast"), strict=True):
+            for count in ("ndof", "points", "contactPoints", "newton", "backsolves", "adaptations", "factorisations"):
+                assert before[count] == after[count], count
+            for number in ("force", "pressureMax", "halfWidthMoment", "energy"):
+                assert after[number] == pytest.approx(before[number], rel=ROUNDING), number
+    shutil.rmtree(package / "build", ignore_errors=True)
