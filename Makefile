@@ -43,7 +43,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -146,7 +146,7 @@ $(BUILD)/fast-plugin.idp: edp/operator/fast.cpp $(wildcard /usr/bin/FreeFem++)
 	  cd .. && rm -rf fast-new && echo 'the plugin of make fast could not be built: $(BUILD)/fast.log'; exit 1; \
 	}
 	@rm -rf $(BUILD)/fast-new
-	@printf '%s\n' '// written by make fast' 'load "fast"' 'macro fastBuilt() 1 //' >$@
+	@printf '%s\n' '// written by make fast' 'load "fast"' 'macro byPlugin(statement) statement //' >$@
 	@$(NAME_BUILD)
 
 # The plugin for -solver multigrid, on Debian's PETSc or on the one in $(PETSC), which has include/ and lib/ (named on the command

@@ -9,8 +9,7 @@ DefineConstant[
   layers  = {4,     Name "layers"},   // of the grid below the square
   mirrors = {0,     Name "mirrors"},  // 0: the whole, 1: a half, 2: a quarter
   grading = {80,    Name "grading"},  // size = h (1 + grading r), r: distance from the grid
-  edges   = {0,     Name "edges"},    // element size at the clamped edges; 0: as around them
-  slope   = {1.2,   Name "slope"}     // by how much it grows with the distance from them
+  edges   = {0,     Name "edges"}     // element size at the clamped edges, where it grows by 1.2 times the distance; 0: as around them
 ];
 
 half = 0.5;
@@ -128,9 +127,9 @@ Field[1] = MathEval;
 Field[1].F = StrCat(Sprintf("%.12g*(1+%.12g*Sqrt(", cell, grading), outx, "*", outx, "+", outy, "*", outy, "+", outz, "*", outz, "))");
 If (edges > 0)
   Field[2] = MathEval;
-  Field[2].F = Sprintf("%.12g+%.12g*Sqrt((Fabs(x)-0.5)*(Fabs(x)-0.5)+z*z)", edges, slope);
+  Field[2].F = Sprintf("%.12g+1.2*Sqrt((Fabs(x)-0.5)*(Fabs(x)-0.5)+z*z)", edges);
   Field[3] = MathEval;
-  Field[3].F = Sprintf("%.12g+%.12g*Sqrt((Fabs(y)-0.5)*(Fabs(y)-0.5)+z*z)", edges, slope);
+  Field[3].F = Sprintf("%.12g+1.2*Sqrt((Fabs(y)-0.5)*(Fabs(y)-0.5)+z*z)", edges);
   Field[4] = Min;
   Field[4].FieldsList = {1, 2, 3};
 EndIf

@@ -222,7 +222,7 @@ def test_contact_up_to_the_edge_is_said():
 @pytest.mark.parametrize(
     "flags, words",
     [
-        (["-order", 4], ["-order 4", "from 1 to 2"]),
+        (["-order", 4], ["-order 4", "from 1 to 3"]),
         (["-patch", 7.5], ["-patch 7.5", "at most 7"]),
         (["-R", 100, "-patch", 19], ["-patch 19", "at most 18"]),
         (["-patch", 2, "-h", 3], ["-h 3", "at most 2"]),

@@ -17,6 +17,7 @@ SPHERE = 1567.7  # +- 0.3: the force of sphere-on-block's default load, from ano
         ("patch-test", ["-order", 4]),
         ("patch-test-3d", ["-order", 1, "-lower", 2, "-upper", 5]),
         ("patch-test-3d", ["-order", 2, "-lower", 2, "-upper", 3]),
+        ("patch-test-3d", ["-order", 3, "-lower", 2, "-upper", 3]),
         pytest.param("patch-test-3d", ["-order", 2], marks=pytest.mark.long),
     ],
 )

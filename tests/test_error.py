@@ -56,7 +56,7 @@ def test_estimates_hold(solved, order, h, law):
     assert sum(run.estimates["parts"].values()) == pytest.approx(run.estimates["force"]["error"])
 
 
-@pytest.mark.parametrize("order, h", [(1, 1), (2, 2), pytest.param(2, 1.4, marks=pytest.mark.long)])
+@pytest.mark.parametrize("order, h", [(1, 1), (2, 2), (3, 2.5), pytest.param(2, 1.4, marks=pytest.mark.long)])
 def test_in_space(solved, order, h):
     """In space too: the sphere on the block."""
     run = solved("sphere-on-block", "-order", order, "-h", h)

@@ -59,7 +59,7 @@ def test_no_compiler_no_word(package, tmp_path):
 
 
 def test_same_numbers(package, tmp_path):
-    """With the plugin, where there is a compiler, every run shall have the same counts, and the same numbers but for rounding."""
+    """With the plugin, where there is a compiler, all shall have the same counts and, but for rounding, results."""
     plain = results(package, tmp_path / "plain")
     assert all(summary["converged"] and '"fast"' not in json.dumps(summary["plugins"]) for summary in plain)
     if shutil.which("ff-c++") and shutil.which("g++"):

@@ -183,6 +183,27 @@ def test_contact(made):
         np.testing.assert_allclose(grid.at_points[DISPLACEMENT], there, rtol=1e-12, atol=1e-14)
 
 
+def test_cubic_cells_in_space(tmp_path):
+    """P3's cells cut up shall fill the block once and cover its slave; both files move alike where they meet."""
+    flags = "-order", 3, "-h", 3, "-layers", 1, "-grading", 80, "-estimate", 0
+    run = run_in(ROOT, script("sphere-on-block"), *flags, out=tmp_path / "cubic")
+    solution, contact = Grid(run.folder / "solution.vtu"), Grid(run.folder / "contact.vtu")
+    corners = solution.points[[cell for cell, kind in zip(solution.cells, solution.kinds, strict=True) if kind == 10]]
+    volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+    assert volume.min() > 0 and len(volume) % 27 == 0 and volume.sum() == pytest.approx(40 * 40 * 20 / 4, rel=1e-9)
+    corners = contact.points[np.array(contact.cells)]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert 0.5 * np.linalg.norm(across, axis=1).sum() == pytest.approx(run.contact["weight"].sum() / 4, rel=1e-9)
+    np.testing.assert_allclose(contact.at_points[PRESSURE], run.contact["pressure"], rtol=1e-12)
+    meets = [np.abs(solution.points - point).max(axis=1).argmin() for point in contact.points]
+    same = np.abs(solution.points[meets] - contact.points).max(axis=1) < 1e-9
+    moved = [grid.at_points[DISPLACEMENT] for grid in (solution, contact)]
+    assert 10 < same.sum() < len(same)
+    np.testing.assert_allclose(moved[0][meets][same], moved[1][same], atol=1e-12)
+    pressures = solution.at_points[PRESSURE][meets][same], contact.at_points[PRESSURE][same]
+    np.testing.assert_allclose(*pressures, atol=1e-9)
+
+
 def test_states(made):
     """states.pvd: a time for each state of states.csv, each file there, deformed; the last is the solution."""
     name, run = made
