@@ -244,9 +244,9 @@ def test_hook_in_and_out(solve, tmp_path):
 
 def slab(matrix=None):
     """A thin slab of half a cylinder on one of a block, of boxes of equal sizes, bent."""
-    mesh = cube(Mesh(), size=(5, 0.5, 2), cells=(25, 2, 2), at=(-3, 0, -2), prefix="b")
+    mesh = cube(Mesh(), size=(5, 0.5, 2), cells=(25, 2, 1), at=(-3, 0, -2), prefix="b")
     first = len(mesh.nodes)
-    cube(mesh, size=(1, 0.5, 1), cells=(40, 2, 2), prefix="c", name="cylinder")
+    cube(mesh, size=(1, 0.5, 1), cells=(40, 2, 1), prefix="c", name="cylinder")
     for k, (a, y, c) in enumerate(mesh.nodes[first:]):
         radius, angle = 2 * (1 - 0.75 * c), (a - 0.5) * np.pi
         mesh.nodes[first + k] = (-1 + radius * np.sin(angle), y, 2 - radius * np.cos(angle))
