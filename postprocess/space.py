@@ -61,6 +61,17 @@ def faces_of(bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
     return of[grid.skin[:, 0]], ~pressed & pressed.any()
 
 
+def pressed_faces(grid: Grid) -> np.ndarray:
+    """Of each face of the skin whether its group bears pressures: a side that shares a contact's edge does not."""
+    sides = np.sort(np.concatenate([grid.surface, grid.skin]), axis=1)
+    number = np.unique(sides, axis=0, return_inverse=True)[1].ravel()
+    named, skin = number[: len(grid.surface)], number[len(grid.surface) :]
+    groups = np.unique(grid.label[(grid.pressure[grid.surface] != 0).all(axis=1)])
+    if not len(groups):
+        return np.ones(len(skin), bool)
+    return np.isin(skin, named[np.isin(grid.label, groups)])
+
+
 def across_faces(skin: np.ndarray, place: np.ndarray) -> np.ndarray:
     """The faces' unit normals (s, 3), of either sign."""
     across = np.cross(place[skin[:, 1]] - place[skin[:, 0]], place[skin[:, 2]] - place[skin[:, 0]])
@@ -95,7 +106,7 @@ def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
         colours = style.shades(grid.stress[grid.skin].mean(axis=1) / scale.norm.vmax)
     else:
         pressure = np.abs(grid.pressure[grid.skin].mean(axis=1)) / bodies.coloured
-        shown = pressure > 1e-3
+        shown = (pressure > 1e-3) & pressed_faces(grid)
         colours[shown] = style.shades(pressure[shown], PRESSED["cmap"])
     if not rendered(axes, bodies, view, colours, opaque):
         across = across_faces(grid.skin, place)

@@ -223,6 +223,7 @@ def test_contact_up_to_the_edge_is_said():
     "flags, words",
     [
         (["-order", 4], ["-order 4", "from 1 to 3"]),
+        (["-order", 3, "-solver", "multigrid"], ["-solver multigrid", "not with -order 3"]),
         (["-patch", 7.5], ["-patch 7.5", "at most 7"]),
         (["-R", 100, "-patch", 19], ["-patch 19", "at most 18"]),
         (["-patch", 2, "-h", 3], ["-h 3", "at most 2"]),
@@ -238,6 +239,13 @@ def test_refusals(flags, words):
     assert not done.folder.exists()
     for word in words:
         assert word in done.stdout.splitlines()[0]
+
+
+def test_memory_of_p3(tmp_path):
+    """Multigrid does not take P3: its memory shall not be offered."""
+    flags = ["-order", 3, "-layers", 1, "-h", 5, "-solver", "none"]
+    said = run_in(ROOT, script(SCENE), *flags, out=tmp_path / "out", expect=0).stdout
+    assert "unknowns of P3 take" in said and "multigrid;" not in said
 
 
 def hertz(force, radius, modulus):

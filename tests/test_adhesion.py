@@ -294,6 +294,7 @@ def test_path_of_forces(tmp_path):
     np.testing.assert_allclose(rows["force"], [0.02, -0.005, -0.03], atol=1e-8)
     off = abs(done.approach - 0.001046811)  # P2, h = 0.006
     assert off <= done.estimates["approach"]["error"] < 0.05 * done.approach
+    assert abs(done.force + 0.03) <= done.estimates["force"]["error"] < 1e-8
     assert run(SPHERE, "-u0", float(rows["approach"][2])).force == pytest.approx(-0.03, rel=1e-6)
     lost = run(SPHERE, *given, "-path", "0 -0.09", expect=20)
     assert "no stable state carries the force -0.09" in lost.message

@@ -184,12 +184,12 @@ def test_contact(made):
 
 
 def test_cubic_cells_in_space(tmp_path):
-    """P3's cells cut up shall fill the block once and cover its slave; both files move alike where they meet."""
+    """P3's cells cut up shall fill the block once, none inside out; both files cover the slave and move alike there."""
     flags = "-order", 3, "-h", 3, "-layers", 1, "-grading", 80, "-estimate", 0
     run = run_in(ROOT, script("sphere-on-block"), *flags, out=tmp_path / "cubic")
     solution, contact = Grid(run.folder / "solution.vtu"), Grid(run.folder / "contact.vtu")
     corners = solution.points[[cell for cell, kind in zip(solution.cells, solution.kinds, strict=True) if kind == 10]]
-    volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+    volume = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
     assert volume.min() > 0 and len(volume) % 27 == 0 and volume.sum() == pytest.approx(40 * 40 * 20 / 4, rel=1e-9)
     corners = contact.points[np.array(contact.cells)]
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -15,7 +15,7 @@ from postprocess import bodies, space, style
 from postprocess.__main__ import main
 from postprocess.commands import check, state, stress
 from postprocess.results import read_run
-from postprocess.vtu import MOVE, read_arrays, read_names
+from postprocess.vtu import MOVE, Grid, read_arrays, read_names
 
 RUNS = {
     "plane": ("disc-on-block", "-h", 2),
@@ -114,6 +114,14 @@ def test_singular_places_are_marked(case, tmp_path):
     (bar,) = figure(stress, folder).axes[0].child_axes
     assert "up to" in bar.get_ylabel()
     assert bodies.read_bodies(read_run(case), None).scale in (10, 20, 50)
+
+
+def test_pressures_beside_contacts():
+    """A side that shares an edge with a contact shall not be painted with its pressure."""
+    corners, none = np.eye(4, 3), np.zeros(4)
+    faces = {"surface": np.array([[0, 1, 2], [0, 1, 3]]), "label": np.array([5, 6])}
+    grid = Grid(corners, corners, np.array([[0, 1, 2, 3]]), stress=none, pressure=np.array([1.0, 1, 1, 0]), **faces)
+    assert [sorted(face) for face in grid.skin[space.pressed_faces(grid)]] == [[0, 1, 2]]
 
 
 def test_eye_sees_the_contact():
