@@ -13,12 +13,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from freefem import ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
+from freefem import MULTIGRID, ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
 from test_parts import Mesh, cube, turn_in_space, vector
 
-built = pytest.mark.skipif(
-    not (ROOT / "build" / "multigrid-plugin.idp").exists(), reason="the plugin is not built: make mpi"
-)
+built = pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
 AS_ROOT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
