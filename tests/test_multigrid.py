@@ -175,7 +175,12 @@ MOVED = STACK + 'move "upper top" {}\n'
 PARTS = [
     (FLOATS, [], ["-order", 1], 2),  # grounded, its symmetry across no axis
     (PULLED, [(0, 0, -1), (0, 0, -1)], ["-order", 2, "-estimate", 1], 1),
-    (MOVED, [(2e-3, 1e-3, -1e-2)], ["-order", 1, "-history", 1, "-steps", 2], 1),
+    (
+        MOVED,
+        [(2e-3, 1e-3, -1e-2)],
+        ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 1],
+        2,
+    ),  # errors by products with K
     (MOVED, [(2e-3, 1e-3, -1e-2)], ["-order", 1, "-distance", "exact"], 2),
     (MOVED.replace('bottom"', 'bottom" friction 0.3', 1), [(2e-3, 1e-3, -1e-2)], ["-order", 1], 1),
 ]
@@ -184,7 +189,7 @@ PARTS = [
 @built
 @pytest.mark.parametrize(
     "case, ways, flags, ranks",
-    [pytest.param(*PARTS[k], marks=[] if k < 2 else [pytest.mark.long]) for k in range(len(PARTS))],
+    [pytest.param(*PARTS[k], marks=[] if k < 3 else [pytest.mark.long]) for k in range(len(PARTS))],
 )
 def test_case(case, ways, flags, ranks, tmp_path):
     """Two boxes, turned: the direct engine's pressures, forces and motions, on any number of processes."""
