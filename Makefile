@@ -22,6 +22,9 @@ CACHE   := $(abspath $(CACHE))
 VENV    := $(if $(CACHE),$(CACHE)/venv,.venv)
 BUILD   := $(if $(CACHE),$(CACHE)/build,build)
 PYTHON  := $(VENV)/bin/python
+# The plugins, by the names that the modules ask for: of another version's build/ they find none.
+FAST      := $(BUILD)/$(notdir $(wildcard edp/operator/without/fast-plugin-*.idp))
+MULTIGRID := $(BUILD)/$(notdir $(wildcard edp/operator/without/multigrid-plugin-*.idp))
 # A plugin in the cache is named by a .freefem++.pref there: of FreeFEM's lists only those of HOME's come before this folder's.
 FREEFEM := $(if $(CACHE),env HOME=$(BUILD) )FreeFem++ -nw -v 0
 ifneq ($(RESULTS),results)
@@ -133,20 +136,20 @@ python: | system
 # The plugin that assembles and sorts: put in place once it has been loaded, the .idp that names it last. FreeFEM's program is a
 # prerequisite: a plugin is of one version.
 fast: | system ## build the plugin that assembles and sorts matrices faster, where there is a compiler
-	@$(MAKE) -s --no-print-directory $(BUILD)/fast-plugin.idp
+	@$(MAKE) -s --no-print-directory $(FAST)
 
 try-fast: | system
 	@if command -v ff-c++ >/dev/null && command -v $${CXX:-g++} >/dev/null; then \
-	  $(MAKE) -s --no-print-directory $(BUILD)/fast-plugin.idp >/dev/null 2>&1 || \
+	  $(MAKE) -s --no-print-directory $(FAST) >/dev/null 2>&1 || \
 	  echo 'the plugin of make fast could not be built ($(BUILD)/fast.log): runs go on without it'; fi
 
-$(BUILD)/fast-plugin.idp: edp/operator/fast.cpp $(wildcard /usr/bin/FreeFem++)
+$(FAST): edp/operator/fast.cpp $(wildcard /usr/bin/FreeFem++)
 	@rm -rf $(BUILD)/fast-new $@; mkdir -p $(BUILD)/fast-new && cp $< $(BUILD)/fast-new && cd $(BUILD)/fast-new && \
-	echo 'load "./fast"' >try.edp && { ff-c++ fast.cpp && FreeFem++ -nw -v 0 try.edp; } >../fast.log 2>&1 && mv fast.so .. || { \
+	echo 'load "./fast"' >try.edp && { ff-c++ fast.cpp && FreeFem++ -nw -v 0 try.edp; } >../fast.log 2>&1 && mv fast.so $(abspath $(FAST:.idp=.so)) || { \
 	  cd .. && rm -rf fast-new && echo 'the plugin of make fast could not be built: $(BUILD)/fast.log'; exit 1; \
 	}
 	@rm -rf $(BUILD)/fast-new
-	@printf '%s\n' '// written by make fast' 'load "fast"' 'macro byPlugin(statement) statement //' >$@
+	@printf '%s\n' '// written by make fast' 'load "$(basename $(@F))"' 'macro byPlugin(statement) statement //' >$@
 	@$(NAME_BUILD)
 
 # The plugin for -solver multigrid, on Debian's PETSc or on the one in $(PETSC), which has include/ and lib/ (named on the command
@@ -157,7 +160,7 @@ NAME_BUILD = test -z "$(CACHE)" || { cat ~/.freefem++.pref 2>/dev/null; \
 	  printf '%s += "$(BUILD)"\n' loadpath includepath; } >$(BUILD)/.freefem++.pref
 
 mpi: | petsc ## build the plugin for -solver multigrid and several processes: make mpi [PETSC=/its/folder]
-	@$(MAKE) -s --no-print-directory $(BUILD)/multigrid-plugin.idp
+	@$(MAKE) -s --no-print-directory $(MULTIGRID)
 
 petsc: | system
 	@missing=; \
@@ -167,16 +170,16 @@ petsc: | system
 	$(INSTALL_MISSING)
 
 # ff-c++ writes beside its source; what is built is put in place when it is whole, the .idp that names it last.
-$(BUILD)/multigrid-plugin.idp: edp/operator/multigrid.cpp Makefile
+$(MULTIGRID): edp/operator/multigrid.cpp Makefile
 	@mkdir -p $(BUILD)/new && cp $< $(BUILD)/new && cd $(BUILD)/new && \
 	ff-c++ -mpi -I$(PETSC)/include $$(mpicxx --showme:compile) -L$(PETSC)/lib -Wl,-rpath,$(PETSC)/lib \
 	  $$(if ls $(PETSC)/lib/libpetsc_real.* >/dev/null 2>&1; then echo -lpetsc_real; else echo -lpetsc; fi) \
-	  $$(mpicxx --showme:link) multigrid.cpp >../multigrid.log 2>&1 && mv multigrid.so .. || { \
+	  $$(mpicxx --showme:link) multigrid.cpp >../multigrid.log 2>&1 && mv multigrid.so $(abspath $(MULTIGRID:.idp=.so)) || { \
 	  cd .. && grep -m 3 'error:' multigrid.log || tail -n 5 multigrid.log; \
 	  echo "the plugin could not be built with the PETSc in $(PETSC): $(BUILD)/multigrid.log"; exit 1; \
 	}
 	@rm -rf $(BUILD)/new
-	@printf '%s\n' '// written by make mpi' 'load "multigrid"' 'macro multigridBuilt() 1 //' >$@
+	@printf '%s\n' '// written by make mpi' 'load "$(basename $(@F))"' 'macro multigridBuilt() 1 //' >$@
 	@$(NAME_BUILD)
 	@echo 'built: -solver multigrid, in scenes in space'
 
@@ -212,8 +215,8 @@ install: ## put scripts, Python commands and the starter stiff-contact below PRE
 	rm -rf "$$share"; mkdir -p "$$share" "$$bin"; \
 	tar -cf - --exclude=__pycache__ --exclude=generated --exclude='*.msh' --exclude='.making-*' \
 	  edp meshes postprocess README.md CHANGELOG.md CITATION.cff LICENSE requirements.txt freefem++.pref | (cd "$$share" && tar -xof -); \
-	for plugin in multigrid fast; do \
-	  test ! -e $(BUILD)/$$plugin-plugin.idp || { mkdir -p "$$share/build"; cp $(BUILD)/$$plugin.so $(BUILD)/$$plugin-plugin.idp "$$share/build"; }; \
+	for plugin in $(MULTIGRID:.idp=) $(FAST:.idp=); do \
+	  test ! -e $$plugin.idp || { mkdir -p "$$share/build"; cp $$plugin.so $$plugin.idp "$$share/build"; }; \
 	done; \
 	printf '%s\n' '#!/bin/sh' '# $(NAME): scenes and Python commands of the package from any folder: $(NAME) wavy -h 0.1' \
 	  "CONTACT_STARTER=\$$0 exec sh '$$PREFIX/share/$(NAME)/edp/freefem.sh' \"\$$@\"" >"$$bin/$(NAME)"; \
@@ -443,7 +446,7 @@ doctor: ## say what is installed, what is missing and how to get it
 
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: $(VENV)/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
-	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(BUILD)/multigrid-plugin.idp
+	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)
 	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
 # What tests need beside the package: each is skipped where its tool is not there.

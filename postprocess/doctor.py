@@ -331,12 +331,27 @@ def find_multigrid() -> list:
     petsc = next((folder for folder in folders if (folder / "include/petsc.h").exists()), None)
     words = str(petsc or "not found; needed for -solver multigrid only")
     findings.append(Finding("PETSc", bool(petsc), words, False, hint("petsc")))
-    built = (BUILD / "multigrid-plugin.idp").exists()
-    code, _ = snippet('load "multigrid"\n') if built else (1, "")
-    words = (
-        "built" if code == 0 else ("built, but cannot be loaded" if built else "not built; -solver direct needs none")
-    )
-    return [*findings, Finding("  plugin multigrid", code == 0, words, False, "make mpi")]
+    return [*findings, own_plugin("multigrid", "make mpi")]
+
+
+def own_plugin(name: str, how: str) -> Finding:
+    """A plugin that `make` builds: under the name that the scripts ask for, from the present source."""
+    asked = next((ROOT / "edp/operator/without").glob(f"{name}-plugin-*.idp"), Path("none"))
+    plugin, source, log = BUILD / asked.name, ROOT / f"edp/operator/{name}.cpp", BUILD / f"{name}.log"
+    compiler = os.environ.get("CXX", "g++")
+    if not plugin.exists():
+        words = "not built; runs go on without it"
+        if list(BUILD.glob(f"{name}-plugin*.idp")):
+            words = "of another version of the package: it stands aside"
+        elif not (shutil.which("ff-c++") and shutil.which(compiler)):
+            words += f"; no ff-c++ or no {compiler} on the PATH"
+        elif log.exists():
+            words = f"could not be built: {log} says why; runs go on without it"
+        return Finding(f"  plugin {name}", False, words, False, how)
+    if snippet(f'load "{plugin.stem}"\n')[0] != 0:
+        return Finding(f"  plugin {name}", False, "built, but cannot be loaded", False, f"rm {plugin}; {how}")
+    old = source.exists() and source.stat().st_mtime > plugin.stat().st_mtime
+    return Finding(f"  plugin {name}", not old, "built, older than its source" if old else "built", False, how)
 
 
 # ---------------------------------------------------------------- the lines
@@ -358,7 +373,14 @@ def main() -> int:
     if sys.argv[1:2] == ["--can"]:
         return 0 if can(sys.argv[2]) else 1
     print(f"{system_name()}, {processor()}, {cores()} cores")
-    findings = [*find_freefem(), *find_gmsh(), *find_python(), *find_others(), *find_multigrid()]
+    findings = [
+        *find_freefem(),
+        *find_gmsh(),
+        *find_python(),
+        *find_others(),
+        own_plugin("fast", "make fast"),
+        *find_multigrid(),
+    ]
     print("\n".join(lines(findings)))
     missing = [finding.name.strip() for finding in findings if finding.needed and not finding.there]
     if not missing:

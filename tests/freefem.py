@@ -21,6 +21,10 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
+MULTIGRID, FAST = (  # as built; the numbers in the names are those of what the plugins give the scripts
+    ROOT / "build" / next((ROOT / "edp/operator/without").glob(f"{name}-plugin-*.idp")).name
+    for name in ("multigrid", "fast")
+)
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
 STORE = None  # the session's folder of runs: conftest.py
 PLUGIN_SAYS = " load : P4 "  # 4.13's plugin, before anything else, whatever the verbosity

@@ -1,11 +1,14 @@
-"""The plugin of `make fast`: where it can be built it changes nothing but the time; where not, nothing at all."""
+"""The plugins: that of `make fast` changes nothing but the time where it can be built, and nothing at all where not;
+those of another version of the package stand aside."""
 
+import hashlib
 import json
 import os
+import re
 import shutil
 
 import pytest
-from freefem import environment, execute, run_in, script, tree
+from freefem import FAST, MULTIGRID, ROOT, environment, execute, run_in, script, tree
 
 DONE = ["-o", "system", "-o", ".venv/dev.stamp"]
 RUNS = [  # elements with half matrices, bodies of two materials, and what the plugin sorts but does not assemble
@@ -49,13 +52,41 @@ def without(package, tmp_path, *missing):
     return str(place)
 
 
+INTERFACES = {
+    "fast-plugin-1": "454ea60306e9757b9c40c6ac9f5a9014",
+    "multigrid-plugin-1": "d440f773ad5b1bd7e12adaced05fad85",
+}
+
+
+@pytest.mark.parametrize("plugin", [FAST, MULTIGRID], ids=["fast", "multigrid"])
+def test_another_interface_another_name(plugin):
+    """Other functions shall have another number: an old build would end in a compile error."""
+    source = (ROOT / "edp/operator" / plugin.stem.split("-")[0]).with_suffix(".cpp").read_text()
+    functions = re.sub(r"\s+", "", "".join(re.findall(r"Global\.Add\(.*?;", source, re.S)))
+    assert INTERFACES.get(plugin.stem) == hashlib.md5(functions.encode()).hexdigest()
+
+
+def test_an_old_build_stands_aside(package, tmp_path):
+    """What another version has built shall not be loaded; what needs it says so in one line, nothing written."""
+    build = package / "build"
+    build.mkdir()
+    for name in ("fast-plugin", "multigrid-plugin", "fast-plugin-0", "multigrid-plugin-0"):
+        (build / f"{name}.idp").write_text('load "nowhere"\nmacro multigridBuilt() 1 //\n')
+    flags = ["-order", "1", "-h", "3", "-layers", "1"]
+    refused = run_in(package, script("sphere-on-block"), *flags, "-solver", "multigrid", out=tmp_path / "no", expect=10)
+    assert refused.stdout.count("\n") == 1 and "an older version's; allowed: direct, or `make mpi`" in refused.stdout
+    assert not (tmp_path / "no").exists()
+    run_in(package, script("sphere-on-block"), *flags, "-vtu", "0", "-estimate", "0", out=tmp_path / "yes")
+    shutil.rmtree(build)
+
+
 def test_no_compiler_no_word(package, tmp_path):
     """`make setup` shall try to build it: without a compiler silently, with one that fails in one line, and go on."""
     path = without(package, tmp_path, "g++", "c++")
     assert make(package, "try-fast", PATH=path, CXX="g++") == (0, "")
     code, stdout = make(package, "try-fast", CXX="false")
     assert code == 0 and len(stdout.splitlines()) == 1, stdout
-    assert not (package / "build" / "fast-plugin.idp").exists()
+    assert not list((package / "build").glob("*.idp"))
 
 
 def test_same_numbers(package, tmp_path):

@@ -8,10 +8,10 @@ import subprocess
 import time
 
 import pytest
-from freefem import ROOT, environment, flag_text, script, snippet, told
+from freefem import MULTIGRID, ROOT, environment, flag_text, script, snippet, told
 
 EXAMPLES = ROOT / "edp" / "examples"
-built = (ROOT / "build" / "multigrid-plugin.idp").exists()
+built = MULTIGRID.exists()
 
 
 def within(megabytes, *command, threads=1, folder=None, longest=250):

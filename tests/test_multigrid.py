@@ -13,12 +13,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from freefem import ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
+from freefem import MULTIGRID, ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
 from test_parts import Mesh, cube, turn_in_space, vector
 
-built = pytest.mark.skipif(
-    not (ROOT / "build" / "multigrid-plugin.idp").exists(), reason="the plugin is not built: make mpi"
-)
+built = pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
 AS_ROOT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -172,12 +170,17 @@ def test_several_processes_of_freefem_itself(tmp_path):
 
 STACK = 'body block E 100 nu 0.3\nbody upper E 100 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
 PULLED = STACK + 'clamp "upper left"\nforce "upper right" {}\nweight block {}\n'
-FLOATS = STACK + 'symmetry "upper left"\npressure "upper top" 2\n'
+FLOATS = STACK + 'symmetry "upper left"\npressure "upper top" 2\nstresses\n'
 MOVED = STACK + 'move "upper top" {}\n'
 PARTS = [
-    (FLOATS, [], ["-order", 1], 2),  # grounded, its symmetry across no axis
+    (FLOATS, [], ["-order", 1, "-estimate", 1], 2),  # grounded, its symmetry across no axis; duals of next to no forces
     (PULLED, [(0, 0, -1), (0, 0, -1)], ["-order", 2, "-estimate", 1], 1),
-    (MOVED, [(2e-3, 1e-3, -1e-2)], ["-order", 1, "-history", 1, "-steps", 2], 1),
+    (
+        MOVED,
+        [(2e-3, 1e-3, -1e-2)],
+        ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 1],
+        2,
+    ),  # errors by products with K
     (MOVED, [(2e-3, 1e-3, -1e-2)], ["-order", 1, "-distance", "exact"], 2),
     (MOVED.replace('bottom"', 'bottom" friction 0.3', 1), [(2e-3, 1e-3, -1e-2)], ["-order", 1], 1),
 ]
@@ -186,7 +189,7 @@ PARTS = [
 @built
 @pytest.mark.parametrize(
     "case, ways, flags, ranks",
-    [pytest.param(*PARTS[k], marks=[] if k < 2 else [pytest.mark.long]) for k in range(len(PARTS))],
+    [pytest.param(*PARTS[k], marks=[] if k < 3 else [pytest.mark.long]) for k in range(len(PARTS))],
 )
 def test_case(case, ways, flags, ranks, tmp_path):
     """Two boxes, turned: the direct engine's pressures, forces and motions, on any number of processes."""
@@ -197,7 +200,7 @@ def test_case(case, ways, flags, ranks, tmp_path):
     (tmp_path / "a.case").write_text(case.format(*(vector(way, matrix, 3) for way in ways)))
     given = ["-mesh", tmp_path / "a.msh", "-case", tmp_path / "a.case", "-tol", 1e-8, "-vtu", 0, *flags]
     given += [] if "-estimate" in flags else ["-estimate", 0]
-    handed = "-history" in flags or "exact" in flags or "friction" in case
+    handed = "-history" in flags or "exact" in flags or "friction" in case or "stresses" in case
     asked = f"scenes/asked/parts-3d-{'friction' if 'friction' in case else 'asked'}"
     name = f"edp/{asked if handed else 'parts-3d'}.edp"
     found = []

@@ -12,7 +12,20 @@ import time
 import numpy as np
 import pages
 import pytest
-from freefem import FREEFEM, ROOT, TIMEOUT, environment, execute, interruptible, run, run_in, scenes, script, tree
+from freefem import (
+    FREEFEM,
+    MULTIGRID,
+    ROOT,
+    TIMEOUT,
+    environment,
+    execute,
+    interruptible,
+    run,
+    run_in,
+    scenes,
+    script,
+    tree,
+)
 from PIL import Image
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
@@ -32,7 +45,6 @@ RESULTS = "\n".join((ROOT / "tests" / f"{name}.md").read_text() for name in ("RE
 PAPER = (ROOT / "edp" / "PAPER.md").read_text()
 THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 PAGES = sorted(str(path.relative_to(ROOT)) for path in in_markdown(ROOT))
-PLUGIN = ROOT / "build/multigrid-plugin.idp"
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]  # set-up counts as done
 # what stands for a table's values in the commands
 VALUES = {"H": 2, "T0": 0, "TOL": 1e-6, "ORDER": 1, "METHOD": "paper", "KAPPA": 1e6, "M": 2, "RATIO": 1e3}
@@ -203,7 +215,7 @@ def test_freefem_commands(line, tmp_path):
     """FreeFEM's commands shall run, on a coarse mesh and with a value for each placeholder."""
     words = [str(VALUES.get(word, word)) for word in shlex.split(line)]
     assert words[: len(FREEFEM)] == FREEFEM
-    if "multigrid" in words and not PLUGIN.exists():
+    if "multigrid" in words and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
     if "-h" in words:
         words[words.index("-h") + 1] = "2"
@@ -244,8 +256,8 @@ def package(tmp_path_factory):
     text = case.read_text()
     assert text in README and len(text.splitlines()) <= 12
     case.write_text(text.replace("size    contact 1.25", "size    contact 5"))
-    if PLUGIN.exists():  # newer than its sources
-        shutil.copytree(PLUGIN.parent, folder / "build", copy_function=shutil.copyfile)
+    if MULTIGRID.exists():  # newer than its sources
+        shutil.copytree(MULTIGRID.parent, folder / "build", copy_function=shutil.copyfile)
     return folder
 
 
@@ -260,7 +272,7 @@ def make(folder, *words, timeout=TIMEOUT):
 def test_make_run_commands(line, package):
     """The manual's runs by make shall end with results in the scene's folder; on a coarse mesh."""
     words = shlex.split(line.replace("-h 0.1", "-h 0.5"))[1:]
-    if "NP=" in line and not PLUGIN.exists():
+    if "NP=" in line and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
     code, stdout = make(package, *words, *([] if "ARGS" in line else ["ARGS=-h 2 -estimate 0"]))
     assert code == 0, stdout
@@ -269,12 +281,12 @@ def test_make_run_commands(line, package):
 
 
 @pytest.mark.long
-@pytest.mark.skipif(not PLUGIN.exists(), reason="the plugin is not built: make mpi")
+@pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
 def test_make_builds_the_plugin(tmp_path):
     """A run on two processes shall build the plugin that it needs."""
     folder = tree(tmp_path / "package")
     code, stdout = make(folder, "-o", "petsc", "run", "SCENE=sphere-on-block", "NP=2", "ARGS=-h 2")
-    assert code == 0 and (folder / "build" / PLUGIN.name).exists(), stdout
+    assert code == 0 and (folder / "build" / MULTIGRID.name).exists(), stdout
 
 
 DOORS = dict(zip(("teach", "paper", "parts"), fences(section(README, "Three doors"), "sh"), strict=True))

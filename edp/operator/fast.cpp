@@ -1,4 +1,5 @@
 // operator/fast.cpp: FreeFEM's stiffness assembled row by row, and entries sorted by counting: built by `make fast`
+// Another list of functions at the end, or another meaning: raise the number in the names of operator/without/ and their includes.
 // Needs: FreeFEM's headers; the FreeFEM that they are of: another one is told 0, and goes its own way.
 // Gives: assembledInOrder(K, elementNode, nodeDof, nodeAt, moduli, power, shapes): the lower triangle of linear elasticity's K, known
 //        as half, for straight simplices in the plane or in space: tables as bodies/element.idp has them; moduli (elements x 2):

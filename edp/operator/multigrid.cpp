@@ -1,5 +1,6 @@
 // multigrid.cpp: a FreeFEM plugin on PETSc: the stiffness of bodies in space, spread over the ranks, solved by multigrid
 // Built by `make mpi`; operator/multigrid.idp is its only user. Needs PETSc 3.14 or newer; runs in FreeFem++ and FreeFem++-mpi.
+// Another list of functions at the end, or another meaning: raise the number in the names of operator/without/ and their includes.
 // Every rank reads the whole mesh. The nodes are cut into as many boxes as there are ranks; a rank assembles the elements that
 // touch a node of its own, so its rows are complete and no entry is sent. PETSc numbers the nodes rank after rank.
 // A held node has a projector P onto what it is free to do: the matrix is P K P, and a stiffness of its own along what is held, so
@@ -582,7 +583,16 @@ long multigridSolve(KN<double> * const & forces, const double & tolerance, const
         letGo(work);
         CHECK(VecAXPY(load, 1, work));
     }
-    if (go) letGo(u);
+    if (go)                                // where it helps: of forces that are all but none the way there would be lost to rounding
+    {
+        double off, whole;
+        letGo(u);
+        CHECK(MatMult(K, u, work));
+        CHECK(VecAYPX(work, -1, load));
+        CHECK(VecNorm(work, NORM_2, &off));
+        CHECK(VecNorm(load, NORM_2, &whole));
+        if (off > whole) CHECK(VecSet(u, 0));
+    }
     CHECK(KSPSetTolerances(solver, tolerance, 1e-300, 1e10, 2000));
     CHECK(KSPSetInitialGuessNonzero(solver, go ? PETSC_TRUE : PETSC_FALSE));
     CHECK(KSPSolve(solver, load, u));
