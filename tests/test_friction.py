@@ -361,6 +361,20 @@ def test_clamped_between_two_jaws(tmp_path, pull, code):
         assert over - under == pytest.approx(pull, rel=1e-6) and max(-under, over) <= 0.6
 
 
+@pytest.mark.parametrize(("pull", "code"), [(5.9, 0), (6.1, 20)])
+def test_a_jaw_driven_by_force(tmp_path, pull, code):
+    """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10."""
+    plate = quadrilateral("plate", 0.1, ["0, 0", "2, 0", "2, 0.4", "0, 0.4"], {1: "down", 2: "end", 3: "up"})
+    text = "body plate E 1e4 nu 0.3\nobstacle down plane 0 0 0 1 friction 0.3\n"
+    text += f"obstacle up plane 0 0.4 0 -1 force 0 -10 friction 0.3\ntraction end {pull / 0.4} 0\n"
+    run = case(tmp_path, plate, text, expect=code)
+    if code == 20:
+        assert "plate: along x: no equilibrium" in run.message
+    else:
+        sheared = [contact["shearForce"][0] for contact in run.summary["contacts"]]
+        assert abs(sheared[0]) + abs(sheared[1]) == pytest.approx(pull, rel=1e-5)
+
+
 def test_a_jaw_takes_a_plate_along(tmp_path):
     """By four elements in two steps: the plate slides on what bears it, and what goes in is stored and lost."""
     text = "body plate E 1000 nu 0.3\nbody jaw E 2000 nu 0.3\nobstacle under plane 0 0 0 1 friction 0.1\n"
