@@ -26,22 +26,27 @@ SMALL = {
 RADIUS, MODULUS = 10, 100 / 0.91
 
 
-def quadrilateral(body, size, corners, names):
-    """gmsh's geometry of one body: corners "x, y" in turn, names of its sides, from the first corner on."""
-    lines = [f"Point({k}) = {{{corner}, 0, {size}}};" for k, corner in enumerate(corners, 1)]
-    lines += [f"Line({k}) = {{{k}, {k % 4 + 1}}};" for k in (1, 2, 3, 4)]
-    lines += ["Curve Loop(1) = {1 : 4};", "Plane Surface(1) = {1};"]
-    lines += [f'Physical Curve("{name}") = {{{k}}};' for k, name in names.items()]
-    return "\n".join([*lines, f'Physical Surface("{body}") = {{1}};\n'])
+def polygon(body, size, corners, names, first=1):
+    """gmsh's geometry of one body: corners "x, y" in turn, names of its sides, from the first corner on.
+
+    first: the number of the first corner, for one body beside others.
+    """
+    count = len(corners)
+    sides = ", ".join(str(first + k) for k in range(count))
+    lines = [f"Point({first + k}) = {{{corner}, 0, {size}}};" for k, corner in enumerate(corners)]
+    lines += [f"Line({first + k}) = {{{first + k}, {first + (k + 1) % count}}};" for k in range(count)]
+    lines += [f"Curve Loop({first}) = {{{sides}}};", f"Plane Surface({first}) = {{{first}}};"]
+    lines += [f'Physical Curve("{name}") = {{{first + k - 1}}};' for k, name in names.items()]
+    return "\n".join([*lines, f'Physical Surface("{body}") = {{{first}}};\n'])
 
 
 WEDGE = """
 DefineConstant[ slope = {0.3, Name "slope"} ];
 DefineConstant[ size = {0.1, Name "size"} ];
-""" + quadrilateral(
+""" + polygon(
     "wedge", "size", ["0, 0", "0.5, 0", "0.5 + slope, 1", "0, 1"], {1: "tip", 2: "flank", 3: "head", 4: "mirror"}
 )
-SQUARE = quadrilateral("block", 0.2, ["0, 0", "1, 0", "1, 1", "0, 1"], {1: "base", 3: "head"})
+SQUARE = polygon("block", 0.2, ["0, 0", "1, 0", "1, 1", "0, 1"], {1: "base", 3: "head"})
 STACK = """
 For k In {0 : 1}
   Point(4 * k + 1) = {0, k, 0};
@@ -81,32 +86,12 @@ Physical Surface("ly") = {3};
 Physical Surface("ux") = {7};
 Physical Surface("uy") = {9};
 """
-BEAM = """
-DefineConstant[ h = {0.1, Name "h"} ];
-Point(1) = {0, 0, 0, h};
-Point(2) = {2, 0, 0, h};
-Point(3) = {2, 1, 0, h};
-Point(4) = {0, 1, 0, h};
-Point(5) = {2, 0, 0, 0.7 * h};
-Point(6) = {4, 0, 0, 0.7 * h};
-Point(7) = {4, 1, 0, 0.7 * h};
-Point(8) = {2, 1, 0, 0.7 * h};
-For k In {1 : 4}
-  Line(k) = {k, k % 4 + 1};
-  Line(k + 4) = {k + 4, k % 4 + 5};
-EndFor
-Curve Loop(1) = {1 : 4};
-Plane Surface(1) = {1};
-Curve Loop(2) = {5 : 8};
-Plane Surface(2) = {2};
-Physical Curve("wall") = {4};
-Physical Curve("end1") = {2};
-Physical Curve("end2") = {8};
-Physical Curve("tip") = {6};
-Physical Surface("left") = {1};
-Physical Surface("right") = {2};
-"""
-ONE = quadrilateral("beam", 0.04, ["0, 0", "4, 0", "4, 1", "0, 1"], {1: "below", 2: "tip", 4: "wall"})
+BEAM = (
+    'DefineConstant[ h = {0.1, Name "h"} ];\n'
+    + polygon("left", "h", ["0, 0", "2, 0", "2, 1", "0, 1"], {2: "end1", 4: "wall"})
+    + polygon("right", "0.7 * h", ["2, 0", "4, 0", "4, 1", "2, 1"], {2: "tip", 4: "end2"}, 5)
+)
+ONE = polygon("beam", 0.04, ["0, 0", "4, 0", "4, 1", "0, 1"], {1: "below", 2: "tip", 4: "wall"})
 PUNCH = """body lower E 100 nu 0.3
 body upper E 100 nu 0.3
 contact contact master gap vertical law power kappa 1e3 m 3 d0 -0.05 friction 0.3
@@ -276,7 +261,7 @@ def test_turned_mirrored_and_in_other_units(tmp_path):
 
 
 EXACT = ("-distance", "exact")
-LYING = quadrilateral("block", 0.25, ["0, 0", "2, 0", "2, 1", "0, 1"], {1: "base", 2: "side", 3: "head"})
+LYING = polygon("block", 0.25, ["0, 0", "2, 0", "2, 1", "0, 1"], {1: "base", 2: "side", 3: "head"})
 
 
 def test_friction_alone_holds_a_block(tmp_path):
@@ -317,35 +302,9 @@ def test_no_equilibrium_is_named(tmp_path):
     assert "block: rotation" in case(tmp_path, LYING, text, expect=10).stdout
 
 
-JAWS = """
-Point(1) = {0, 0, 0, 0.25};
-Point(2) = {2, 0, 0, 0.25};
-Point(3) = {4, 0, 0, 0.25};
-Point(4) = {4, 1, 0, 0.25};
-Point(5) = {2, 1, 0, 0.25};
-Point(6) = {0, 1, 0, 0.25};
-Point(7) = {0, 1, 0, 0.2};
-Point(8) = {2, 1, 0, 0.2};
-Point(9) = {2, 2, 0, 0.2};
-Point(10) = {0, 2, 0, 0.2};
-For k In {1 : 6}
-  Line(k) = {k, k % 6 + 1};
-EndFor
-For k In {7 : 10}
-  Line(k) = {k, (k - 6) % 4 + 7};
-EndFor
-Curve Loop(1) = {1 : 6};
-Curve Loop(2) = {7 : 10};
-Plane Surface(1) = {1};
-Plane Surface(2) = {2};
-Physical Curve("under") = {1};
-Physical Curve("end") = {3};
-Physical Curve("over") = {5};
-Physical Curve("grip") = {7};
-Physical Curve("top") = {9};
-Physical Surface("plate") = {1};
-Physical Surface("jaw") = {2};
-"""
+JAWS = polygon(
+    "plate", 0.25, ["0, 0", "2, 0", "4, 0", "4, 1", "2, 1", "0, 1"], {1: "under", 3: "end", 5: "over"}
+) + polygon("jaw", 0.2, ["0, 1", "2, 1", "2, 2", "0, 2"], {1: "grip", 3: "top"}, 7)
 
 
 @pytest.mark.parametrize(("pull", "code"), [(1.18, 0), pytest.param(1.22, 20, marks=pytest.mark.long)])
@@ -364,7 +323,7 @@ def test_clamped_between_two_jaws(tmp_path, pull, code):
 @pytest.mark.parametrize(("pull", "code"), [(5.9, 0), (6.1, 20)])
 def test_a_jaw_driven_by_force(tmp_path, pull, code):
     """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10."""
-    plate = quadrilateral("plate", 0.1, ["0, 0", "2, 0", "2, 0.4", "0, 0.4"], {1: "down", 2: "end", 3: "up"})
+    plate = polygon("plate", 0.1, ["0, 0", "2, 0", "2, 0.4", "0, 0.4"], {1: "down", 2: "end", 3: "up"})
     text = "body plate E 1e4 nu 0.3\nobstacle down plane 0 0 0 1 friction 0.3\n"
     text += f"obstacle up plane 0 0.4 0 -1 force 0 -10 friction 0.3\ntraction end {pull / 0.4} 0\n"
     run = case(tmp_path, plate, text, expect=code)
@@ -395,7 +354,7 @@ def test_plank_against_a_wall(tmp_path, friction):
     turn = np.array([[np.cos(1), -np.sin(1)], [np.sin(1), np.cos(1)]])
     corners = np.array([[0, 0], [3, 0], [3, 0.3], [0, 0.3]]) @ turn.T
     text = ["{}, {}".format(*corner) for corner in corners]
-    geometry = quadrilateral("plank", 0.2, text, {4: "foot", 1: "below"})
+    geometry = polygon("plank", 0.2, text, {4: "foot", 1: "below"})
     (wall, up), middle = corners[1], corners.mean(0)[0]
     drags = np.linspace(-1, 1, 2001)  # of the wall
     presses = (middle - wall * drags) / up  # moments about the foot
@@ -818,7 +777,7 @@ Physical Curve("round") = {5, 6};
 Physical Curve("flat") = {7, 8};
 Physical Surface("disc") = {2};
 """
-LOW = quadrilateral("block", 0.25, ["-2, -2", "2, -2", "2, 0", "-2, 0"], {1: "base", 3: "top"})
+LOW = polygon("block", 0.25, ["-2, -2", "2, -2", "2, 0", "-2, 0"], {1: "base", 3: "top"})
 BOTH = "body block E 100 nu 0.3\nbody disc E {} nu 0.3\n"
 
 

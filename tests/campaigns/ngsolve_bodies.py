@@ -10,14 +10,12 @@ Lengths, forces and pressures are those of the package's scene two-cylinders, an
 
 import argparse
 import itertools
-import json
 import sys
 import time
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
-from ngsolve_contact import CORNER_RATIO, Problem, ladder, ng, occ
+from ngsolve_contact import CORNER_RATIO, Problem, common_flags, ladder, ng, occ, summary_of, write_run
 
 REACH = 2.0  # of the cylinders: contact is looked for up to it (length)
 
@@ -172,33 +170,15 @@ def arc(radius: float, level: float, begin: float, end: float):
     return occ.ArcOfCircle(*at)
 
 
-def solve(flags: argparse.Namespace) -> dict:
-    """The run's summary, with the keys of the package's own."""
+def solve(flags: argparse.Namespace) -> tuple[dict, None]:
+    """The run's summary."""
     problem = PROBLEMS[flags.problem](kappa=flags.kappa, m=flags.m)
     begin = time.process_time()
     mesh = problem.mesh(flags.h, flags.far, flags.corners, flags.order)
     meshed = time.process_time()
     before, solution = ladder(problem, mesh, flags, most=flags.maxNewton)
-    used = time.process_time() - meshed
-    seconds = {**solution.seconds, "mesh": meshed - begin, "total": time.process_time() - begin}
-    seconds["contact"] = used - seconds["assembly"] - seconds["factorisation"]
-    converged = bool(solution.residual <= flags.tol)
-    return {
-        "scene": flags.problem,
-        "parameters": {name: value for name, value in vars(flags).items() if name not in ("out", "vtu")},
-        "converged": converged,
-        "message": "" if converged else f"residual {solution.residual:.1e} after {solution.steps} Newton steps",
-        "newton": solution.steps,
-        "kernelNewton": sum(each.steps for each in before),
-        "adaptations": 1,
-        "factorisations": sum(each.factorisations for each in [*before, solution]),
-        "backsolves": sum(each.backsolves for each in [*before, solution]),
-        "ndof": solution.displacement.space.ndof,
-        "residual": solution.residual,
-        "force": reaction(solution, "slave"),
-        "costRatio": used / solution.elastic,
-        "seconds": seconds,
-    }
+    clock = begin, meshed, time.process_time()
+    return summary_of(flags, before, solution, clock, {"force": reaction(solution, "slave")}), None
 
 
 def reaction(solution, slave: str) -> float:
@@ -210,28 +190,13 @@ def reaction(solution, slave: str) -> float:
 
 
 def main(argv: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False, add_help=False)
+    parser = common_flags()
     parser.add_argument("-problem", choices=list(PROBLEMS), default="two-cylinders")
-    parser.add_argument("-method", choices=["ngsolve"], default="ngsolve")
-    parser.add_argument("-law", choices=["power"], default="power")
-    parser.add_argument("-order", type=int, default=3, help="degree of the displacement, and of the curved elements")
     parser.add_argument("-h", type=float, default=0.2, help="element size on the contact surfaces")
-    parser.add_argument("-kappa", type=float, default=1e3)
-    parser.add_argument("-m", type=int, default=3)
     parser.add_argument("-far", type=float, default=2.5, help="greatest element size")
     parser.add_argument("-corners", type=int, default=4, help="layers of geometric refinement to the held corners")
     parser.add_argument("-start", type=int, choices=[1, 2, 3], default=1, help="degrees solved before, from 1 to it")
-    parser.add_argument("-tol", type=float, default=1e-8, help="of the residual, relative to the contact forces")
-    parser.add_argument("-maxNewton", type=int, default=200)
-    parser.add_argument("-vtu", type=int, default=0, help="has no effect")
-    parser.add_argument("-out", type=Path, required=True, help="folder of the results")
-    flags = parser.parse_args(argv)
-    ng.ngsglobals.msg_level = 0
-    ng.SetNumThreads(1)
-    summary = solve(flags)
-    flags.out.mkdir(parents=True, exist_ok=True)
-    (flags.out / "summary.json").write_text(json.dumps(summary, indent=1))
-    return 0 if summary["converged"] else 20
+    return write_run(parser.parse_args(argv), solve)
 
 
 if __name__ == "__main__":

@@ -439,31 +439,14 @@ def space_results(problem: Problem, solution: Solution) -> dict:
 # ---------------------------------------------------------------- one run
 
 
-def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
-    """The run's summary, with the keys of the package's own, and in the plane its points."""
-    problem = Problem(kappa=flags.kappa, m=flags.m, space=flags.problem == "sphere-on-block")
-    begin = time.process_time()
-    if not problem.space:
-        mesh = plane_mesh(problem, flags.h, min(flags.far, 10 * flags.h), flags.corners, flags.ends)
-    elif flags.ends:
-        mesh = quarter_rings(problem, flags.h, flags.ends, flags.h)
-    elif flags.mesh == "hexes":
-        mesh = quarter_hexes(problem, flags.h, 1.8, flags.corners)
-    else:
-        mesh = quarter_tetrahedra(problem, flags.h)
-    meshed = time.process_time()
-    how = {"whole": flags.assembly == "whole", "reuse": flags.reuse == 1, "most": flags.maxNewton}
-    before, solution = ladder(problem, mesh, flags, **how)
-    used = time.process_time() - meshed
-    seconds = {**solution.seconds, "mesh": meshed - begin, "total": time.process_time() - begin}
+def summary_of(flags: argparse.Namespace, before: list, solution, clock: tuple, results: dict) -> dict:
+    """A run's summary with the keys of the package's own. clock: when it began, had its mesh, had its solution (s)."""
+    begin, meshed, solved = clock
+    used = solved - meshed
+    seconds = {**solution.seconds, "mesh": meshed - begin, "total": solved - begin}
     seconds["contact"] = used - seconds["assembly"] - seconds["factorisation"]
-    points = None
-    if problem.space:
-        results = space_results(problem, solution)
-    else:
-        results, points = plane_results(problem, solution, flags.order)
     converged = bool(solution.residual <= flags.tol)
-    summary = {
+    return {
         "scene": flags.problem,
         "parameters": {name: value for name, value in vars(flags).items() if name not in ("out", "vtu")},
         "converged": converged,
@@ -479,30 +462,25 @@ def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
         "costRatio": used / solution.elastic,
         "seconds": seconds,
     }
-    return summary, points
 
 
-def main(argv: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False, add_help=False)
-    parser.add_argument("-problem", choices=["disc-on-block", "sphere-on-block"], default="disc-on-block")
+def common_flags() -> argparse.ArgumentParser:
+    """The flags of every problem, under the package's names."""
+    parser = argparse.ArgumentParser(allow_abbrev=False, add_help=False)
     parser.add_argument("-method", choices=["ngsolve"], default="ngsolve")
     parser.add_argument("-law", choices=["power"], default="power")
     parser.add_argument("-order", type=int, default=3, help="degree of the displacement")
-    parser.add_argument("-h", type=float, default=0.5, help="element size on the contact surface")
     parser.add_argument("-kappa", type=float, default=1e3)
     parser.add_argument("-m", type=int, default=3)
-    parser.add_argument("-far", type=float, default=2.5, help="greatest element size, at most 10 h, in the plane")
-    parser.add_argument("-corners", type=int, default=5, help="layers of geometric refinement to the clamped edges")
-    parser.add_argument("-ends", type=float, default=0, help="half the contact's width, if known: layers to its ends")
-    parser.add_argument("-mesh", choices=["hexes", "tetrahedra"], default="hexes", help="in space")
-    parser.add_argument("-start", type=int, choices=[0, 1, 2, 3], default=1, help="degrees solved before, from 1 to it")
-    parser.add_argument("-assembly", choices=["contact", "whole"], default="contact", help="what every step assembles")
-    parser.add_argument("-reuse", type=int, choices=[0, 1], default=0, help="1: one factorisation, then gradients")
     parser.add_argument("-tol", type=float, default=1e-8, help="of the residual, relative to the contact forces")
     parser.add_argument("-maxNewton", type=int, default=200)
     parser.add_argument("-vtu", type=int, default=0, help="has no effect")
     parser.add_argument("-out", type=Path, required=True, help="folder of the results")
-    flags = parser.parse_args(argv)
+    return parser
+
+
+def write_run(flags: argparse.Namespace, solve) -> int:
+    """Solves on one thread and writes the run's files; its exit code."""
     ng.ngsglobals.msg_level = 0
     ng.SetNumThreads(1)
     summary, points = solve(flags)
@@ -511,6 +489,44 @@ def main(argv: list[str] | None = None) -> int:
         np.savetxt(flags.out / "contact.csv", points, delimiter=",", header="x,pressure,weight", comments="")
     (flags.out / "summary.json").write_text(json.dumps(summary, indent=1))
     return 0 if summary["converged"] else 20
+
+
+def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray | None]:
+    """The run's summary, with the keys of the package's own, and in the plane its points."""
+    problem = Problem(kappa=flags.kappa, m=flags.m, space=flags.problem == "sphere-on-block")
+    begin = time.process_time()
+    if not problem.space:
+        mesh = plane_mesh(problem, flags.h, min(flags.far, 10 * flags.h), flags.corners, flags.ends)
+    elif flags.ends:
+        mesh = quarter_rings(problem, flags.h, flags.ends, flags.h)
+    elif flags.mesh == "hexes":
+        mesh = quarter_hexes(problem, flags.h, 1.8, flags.corners)
+    else:
+        mesh = quarter_tetrahedra(problem, flags.h)
+    meshed = time.process_time()
+    how = {"whole": flags.assembly == "whole", "reuse": flags.reuse == 1, "most": flags.maxNewton}
+    before, solution = ladder(problem, mesh, flags, **how)
+    solved = time.process_time()
+    points = None
+    if problem.space:
+        results = space_results(problem, solution)
+    else:
+        results, points = plane_results(problem, solution, flags.order)
+    return summary_of(flags, before, solution, (begin, meshed, solved), results), points
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = common_flags()
+    parser.add_argument("-problem", choices=["disc-on-block", "sphere-on-block"], default="disc-on-block")
+    parser.add_argument("-h", type=float, default=0.5, help="element size on the contact surface")
+    parser.add_argument("-far", type=float, default=2.5, help="greatest element size, at most 10 h, in the plane")
+    parser.add_argument("-corners", type=int, default=5, help="layers of geometric refinement to the clamped edges")
+    parser.add_argument("-ends", type=float, default=0, help="half the contact's width, if known: layers to its ends")
+    parser.add_argument("-mesh", choices=["hexes", "tetrahedra"], default="hexes", help="in space")
+    parser.add_argument("-start", type=int, choices=[0, 1, 2, 3], default=1, help="degrees solved before, from 1 to it")
+    parser.add_argument("-assembly", choices=["contact", "whole"], default="contact", help="what every step assembles")
+    parser.add_argument("-reuse", type=int, choices=[0, 1], default=0, help="1: one factorisation, then gradients")
+    return write_run(parser.parse_args(argv), solve)
 
 
 if __name__ == "__main__":
