@@ -243,9 +243,9 @@ def test_shaft_in_hub(said):
     geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()
     geo += 'Physical Curve("bore") = {11:14}; Physical Curve("outside") = {41:44};\n'
     case = "body inner E 210e3 nu 0.3\nbody outer E 210e3 nu 0.3\ncontact hub shaft\nclamp outside\n"
-    true = said(geo, case + "clamp bore\n", edges=92).known("normalForce")[0]
+    true = said(geo, case + "clamp bore\n", edges=44).known("normalForce")[0]
     for angle, flags in ((0.02, ()), (1.3, ("-distance", "exact"))):
-        turned = said(geo, case + f"rotate bore 0 0 {angle}\n", *flags, edges=92)
+        turned = said(geo, case + f"rotate bore 0 0 {angle}\n", *flags, edges=44)
         assert (
             turned.known("normalForce")[0] == pytest.approx(true, rel=1e-4 if flags else 1e-8) and not turned.warnings
         )
@@ -255,7 +255,7 @@ def test_rounds_leave_errors(said):
     """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
     folder = ROOT / "edp/examples/press-fit"
     geo, case = (folder / "press-fit.geo").read_text(), (folder / "press-fit.case").read_text()
-    linear, exact = said(geo, case, edges=92), said(geo, case, "-distance", "exact", edges=92)
+    linear, exact = said(geo, case, edges=44), said(geo, case, "-distance", "exact", edges=44)
     assert exact.known("force")[1] == pytest.approx(linear.known("force")[1], rel=0.1)
 
 
