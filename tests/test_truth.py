@@ -535,7 +535,7 @@ def test_coincident_nodes(go, sides):
 def test_ball_in_space(go):
     """The same in space: the ball's rotations are held by few points."""
     part = drawn("ball in space 2")
-    assert go(part.geo(Draw()), part.case, "-estimate", 0, space=True).summary["converged"]
+    assert go(part.geo(Draw(1.5)), part.case, "-estimate", 0, space=True).summary["converged"]
 
 
 @pytest.mark.long
@@ -558,7 +558,7 @@ def blocks(size):
 
 def test_nearly_incompressible(go):
     case = "body low E 1000 nu {0}\nbody up E 1000 nu {0}\ncontact sole floor\nclamp base\nmove head 0 -0.01\n"
-    far, near = (go(blocks(0.25), case.format(nu), "-order", 4).numbers["contacts.0.force"] for nu in (0.49, 0.4999))
+    far, near = (go(blocks(0.5), case.format(nu), "-order", 4).numbers["contacts.0.force"] for nu in (0.49, 0.4999))
     assert near[1] / near[0] < 3 * far[1] / far[0]
 
 
