@@ -236,8 +236,10 @@ RUNS = {  # a run of each kind
     "space": "scenes/sphere-on-block.edp -order 1 -h 2 -states 1",
     "two": "scenes/patch-test.edp",
     "two in space": "scenes/patch-test-3d.edp -lower 2 -upper 3",
-    "case": f"parts.edp -order 1 -mesh {CASE}.geo -case {CASE}.case".format("pin-in-hole"),
-    "case in space": f"parts-3d.edp -order 1 -mesh {CASE}.geo -case {CASE}.case".format("crossed-cylinders"),
+    "case": f"parts.edp -order 1 -set size 1.5 -mesh {CASE}.geo -case {CASE}.case".format("pin-in-hole"),
+    "case in space": f"parts-3d.edp -order 1 -set size 0.5 -mesh {CASE}.geo -case {CASE}.case".format(
+        "crossed-cylinders"
+    ),
 }
 KINDS = {  # in words
     "plane, two, case": "in the plane",

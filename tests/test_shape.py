@@ -144,6 +144,7 @@ def test_coarse_weight(tmp_path):
     assert 20 < float(share) < 1000 * abs(force["value"] / np.pi - 1)
 
 
+@pytest.mark.long
 def test_geometry_again(tmp_path):
     """With a .geo file new meshes are of the geometry: a disc's weight, and how far it has gone."""
     summary, force, _ = run(tmp_path, DISC, HEAVY, "-accuracy", 1e-3)

@@ -206,7 +206,7 @@ def column(order, sides=12):
     return sketch.text(LIFTED)
 
 
-@pytest.mark.parametrize("order, sides", short_of([(1, 5), (1, 12)], [(2, 12), (2, 40)]))
+@pytest.mark.parametrize("order, sides", short_of([(1, 5)], [(1, 12), (2, 12), (2, 40)]))
 def test_column(go, order, sides):
     """nu = 0: E strain times the circle's area; the geometry or the mesh tells five sides from a pentagon."""
     told = go(column(order, sides), COLUMN, space=True)
@@ -618,7 +618,7 @@ def test_quarter(go):
     assert normal > 1 and force == pytest.approx(normal, rel=1e-2)
 
 
-@pytest.mark.parametrize("name", ["plank 1", "plank 2"])
+@pytest.mark.parametrize("name", short_of(["plank 2"], ["plank 1"]))
 def test_plank_rolls(name, tmp_path):
     """A plank that leans on one round foot, or on none yet, shall roll on to the other, not from point to point."""
     part = next(part for part in parts(2) if part.name == name)
