@@ -229,6 +229,7 @@ def test_shrink_fit(tmp_path):
     balanced(case)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "clearance, size, least, most",
     [(0.3, 0.14, 0.01, 0.025), pytest.param(0.06, 0.3, 0.04, 0.06, marks=pytest.mark.long)],
@@ -263,6 +264,7 @@ def test_snap_hook_with_friction(tmp_path, friction):
     assert case.first["stickShare"] == 0
 
 
+@pytest.mark.long
 def test_bolted_sleeve(tmp_path):
     """Bolt and sleeve shall share the load as the joint diagram has it, and part where it says."""
     case = example("bolted-sleeve", tmp_path, "", "-history", "1", "-steps", "8", size=1.2)

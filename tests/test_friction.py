@@ -862,6 +862,7 @@ def test_work_with_the_true_distance(tmp_path):
     assert abs(off.sum()) < 1e-3 * (lost[-1] - lost[8])
 
 
+@pytest.mark.long
 def test_rotation_by_a_radian_drags(tmp_path):
     """A disc that turns on a block which is pushed up: what is lost is the bound times the way."""
     geometry = LOW.replace("Physical Curve", HALF + "Physical Curve", 1)

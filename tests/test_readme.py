@@ -219,8 +219,8 @@ def test_freefem_commands(line, tmp_path):
         pytest.skip("the plugin is not built: make mpi")
     if "-h" in words:
         words[words.index("-h") + 1] = "2"
-    if "multigrid" in words:
-        words += ["-h", "2"]
+    words += ["-h", "2"] if "multigrid" in words else ["-h", "0.2"] if "-legs" in words else []
+    words += ["-set", "size", "0.4"] if "-case" in words else []
     if "bodies.msh" in words:
         (made,) = [shlex.split(line) for line in commands() if line.startswith("gmsh")]
         assert execute([word if word != "bodies.msh" else tmp_path / word for word in made], ROOT)[0] == 0

@@ -265,10 +265,10 @@ def test_inp_refused(tmp_path, old, new, said):
 # ---------------------------------------------------------------- geometries
 
 
-LONG = [pytest.param(kind, marks=pytest.mark.long) for kind in ("stp", "brep", "geo")]
+LONG = [pytest.param(kind, marks=pytest.mark.long) for kind in ("step", "stp", "brep", "geo")]
 
 
-@pytest.mark.parametrize("kind", ["step", "iges", *LONG])
+@pytest.mark.parametrize("kind", ["iges", *LONG])
 def test_geometries(tmp_path, kind):
     """What CAD writes is meshed as it is, its groups picked in the case file: the same of each kind."""
     if kind == "iges":
