@@ -93,7 +93,7 @@ def test_pin_in_hole(tmp_path, force, size):
 
 def test_roller(tmp_path):
     """Both contacts of the roller shall be Hertz's and carry the same force, and so the stresses below one."""
-    case = example("roller", tmp_path, "", "-axis", "1", size=0.2)
+    case = example("roller", tmp_path, "", "-axis", "1", "-estimate", "1", size=0.2)
     a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(STEEL, STEEL))
     above, below = case.summary["contacts"]
     for contact in (above, below):
@@ -108,6 +108,12 @@ def test_roller(tmp_path):
     assert below["depth"][-1] == pytest.approx(3 * a, rel=0.05)
     np.testing.assert_allclose(below["s22"], exact, rtol=0, atol=0.04 * greatest)
     assert np.abs(below["s12"]).mean() < 0.01 * greatest
+    told = case.summary["estimates"]  # both contacts are known alike, and the way of what pushes it
+    for contact in told["contacts"]:
+        assert contact["force"]["error"] <= 1e-7
+        assert abs(contact["contactLength"]["value"] - 2 * a) <= contact["contactLength"]["error"]
+        assert abs(contact["pressureMax"]["value"] - greatest) <= contact["pressureMax"]["error"] + 2e-3 * greatest
+    assert told["loads"][0]["name"] == "force grip" and 0 < told["loads"][0]["way"]["error"] < 0.01
 
 
 def test_roller_true_distance(tmp_path):
