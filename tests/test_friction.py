@@ -97,6 +97,7 @@ body upper E 100 nu 0.3
 contact contact master gap vertical law power kappa 1e3 m 3 d0 -0.05 friction 0.3
 clamp clamped
 """
+PLANE = "obstacle free plane 0 99 0 -1"
 
 
 def rub(folder, script, flags, expect=0):
@@ -539,7 +540,10 @@ def test_rotation_drags(tmp_path):
             "expand, preload: allowed in edp/parts.edp, without friction",
         ),
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
-        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range"),
+        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "allowed: at least 0 and below"),
+        (PUNCH + "move pushed 0 -1\nleg 1\nleg 1\nclamp free\n", "clamp: in leg 2, but it holds in every leg"),
+        (PUNCH + f"{PLANE} friction 0.3\nleg 1\nleg 1\n{PLANE} move 0 1\n", "no move here or in line"),
+        (PUNCH + f"{PLANE} move 0 0\nleg 1\nleg 1\n{PLANE} move 0 1 friction 0.3\n", "interference unlike line"),
         (PUNCH.replace("contact contact", "tie contact").replace("gap", "#") + "move pushed 0 -1\n", "not with tie"),
         (
             PUNCH.replace(" friction 0.3", "") + "leg 1\nmove pushed 0 -1\nleg 1\nmove pushed 0 -2\n",
