@@ -323,16 +323,29 @@ def test_clamped_between_two_jaws(tmp_path, pull, code):
 
 @pytest.mark.parametrize(("pull", "code"), [(5.9, 0), (6.1, 20)])
 def test_a_jaw_driven_by_force(tmp_path, pull, code):
-    """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10."""
+    """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10; an end held across has a word."""
     plate = polygon("plate", 0.1, ["0, 0", "2, 0", "2, 0.4", "0, 0.4"], {1: "down", 2: "end", 3: "up"})
     text = "body plate E 1e4 nu 0.3\nobstacle down plane 0 0 0 1 friction 0.3\n"
     text += f"obstacle up plane 0 0.4 0 -1 force 0 -10 friction 0.3\ntraction end {pull / 0.4} 0\n"
     run = case(tmp_path, plate, text, expect=code)
     if code == 20:
         assert "plate: along x: no equilibrium" in run.message
+        text = text.replace(f"traction end {pull / 0.4}", "force end 1")
+        assert "the point at (2, 0.4): its node is held" in case(tmp_path, plate, text, expect=20).message
     else:
         sheared = [contact["shearForce"][0] for contact in run.summary["contacts"]]
         assert abs(sheared[0]) + abs(sheared[1]) == pytest.approx(pull, rel=1e-5)
+
+
+@pytest.mark.parametrize(("below", "name"), [(0.3, "low: along x, up: along x"), (0.5, "up: along x")])
+def test_of_two_blocks_what_slides_is_named(tmp_path, below, name):
+    corners = ["-0.4, 0.5", "0.4, 0.5", "0.4, 1", "-0.4, 1"]
+    blocks = polygon("low", 0.25, ["-0.5, 0", "0.5, 0", "0.5, 0.5", "-0.5, 0.5"], {1: "foot", 3: "low-top"})
+    blocks += polygon("up", 0.2, corners, {1: "up-foot", 3: "up-top"}, 5)
+    text = f"body low E 1e4 nu 0.3\nbody up E 1e4 nu 0.3\nobstacle foot plane 0 0 0 1 friction {below}\n"
+    text += f"contact up-foot low-top friction {0.8 - below}\npressure up-top 10\ntraction up-top 3.1 0\n"
+    message = case(tmp_path, blocks, text, expect=20).message
+    assert f"leg 1: {name}: no equilibrium: friction and contact bear 97 %" in message and "traction up-top" in message
 
 
 def test_a_jaw_takes_a_plate_along(tmp_path):
