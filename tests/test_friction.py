@@ -323,7 +323,7 @@ def test_clamped_between_two_jaws(tmp_path, pull, code):
 
 @pytest.mark.parametrize(("pull", "code"), [(5.9, 0), (6.1, 20)])
 def test_a_jaw_driven_by_force(tmp_path, pull, code):
-    """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10; an end held across has a word."""
+    """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10."""
     plate = polygon("plate", 0.1, ["0, 0", "2, 0", "2, 0.4", "0, 0.4"], {1: "down", 2: "end", 3: "up"})
     text = "body plate E 1e4 nu 0.3\nobstacle down plane 0 0 0 1 friction 0.3\n"
     text += f"obstacle up plane 0 0.4 0 -1 force 0 -10 friction 0.3\ntraction end {pull / 0.4} 0\n"
@@ -840,6 +840,21 @@ def test_drag_over_many_elements(tmp_path):
     stiff = case(tmp_path, LOW.replace("Physical Curve", HALF + "Physical Curve", 1), text, *EXACT)
     for name in ("force", "shearForce", "stored", "dissipated"):
         assert rows(stiff, name)[0][1:] == pytest.approx(rows(rigid, name)[0][1:], rel=1e-3), name
+
+
+def test_dragged_onto_what_nothing_faced(tmp_path):
+    """Half a disc, stiffer than the block: points that had nothing opposite come to bear."""
+    disc = [
+        f"Point({5 + k}) = {{{x}, 0, 0.1}};" for k, x in enumerate(("-0.4, 0.5", "-0.9, 0.5", "-0.4, 0", "0.1, 0.5"))
+    ]
+    disc += ["Circle(5) = {6, 5, 7}; Circle(6) = {7, 5, 8}; Line(7) = {8, 6};"]
+    disc += ["Curve Loop(5) = {5:7}; Plane Surface(5) = {5};", 'Physical Surface("disc") = {5};']
+    disc += ['Physical Curve("round") = {5, 6}; Physical Curve("hub") = {7};']
+    lower = polygon("block", 0.1, ["-1.5, -0.5", "1.5, -0.5", "1.5, 0", "-1.5, 0"], {1: "base", 3: "top"})
+    text = BOTH.format(2000) + "clamp base\ncontact top round friction 0.3\nleg 1\nmove hub 0 -0.02\n"
+    run = case(tmp_path, lower + "\n".join([*disc, ""]), text + "leg 2\nmove hub 0.6 -0.02\n", *EXACT)
+    contact = run.summary["contacts"][0]
+    assert contact["shearForce"][0] == pytest.approx(0.3 * contact["normalForce"], rel=0.02)
 
 
 def test_little_friction_with_the_true_distance(tmp_path):
