@@ -109,7 +109,7 @@ def test_counts(law, symmetry):
     assert sphere.summary["used"]["kernel"]
 
 
-MESH = "Th = gmshMesh(source, names, values, width);"
+MESH = 'Th = gmshMesh("block-3d", names, values, width);'
 UNFOLDED = """values[5] = 2;
 mesh3 quarter = gmshMesh("block-3d", names, values, width);
 mesh3 side = quarter + movemesh(quarter, [-x, y, z], orientation = -1);
