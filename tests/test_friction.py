@@ -99,6 +99,7 @@ body upper E 100 nu 0.3
 contact contact master gap vertical law power kappa 1e3 m 3 d0 -0.05 friction 0.3
 clamp clamped
 """
+PLANE = "obstacle free plane 0 99 0 -1"
 
 
 def rub(folder, script, flags, expect=0):
@@ -332,9 +333,22 @@ def test_a_jaw_driven_by_force(tmp_path, pull, code):
     run = case(tmp_path, plate, text, expect=code)
     if code == 20:
         assert "plate: along x: no equilibrium" in run.message
+        text = text.replace(f"traction end {pull / 0.4}", "force end 1")
+        assert "the point at (2, 0.4): its node is held" in case(tmp_path, plate, text, expect=20).message
     else:
         sheared = [contact["shearForce"][0] for contact in run.summary["contacts"]]
         assert abs(sheared[0]) + abs(sheared[1]) == pytest.approx(pull, rel=1e-5)
+
+
+@pytest.mark.parametrize(("below", "name"), [(0.3, "low: along x, up: along x"), (0.5, "up: along x")])
+def test_of_two_blocks_what_slides_is_named(tmp_path, below, name):
+    corners = ["-0.4, 0.5", "0.4, 0.5", "0.4, 1", "-0.4, 1"]
+    blocks = polygon("low", 0.25, ["-0.5, 0", "0.5, 0", "0.5, 0.5", "-0.5, 0.5"], {1: "foot", 3: "low-top"})
+    blocks += polygon("up", 0.2, corners, {1: "up-foot", 3: "up-top"}, 5)
+    text = f"body low E 1e4 nu 0.3\nbody up E 1e4 nu 0.3\nobstacle foot plane 0 0 0 1 friction {below}\n"
+    text += f"contact up-foot low-top friction {0.8 - below}\npressure up-top 10\ntraction up-top 3.1 0\n"
+    message = case(tmp_path, blocks, text, expect=20).message
+    assert f"leg 1: {name}: no equilibrium: friction and contact bear 97 %" in message and "traction up-top" in message
 
 
 def test_a_jaw_takes_a_plate_along(tmp_path):
@@ -554,7 +568,10 @@ def test_rotation_drags(tmp_path, coarse_punch):
             "expand, preload: allowed in edp/parts.edp, without friction",
         ),
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
-        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "out of range"),
+        (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "allowed: at least 0 and below"),
+        (PUNCH + "move pushed 0 -1\nleg 1\nleg 1\nclamp free\n", "clamp: in leg 2, but it holds in every leg"),
+        (PUNCH + f"{PLANE} friction 0.3\nleg 1\nleg 1\n{PLANE} move 0 1\n", "no move here or in line"),
+        (PUNCH + f"{PLANE} move 0 0\nleg 1\nleg 1\n{PLANE} move 0 1 friction 0.3\n", "interference unlike line"),
         (PUNCH.replace("contact contact", "tie contact").replace("gap", "#") + "move pushed 0 -1\n", "not with tie"),
         (
             PUNCH.replace(" friction 0.3", "") + "leg 1\nmove pushed 0 -1\nleg 1\nmove pushed 0 -2\n",
@@ -837,6 +854,21 @@ def test_drag_over_many_elements(tmp_path):
     stiff = case(tmp_path, LOW.replace("Physical Curve", HALF + "Physical Curve", 1), text, *EXACT)
     for name in ("force", "shearForce", "stored", "dissipated"):
         assert rows(stiff, name)[0][1:] == pytest.approx(rows(rigid, name)[0][1:], rel=1e-3), name
+
+
+def test_dragged_onto_what_nothing_faced(tmp_path):
+    """Half a disc, stiffer than the block: points that had nothing opposite come to bear."""
+    disc = [
+        f"Point({5 + k}) = {{{x}, 0, 0.1}};" for k, x in enumerate(("-0.4, 0.5", "-0.9, 0.5", "-0.4, 0", "0.1, 0.5"))
+    ]
+    disc += ["Circle(5) = {6, 5, 7}; Circle(6) = {7, 5, 8}; Line(7) = {8, 6};"]
+    disc += ["Curve Loop(5) = {5:7}; Plane Surface(5) = {5};", 'Physical Surface("disc") = {5};']
+    disc += ['Physical Curve("round") = {5, 6}; Physical Curve("hub") = {7};']
+    lower = polygon("block", 0.1, ["-1.5, -0.5", "1.5, -0.5", "1.5, 0", "-1.5, 0"], {1: "base", 3: "top"})
+    text = BOTH.format(2000) + "clamp base\ncontact top round friction 0.3\nleg 1\nmove hub 0 -0.02\n"
+    run = case(tmp_path, lower + "\n".join([*disc, ""]), text + "leg 2\nmove hub 0.6 -0.02\n", *EXACT)
+    contact = run.summary["contacts"][0]
+    assert contact["shearForce"][0] == pytest.approx(0.3 * contact["normalForce"], rel=0.02)
 
 
 @pytest.mark.long

@@ -208,11 +208,12 @@ def column(order, sides=12):
 
 @pytest.mark.parametrize("order, sides", short_of([(1, 5)], [(1, 12), (2, 12), (2, 40)]))
 def test_column(go, order, sides):
-    """nu = 0: E strain times the circle's area; the geometry or the mesh tells five sides from a pentagon."""
+    """nu = 0: E strain everywhere, times the circle's area; geometry or mesh tells five sides from a pentagon."""
     told = go(column(order, sides), COLUMN, space=True)
     told.holds("contacts.0.force", 5 * np.pi)
     value, said = told.numbers["contacts.0.force"]
     assert said < 3 * abs(value - 5 * np.pi)
+    assert told.summary["contacts"][0]["pressureMax"] == pytest.approx(5, rel=1e-5) and not told.summary["warnings"]
 
 
 @pytest.mark.long
