@@ -50,7 +50,6 @@ EVERYWHERE = [
     ("-order", "5", "1 to 4"),
     ("-order", "0", "1 to 4"),
     ("-order", "1.5", "1 to 4"),
-    ("-order", "3e0", "1 to 4"),
     ("-steps", "0", "from 1"),
     ("-maxNewton", "0", "from 1"),
     ("-maxAdaptations", "2.5", "from 1"),
