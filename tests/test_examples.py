@@ -127,6 +127,7 @@ def test_roller_true_distance(tmp_path):
     assert case.summary["outOfBalance"] < 1e-9
 
 
+@pytest.mark.long
 def test_press_fit(tmp_path):
     """The mean pressure between two rings that nothing else holds shall be Lame's, and be the same all round."""
     case = example("press-fit", tmp_path, "", "-estimate", "1", edges=92)
@@ -223,6 +224,7 @@ def joint(folder, case):
 GALLERY = {"shrink-fit": shrunk, "hip-joint": pressed_head, "snap-hook": pushed_hook, "bolted-sleeve": joint}
 
 
+@pytest.mark.long
 def test_shrink_fit(tmp_path):
     """A ring that cools shall press like Lame's, its stresses along a line within their errors."""
     case = example("shrink-fit", tmp_path, "", "-estimate", "1", edges=10)

@@ -67,7 +67,7 @@ Line(12) = {12, 14}; Line(13) = {11, 13};
 Curve Loop(2) = {10, 12, -11, -13}; Plane Surface(2) = {2};
 Physical Surface("head") = {1}; Physical Surface("cup") = {2}; Physical Curve("head-surface") = {1};
 Physical Curve("grip") = {3}; Physical Curve("cup-bore") = {10}; Physical Curve("shell") = {11};
-Field[1] = MathEval; Field[1].F = "0.35 * (1 + 0.25 * Abs(Sqrt(x * x + y * y) - 14) / 0.35)";
+Field[1] = MathEval; Field[1].F = "0.5 * (1 + 0.25 * Abs(Sqrt(x * x + y * y) - 14) / 0.5)";
 Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 2;
 """
 IN_CUP = """units mm MPa

@@ -479,6 +479,7 @@ SLOW_TOO = (
     "-modes 16",
     "meshed-disc",
     "hertz-line",
+    "rolling",
 )  # their scenes' other commands are short
 
 
