@@ -231,6 +231,7 @@ def test_slides_that_change_nothing(said):
     assert linear.known("force")[1] == pytest.approx(true.known("force")[1], rel=1e-3)
 
 
+@pytest.mark.long
 def test_motion_of_the_whole(said):
     """A body's motion is its area's mean: of a disc that turns about its middle 0, however its nodes are spread."""
     turned = said(CAM, PRESSED.format(4.99) + "rotate shaft 0 0 0.02\n", rx=5)

@@ -480,6 +480,8 @@ SLOW_TOO = (
     "meshed-disc",
     "hertz-line",
     "rolling",
+    "fretting-bodies",
+    "fretting-3d",
 )  # their scenes' other commands are short
 
 

@@ -145,6 +145,7 @@ def test_lever_at_rest(solve):
     assert way["way"]["value"] == pytest.approx(down, rel=2e-3)
 
 
+@pytest.mark.long
 def test_see_saw(solve):
     """A plank on a foot near its middle that tilts until the other one stands."""
     geo = PLANK

@@ -17,7 +17,7 @@ SENSIBLE = [
     ("hertz-line", []),
     ("meshed-disc", []),
     ("patch-test", []),
-    ("rough", []),
+    pytest.param("rough", [], marks=pytest.mark.long),
     pytest.param("two-cylinders", [], marks=pytest.mark.long),
     pytest.param("wavy", [], marks=pytest.mark.long),
     pytest.param(
