@@ -759,13 +759,17 @@ def test_cantilever_of_two_glued_pieces(tmp_path):
     ("scene", "flags"),
     [
         ("fretting", {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}),
-        ("fretting-3d", {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1}),
+        pytest.param(
+            "fretting-3d",
+            {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1},
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_pictures(tmp_path, scene, flags):
     """The shear beside the pressure; the loop, and what sticks over the load steps."""
     out = rub(tmp_path / "out", f"edp/scenes/{scene}.edp", {**flags, "-vtu": 1}).folder
-    for words in (["state"], ["hysteresis", "--slip", "--slide"])[: 1 + (scene == "fretting")]:
+    for words in (["state"], ["hysteresis", "--slip", "--slide"]):
         assert main([*words, str(out)]) == 0
         assert (out / f"{words[0]}.pdf").stat().st_size > 5000 and (out / f"{words[0]}.png").stat().st_size > 20000
     if scene == "fretting":

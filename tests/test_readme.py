@@ -274,7 +274,7 @@ def test_make_run_commands(line, package):
     words = shlex.split(line.replace("-h 0.1", "-h 0.5"))[1:]
     if "NP=" in line and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
-    code, stdout = make(package, *words, *([] if "ARGS" in line else ["ARGS=-h 2 -estimate 0"]))
+    code, stdout = make(package, *words, *([] if "ARGS" in line else ["ARGS=-h 2 -order 1 -estimate 0"]))
     assert code == 0, stdout
     scene = re.search(r"SCENE=([\w-]+)", line)
     assert (package / "results" / (scene[1] if scene else "disc-on-block") / "xnewton" / "summary.json").exists()
