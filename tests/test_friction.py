@@ -122,15 +122,15 @@ def counts(run):
     return np.diff(rows["newton"], prepend=0), np.diff(rows["backsolves"], prepend=0)
 
 
-def case(folder, geometry, text, *flags, space=False, expect=0):
-    """A run of a case."""
+def case(folder, geometry, text, *flags, space=False, script=None, expect=0):
+    """A run of a case; script: edp/parts.edp, which is to hand it over."""
     if "\n" in str(geometry):
         (folder / "mesh.geo").write_text(geometry)
         geometry = folder / "mesh.geo"
     (folder / "a.case").write_text(text)
     words = ["-mesh", geometry, "-case", folder / "a.case", "-vtu", 0, *flags, "-out", folder / "out"]
     words += [] if "-estimate" in flags else ["-estimate", 0]
-    code, stdout = execute([*FREEFEM, parts_script(text, words, space), *map(flag_text, words)])
+    code, stdout = execute([*FREEFEM, script or parts_script(text, words, space), *map(flag_text, words)])
     assert code == expect, stdout[-2000:]
     return Run(code, stdout, folder / "out")
 
@@ -298,7 +298,7 @@ def test_friction_alone_holds_a_block(tmp_path):
 def test_no_equilibrium_is_named(tmp_path):
     """Dragged by more than friction bears, in the second leg; tipped over."""
     text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\nleg 1\ntraction head 0 -1\nleg 2\n"
-    run = case(tmp_path, LYING, text + "traction head 0.4 -1\n", *EXACT, expect=20)
+    run = case(tmp_path, LYING, text + "traction head 0.4 -1\n", *EXACT, script="edp/parts.edp", expect=20)
     assert "leg 2: block: along x: no equilibrium: friction and contact bear 75 % of what drives it" in run.message
     assert "traction head" in run.message
     last = series(run)
@@ -543,7 +543,7 @@ def coarse_punch(tmp_path_factory):
 def test_legs_of_a_case(tmp_path, coarse_punch):
     """Pressed, then dragged: the supports carry what the contact does."""
     text = PUNCH + "leg 1\nmove pushed 0 -0.5\nleg 2\nmove pushed 0.1 -0.5\n"
-    run = case(tmp_path, coarse_punch, text)
+    run = case(tmp_path, coarse_punch, text, script="edp/parts.edp")
     shear = run.summary["contacts"][0]["shearForce"]
     assert run.summary["contacts"][0]["force"][0] == pytest.approx(shear[0], rel=1e-6)
     assert list(series(run)["leg"]) == [1, 2, 2]
