@@ -209,6 +209,7 @@ def test_accuracy_needs_a_geometry(tmp_path):
     assert "-accuracy 0.01: new meshes need the geometry" in run.stdout and not (tmp_path / "run").exists()
 
 
+@pytest.mark.long
 def test_accuracy_on_curves(solved):
     """New meshes of two cylinders shall stay on the circles."""
     run = solved("two-cylinders", "-h", 1, "-accuracy", 1e-3)

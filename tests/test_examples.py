@@ -281,6 +281,7 @@ def test_bolted_sleeve(tmp_path):
     assert case.first["contactPoints"] == 0 and "nothing presses" in case.stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("friction", [0.05, pytest.param(0.2, marks=pytest.mark.long)])
 def test_taper(tmp_path, friction):
     """Driven in it slips all over; let go of it stays where friction is above its slope, and comes out where not."""

@@ -519,6 +519,7 @@ def test_about_the_axis(tmp_path):
     assert run.summary["contacts"][0]["dissipated"] > 0
 
 
+@pytest.mark.long
 def test_space_turns_with_its_load(tmp_path):
     """Along x and along y the same, turned."""
     flags = {"-u0": 0.5, "-gap": 0, "-law": "signorini", "-d0": 0, "-h": 2, "-drag": 0.1}

@@ -222,6 +222,7 @@ def test_too_much(said):
     assert linear.holds("force", true.known("force")[0]) and not linear.linear["trusted"]
 
 
+@pytest.mark.long
 def test_slides_that_change_nothing(said):
     """A disc under a plane that slides along it: no word, the true distance gives the same number."""
     case = PRESSED.format(4.99).replace("0 -1\n", "0 -1 move 1 0\n") + "clamp shaft\n"
@@ -252,6 +253,7 @@ def test_shaft_in_hub(said):
         )
 
 
+@pytest.mark.long
 def test_rounds_leave_errors(said):
     """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
     folder = ROOT / "edp/examples/press-fit"

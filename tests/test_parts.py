@@ -593,6 +593,7 @@ def test_nothing_presses(tmp_path, case, gap, flags):
     assert run.summary["outOfBalance"] < 1e-6
 
 
+@pytest.mark.long
 def test_large_rotation(tmp_path):
     """A body that turns by so much that linearised rotations show: said, by methods that know no others."""
     turned = "rotate bottom {} 0 {}\nobstacle top plane 0 9 0 -1\n"
@@ -682,6 +683,7 @@ def test_facing_nothing(tmp_path):
     assert "line 3: contact top: nothing lies opposite it; allowed: surfaces that face each other" in said
 
 
+@pytest.mark.long
 def test_turned_contact_in_space(tmp_path):
     """A box that lies free on another one, one side on a symmetry plane, turned: the same counts and pressures."""
     case = STACK + 'clamp bottom\nsymmetry "upper left"\npressure "upper top" 2\n'
@@ -735,7 +737,7 @@ def punch(folder, *flags, exchanged=(), size=0.3, expect=0):
     return Run(code, stdout, folder / "out")
 
 
-@pytest.mark.parametrize("upper", [False, True])
+@pytest.mark.parametrize("upper", [pytest.param(False, marks=pytest.mark.long), True])
 def test_gap_vertical(tmp_path, upper):
     """A gap along the vertical is the arcs' difference at the same abscissa, also of a slave that faces down."""
     exchanged = [("contact contact master", "contact master contact")] if upper else []

@@ -26,7 +26,7 @@ SENSIBLE = [
         marks=pytest.mark.long,
     ),
     ("patch-test-3d", []),
-    ("sphere-on-plane", []),
+    pytest.param("sphere-on-plane", [], marks=pytest.mark.long),
 ]
 
 

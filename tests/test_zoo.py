@@ -10,7 +10,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute
+from freefem import FREEFEM, ROOT, execute, short_of
 
 from postprocess.__main__ import main
 
@@ -411,7 +411,7 @@ WORDS = {
 }
 
 
-@pytest.mark.parametrize("word", WORDS)
+@pytest.mark.parametrize("word", short_of(list(WORDS)[::4], WORDS))
 def test_words(tmp_path, word, cad):
     """What an engineer looks for leads to what there is, and says what that does."""
     code, why, *_ = readable(tmp_path, cad, f"{word} base\n" + NAMED.format("0"))
@@ -421,7 +421,8 @@ def test_words(tmp_path, word, cad):
 # ---------------------------------------------------------------- solved
 
 
-def test_shown_without_a_case(tmp_path, cad):
+@pytest.mark.parametrize("drawn", [False, pytest.param(True, marks=pytest.mark.long)])
+def test_shown_without_a_case(tmp_path, cad, drawn):
     """-check 1 shows a geometry without a case file: each face with its number; two commands lead to the picture."""
     out = tmp_path / "out"
     code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", cad, "-check", 1, "-out", out])
@@ -430,9 +431,9 @@ def test_shown_without_a_case(tmp_path, cad):
     assert sorted(set(faces["face"])) == list(range(1, 13)) and set(faces["body"]) == {1, 2}
     code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", cad, "-out", tmp_path / "none"])
     assert code == 10 and "-check 1 shows a geometry without" in said and not (tmp_path / "none").exists()
-    assert (
-        main(["check", str(out)]) == 0 and (out / "check/faces.png").exists() and not (out / "check/check.png").exists()
-    )
+    if drawn:
+        assert main(["check", str(out)]) == 0
+        assert (out / "check/faces.png").exists() and not (out / "check/check.png").exists()
 
 
 @pytest.mark.long
