@@ -45,8 +45,7 @@ PACKAGE_PLANE = [
 ]
 # With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
 PACKAGE_PLANE_ENDS = [
-    ({"order": 3, "grading": 60, "corners": 0.1, **SECTION}, (1,)),
-    ({"order": 4, "grading": 60, "corners": 0.05, **SECTION}, (2,)),
+    ({"order": 4, "grading": 60, "corners": 0.05, **SECTION}, (2, 0.35)),
     ({"order": 4, "grading": 100, "corners": 0.1, **SECTION}, (1,)),
     ({"order": 4, "grading": 60, "corners": 0.1, **SECTION}, (0.7,)),
     ({"order": 4, "grading": 60, "corners": 0.02, **SECTION}, (2, 1)),
