@@ -153,7 +153,7 @@ def test_elements_at_the_rim():
     assert abs(sphere.force / known - 1) < 1e-4
     assert abs(sphere.force - known) < sphere.summary["estimates"]["force"]["error"] < 1e-3 * known
     assert sphere.newton <= 4 and sphere.backsolves <= 25 and sphere.ndof < 25000
-    # the greatest pressure, by the scene about the axis in a block as stiff: scattered at the points, recovered in the estimate
+    # the greatest pressure, by the scene about the axis in a block as stiff: scattered at the points, then recovered
     greatest = sphere.summary["estimates"]["pressureMax"]
     assert abs(greatest["value"] / 36.293 - 1) < 2e-3 < 5e-3 < sphere.pressureMax / 36.293 - 1
     assert abs(greatest["value"] - 36.293) < greatest["error"]
