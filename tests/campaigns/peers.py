@@ -203,10 +203,10 @@ def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
             found = {"scene": PIN, "kappa": float(kappa), "m": float(m), "h": float(h)}
         else:
             kappa, m = flags["kappa"], flags["m"]
-        found |= reference.compared(summary, (found or summary)["scene"], float(kappa), float(m), folder)
+        scene = (found or summary)["scene"]
+        found |= reference.compared(summary, scene, float(kappa), float(m), folder)
         if "ends" in flags:
             law = {"law": "power", "kappa": kappa, "m": m, "tol": TOL}
-            scene = flags.get("problem", (found or summary)["scene"])
             coarse = case("coarse", scene, method="xnewton", **COARSE[scene], **law)
             if item.program:
                 coarse = case("coarse", method="ngsolve", problem=scene, **PEER_COARSE[scene], **law)
