@@ -308,6 +308,7 @@ def test_balls_against_hertz(scene, radius, modulus):
     assert fine[2] < 0.5 * coarse[2]
 
 
+@pytest.mark.long
 def test_unequal_balls_exchanged():
     """Exchanging slave and master shall change the force by less than the discretisation error does."""
     flags = ["-force", 0, "-u0", 0.3, "-h", 0.3, "-layers", 1, "-tol", 1e-8]
