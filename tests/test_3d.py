@@ -154,6 +154,10 @@ def test_elements_at_the_rim():
     assert abs(sphere.force / known - 1) < 1e-4
     assert abs(sphere.force - known) < sphere.summary["estimates"]["force"]["error"] < 1e-3 * known
     assert sphere.newton <= 4 and sphere.backsolves <= 25 and sphere.ndof < 25000
+    # the greatest pressure, by the scene about the axis in a block as stiff: scattered at the points, then recovered
+    greatest = sphere.summary["estimates"]["pressureMax"]
+    assert abs(greatest["value"] / 36.293 - 1) < 2e-3 < 5e-3 < sphere.pressureMax / 36.293 - 1
+    assert abs(greatest["value"] - 36.293) < greatest["error"]
     # elements of length h along the rim: a polygon of 16 sides in a circle, its radius 1.1 times the rigid section's
     assert sphere.contact["weight"].sum() == pytest.approx(8 * 1.1**2 * 2.25 * 17.75 * np.sin(np.pi / 8), rel=1e-6)
 
