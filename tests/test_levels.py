@@ -39,7 +39,7 @@ setUpContact();
         ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
         pytest.param("rough", ["-order", 2, "-h", 0.2, "-modes", 32], marks=pytest.mark.long),
         ("rough", ["-order", 4, "-h", 0.4, "-modes", 32]),
-        ("sphere-on-block", ["-order", 1, "-h", 0.5]),
+        pytest.param("sphere-on-block", ["-order", 1, "-h", 0.5], marks=pytest.mark.long),
         pytest.param("sphere-on-block", ["-order", 2, "-h", 0.8], marks=pytest.mark.long),
         ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
     ],

@@ -91,7 +91,7 @@ function number(what, low, high,   t, v, mantissa) {
   sub(/[eE].*/, "", mantissa)
   if (mantissa ~ /[1-9]/ && (v < 1e-40 && v > -1e-40 || v > 1e40 || v < -1e40))
     no(t ": " what " cannot be computed with; allowed: 0, and magnitudes from 1e-40 to 1e40")
-  if (v <= low || v >= high) no(t ": " what " is out of range; allowed: " (low > -1e300 ? "above " low : "") (low > -1e300 && high < 1e300 ? " and " : "") (high < 1e300 ? "below " high : ""))
+  if (v <= low || v >= high) no(t ": " what " is out of range; allowed: " (low == -1e-300 ? "at least 0" : low > -1e300 ? "above " low : "") (low > -1e300 && high < 1e300 ? " and " : "") (high < 1e300 ? "below " high : ""))
   return v
 }
 function any(what) { return number(what, -1e300, 1e300) }
@@ -300,7 +300,7 @@ function putFriction(f,   k, v) {
   table[++statements] = "friction " FNR " 0 0 none none none"
   for (k = 0; k < 16; k++) table[statements] = table[statements] " " sprintf("%.17g", v[k])
 }
-function readObstacle(   g, v, f, shape, load, law, next_, over) {
+function readObstacle(   g, v, f, shape, load, law, next_, over, rest) {
   over = 0
   g = group(dim - 1)
   for (k = 0; k < 16; k++) v[k] = 0
@@ -321,9 +321,21 @@ function readObstacle(   g, v, f, shape, load, law, next_, over) {
   shape_ = shape
   for (k = 5; k < 13; k++) shape_ = shape_ " " v[k]
   key_ = "obstacle" SUBSEP g SUBSEP shape_
-  if (changed(key_) && load != "force") { putChange(base[key_] - 1, v); return }
+  rest = law
+  for (k = 0; k < 5; k++) rest = rest " " v[k]
+  rest = law == "none" && !over && !(0 in f) ? "" : rest " " over " " ((0 in f) ? f[0] " " f[1] " " f[2] : "none")
+  if (changed(key_) && load != "force") {
+    if (rest != "" && rest != restOf[key_])
+      no("obstacle " word[2] ": law, friction or interference unlike line " seen[key_] "; allowed in a later leg: another move alone")
+    if (load != "move" || loadOf[key_] != "move")
+      no("obstacle " word[2] ": no move here or in line " seen[key_] "; allowed in several legs: a move in each, be it 0")
+    putChange(base[key_] - 1, v)
+    return
+  }
   base[key_] = statements + 1
   once(key_, "this obstacle of " nameOf[g])
+  restOf[key_] = rest
+  loadOf[key_] = load
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
   v[4] -= over
   touches[g] = FNR; slaves[g] = FNR
@@ -555,6 +567,8 @@ FILENAME == ARGV[1] {
   else if (word[1] == "size") readSize()
   else {
     if (!firstLine) firstLine = FNR
+    if (legs > 1 && word[1] ~ /^(body|contact|tie|clamp|symmetry|expand|preload)$/)
+      no(word[1] ": in leg " legs ", but it holds in every leg; allowed there: move, rotate, pressure, traction, weight, an obstacle\047s move")
     if (word[1] == "body") readBody()
     else if (word[1] == "leg") readLeg()
     else if (word[1] == "contact") readContact()
