@@ -454,6 +454,16 @@ long multigridSetUp(string * const & options)
     CHECK(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
     CHECK(KSPSetFromOptions(solver));
     CHECK(KSPSetUp(solver));
+    // what products of several ranks keep for being made again
+    PetscInt count;
+    Mat * coarse;
+    CHECK(PCGetCoarseOperators(levels, &count, &coarse));
+    for (PetscInt l = 0; l + 1 < count; l++)
+    {
+        CHECK(MatProductClear(coarse[l]));
+        CHECK(MatDestroy(&coarse[l]));
+    }
+    CHECK(PetscFree(coarse));
     malloc_trim(0);
     return 0;
 }
