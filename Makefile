@@ -447,7 +447,7 @@ doctor: ## say what is installed, what is missing and how to get it
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: $(VENV)/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)
-	@$(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
+	@PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
 
 # What tests need beside the package: each is skipped where its tool is not there.
 tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, Chromium, a locale's sources

@@ -1,5 +1,6 @@
 """The session's store of runs, shared by pytest-xdist's workers; the texts of figures that tests write are measured."""
 
+import gc
 import os
 
 import freefem
@@ -11,6 +12,10 @@ from postprocess import output
 
 def pytest_addoption(parser):
     parser.addoption("--no-skips", action="store_true", help="a test that is skipped is named and fails the session")
+
+
+def pytest_collection_finish():
+    gc.freeze()  # the tests themselves and matplotlib are no garbage: figures begin collections by the dozen
 
 
 def pytest_sessionfinish(session):

@@ -10,6 +10,7 @@ import functools
 import hashlib
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -133,6 +134,18 @@ def short_of(short, every):
     A case of several parameters is a tuple."""
     others = [case if isinstance(case, tuple) else (case,) for case in every if case not in short]
     return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in others)]
+
+
+RUBS = re.compile(r"^\s*(leg\s|tie\s|(contact|obstacle)\s.*\sfriction(\s|$))", re.M)
+ASKS = re.compile(r"^\s*(rotate|stresses|line|body\s.*\syield|expand|preload)(\s|$)", re.M)
+
+
+def parts_script(case, words, space=False):
+    """The script of a case's text: the one that edp/parts.edp would hand it over to, which starts only once."""
+    name, given = f"parts{'-3d' * space}", set(map(str, words))
+    asks = ASKS.search(case) or given & {"exact", "-history", "-accuracy", "-axis"}
+    kind = ("slides" if "exact" in given else "friction") if RUBS.search(case) else "asked" if asks else ""
+    return f"edp/scenes/asked/{name}-{kind}.edp" if kind else f"edp/{name}.edp"
 
 
 def interruptible():

@@ -229,15 +229,15 @@ def flags():
 
 # ---------------------------------------------------------------- files
 
-CASE = "edp/examples/{0}/{0}"
+CASE = "-mesh edp/examples/{0}/{0}.geo -case edp/examples/{0}/{0}.case -set size {1}"
 RUNS = {  # a run of each kind
     "plane": "scenes/hertz-line.edp -law power -d0 -0.25 -force 0 -u0 1 -method paper -order 1 -h 2 -steps 2 -states 1"
     " -axis 1 -history 1",
     "space": "scenes/sphere-on-block.edp -order 1 -h 2 -states 1",
     "two": "scenes/patch-test.edp",
     "two in space": "scenes/patch-test-3d.edp -lower 2 -upper 3",
-    "case": f"parts.edp -order 1 -mesh {CASE}.geo -case {CASE}.case".format("pin-in-hole"),
-    "case in space": f"parts-3d.edp -order 1 -mesh {CASE}.geo -case {CASE}.case".format("crossed-cylinders"),
+    "case": f"parts.edp -order 1 {CASE}".format("pin-in-hole", 1.5),
+    "case in space": f"parts-3d.edp -order 1 {CASE}".format("crossed-cylinders", 0.5),
 }
 KINDS = {  # in words
     "plane, two, case": "in the plane",

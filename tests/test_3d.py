@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import reference
 from freefem import ROOT, Run, run, run_in, scene_text, script, snippet, stored, told, tree
 from test_two_bodies import confined
 
@@ -145,6 +146,27 @@ def test_symmetry():
     assert run(SCENE, *COARSE).summary["parameters"]["symmetry"] == "quarter"
 
 
+def test_elements_at_the_rim():
+    """Told the contact's radius, P3's force of a stiff law shall be off by 1e-4 and less, within what is said of it."""
+    sphere = run(SCENE, "-kappa", 1e9, "-order", 3, "-h", 2, "-grading", 10, "-edges", 1, "-ends", 4.89, "-estimate", 1)
+    known = reference.values()["sphere-on-block", 1e9, 3]["force"]
+    assert abs(sphere.force / known - 1) < 1e-4
+    assert abs(sphere.force - known) < sphere.summary["estimates"]["force"]["error"] < 1e-3 * known
+    assert sphere.newton <= 4 and sphere.backsolves <= 25 and sphere.ndof < 25000
+    # elements of length h along the rim: a polygon of 16 sides in a circle, its radius 1.1 times the rigid section's
+    assert sphere.contact["weight"].sum() == pytest.approx(8 * 1.1**2 * 2.25 * 17.75 * np.sin(np.pi / 8), rel=1e-6)
+
+
+@pytest.mark.parametrize("symmetry", ["half", "whole"])
+def test_rim_of_a_half_and_of_a_whole(symmetry):
+    """A half and a whole on meshes of rings shall have the quarter's force, but for their meshes."""
+    flags = ["-order", 1, "-h", 2, "-ends", 5.4]
+    quarter = run(SCENE, *flags)
+    more = run(SCENE, *flags, "-symmetry", symmetry)
+    assert more.force == pytest.approx(quarter.force, rel=0.02)
+    assert 1.8 < more.points / quarter.points < (2.1 if symmetry == "half" else 4.2)
+
+
 @pytest.mark.long
 def test_grading():
     """Sizes that grow half as fast, the default, shall halve the error of the force: 1567.7 by an independent code."""
@@ -228,6 +250,8 @@ def test_contact_up_to_the_edge_is_said():
         (["-R", 100, "-patch", 19], ["-patch 19", "at most 18"]),
         (["-patch", 2, "-h", 3], ["-h 3", "at most 2"]),
         (["-layers", 100], ["-layers 100", "at most 10"]),
+        (["-ends", 6.8], ["-ends 6.8", "at most 6.6"]),
+        (["-edges", 1e-3], ["-edges 0.001", "at least 0.04"]),
         (["-geometry", "strain"], ["-geometry", "unknown flag"]),
         (["-nu", 0.5], ["-nu 0.5", "(-1, 0.5)"]),
     ],
@@ -280,6 +304,7 @@ def test_balls_against_hertz(scene, radius, modulus):
     assert fine[2] < 0.5 * coarse[2]
 
 
+@pytest.mark.long
 def test_unequal_balls_exchanged():
     """Exchanging slave and master shall change the force by less than the discretisation error does."""
     flags = ["-force", 0, "-u0", 0.3, "-h", 0.3, "-layers", 1, "-tol", 1e-8]

@@ -31,7 +31,7 @@ def near(value, reference, relative):
 # ---------------------------------------------------------------- the paper's count
 
 
-@pytest.mark.parametrize("scene", [DISC, TWO_BODIES])
+@pytest.mark.parametrize("scene", [DISC, pytest.param(TWO_BODIES, marks=pytest.mark.long)])
 def test_the_papers_count(scene):
     """The paper's scheme at h = 0.5 shall take 3 adaptations, 11 to 13 Newton steps, with the disc meshed as well."""
     paper = run(scene, *PAPER)
@@ -121,7 +121,7 @@ def test_order_of_convergence(order, sizes, slowest):
     "scene, h, order",
     [
         (DISC, 0.5, 1),
-        (DISC, 0.5, 4),
+        pytest.param(DISC, 0.5, 4, marks=pytest.mark.long),
         (TWO_BODIES, 1, 1),
         *(pytest.param(scene, h, 2, marks=pytest.mark.long) for scene, h in ((DISC, 0.5), (TWO_BODIES, 1), (BLOCK, 4))),
         *(pytest.param(scene, h, 4, marks=pytest.mark.long) for scene, h in ((TWO_BODIES, 1), (BLOCK, 4))),
@@ -292,7 +292,8 @@ def test_invariance(scene, flags, length, pressure):
 # ---------------------------------------------------------------- both bodies meshed
 
 
-@pytest.mark.parametrize("order", [1, *(pytest.param(order, marks=pytest.mark.long) for order in (2, 4))])
+@pytest.mark.long
+@pytest.mark.parametrize("order", [1, 2, 4])
 def test_meshed_disc_converges_to_the_rigid_disc(order):
     """With both bodies meshed the result shall tend to the rigid disc's, the difference falling like 1/Eratio."""
     flags = ["-method", "newton", "-h", 2 if order == 4 else 1, "-order", order, *EXACT_STOP]

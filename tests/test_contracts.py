@@ -158,6 +158,7 @@ def owners():
     return found
 
 
+@cache
 def uses(name):
     """The identifiers of other files that a source uses."""
     return {word for word in read(name)[1] if word in owners()} - EVERYWHERE
@@ -185,6 +186,7 @@ def provided(name):
     return read(name)[0].union(macros, *(provided(inner) for inner in includes(name)))
 
 
+@cache
 def part(name, title):
     """The text of Needs or Gives in a module's head: the line and what is indented below it.
 
@@ -194,6 +196,7 @@ def part(name, title):
     return re.sub(r"(?<![\w/.-])([a-z][\w-]*\.idp)\b", rf"{Path(name).parent}/\1", text)
 
 
+@cache
 def named(text):
     """The identifiers that a part of a head names."""
     while re.search(r"\w\([^()]*\)", text):
@@ -211,6 +214,7 @@ def paths(text):
     return re.findall(r"(?<![\w/<>.-])(?:[a-z][\w-]{2,}/)+(?:[\w-]+\.\w+|(?![\w<*]))", text)
 
 
+@cache
 def gives(path, word):
     """Whether a module, or one in a folder, declares an identifier and says so."""
     return any(

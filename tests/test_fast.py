@@ -94,6 +94,8 @@ def test_same_numbers(package, tmp_path):
     plain = results(package, tmp_path / "plain")
     assert all(summary["converged"] and '"fast"' not in json.dumps(summary["plugins"]) for summary in plain)
     if shutil.which("ff-c++") and shutil.which("g++"):
+        if FAST.exists():  # newer than its source: what `make setup` has compiled is not compiled again
+            shutil.copytree(FAST.parent, package / "build", copy_function=shutil.copyfile, dirs_exist_ok=True)
         assert make(package, "fast") == (0, "")
         for before, after in zip(plain, results(package, tmp_path / "fast"), strict=True):
             for count in ("ndof", "points", "contactPoints", "newton", "backsolves", "adaptations", "factorisations"):

@@ -88,7 +88,7 @@ def test_mean_motion(go):
 
 def test_turned_body(go):
     """A body that is turned as a whole turns by the angle that is prescribed, and moves as its middle does."""
-    for order in (1, 2, 3, 4):
+    for order in (1, 4):
         case = f"{DISC.replace('-2 0 1', '-2.001 0 1')}rotate hub 0 0 0.01\n"
         sketch = Sketch(Draw())
         rim, hub = sketch.oval(0, 0, 2, 2, 0.6, bottom=0.2), sketch.oval(0, 0, 1, 1, 0.3)

@@ -120,7 +120,7 @@ def test_contact_that_gets_lost(scene, u0, tmp_path):
     "law, flags, further",
     [
         ("", [], []),
-        ("law exponential p0 0.02 beta 50 d0 -0.05", [], []),
+        pytest.param("law exponential p0 0.02 beta 50 d0 -0.05", [], [], marks=pytest.mark.long),
         ("", ["-points", "nodal"], ["-points", "nodal", "-start", "none"]),
     ],
     ids=["default", "exponential", "nodal"],
@@ -147,12 +147,7 @@ def opened(folder, mesh, *flags, **given):
 
 @pytest.mark.parametrize(
     "method",
-    [
-        "xnewton",
-        "paper",
-        pytest.param("newton", marks=pytest.mark.long),
-        pytest.param("incremental", marks=pytest.mark.long),
-    ],
+    ["paper", *(pytest.param(name, marks=pytest.mark.long) for name in ("xnewton", "newton", "incremental"))],
 )
 def test_points_without_a_master_by_every_method(mesh, tmp_path, method):
     """The same, whichever way it is solved."""
@@ -185,7 +180,7 @@ def narrow(name, keep):
     "curve, keep, points",
     [
         ("contact", lambda x: x > 0.5, []),
-        ("contact", lambda x: x < 0.5, ["-points", "nodal"]),
+        pytest.param("contact", lambda x: x < 0.5, ["-points", "nodal"], marks=pytest.mark.long),
         ("master", lambda x: abs(x) < 1, []),
         pytest.param("master", lambda x: abs(x) < 1, ["-points", "nodal"], marks=pytest.mark.long),
     ],

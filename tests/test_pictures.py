@@ -8,7 +8,7 @@ import types
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, run_in, script
+from freefem import FREEFEM, ROOT, execute, run_in, script, short_of
 from text_boxes import faults
 
 from postprocess import bodies, space, style
@@ -63,7 +63,7 @@ def figure(command, folder, scale=1.0, slide=False):
     return drawn
 
 
-@pytest.mark.parametrize("command", ["state", "stress"])
+@pytest.mark.parametrize("command", ["state", pytest.param("stress", marks=pytest.mark.long)])
 def test_written(case, command, capsys):
     """A run shall be drawn into its own folder, as PDF and PNG, and the next run shall remove both."""
     assert main([command, str(case)]) == 0
@@ -73,32 +73,35 @@ def test_written(case, command, capsys):
     assert f"{command}.pdf" in (case / ".run/.written").read_text()
 
 
-def test_any_run(made):
+WAYS = [(state, False), (stress, True)]
+
+
+@pytest.mark.parametrize(("command", "slide"), short_of(WAYS, [(state, True), (stress, False)]))
+def test_any_run(made, command, slide):
     """A run of any scene shall be drawn: one column wide, or a slide of 16:9, with no text cut or on another one."""
-    for command in (state, stress):
-        for slide, width in ((False, style.COLUMN), (True, style.PAGE)):
-            drawn = figure(command, made, slide=slide)
-            assert faults(drawn) == []
-            assert drawn.get_figwidth() == width
-            assert not slide or drawn.get_figheight() == pytest.approx(width * 9 / 16)
-            box = drawn.get_tightbbox()
-            assert box.x0 > -0.02 and box.x1 < width + 0.02
+    width = style.PAGE if slide else style.COLUMN
+    drawn = figure(command, made, slide=slide)
+    assert faults(drawn) == []
+    assert drawn.get_figwidth() == width
+    assert not slide or drawn.get_figheight() == pytest.approx(width * 9 / 16)
+    box = drawn.get_tightbbox()
+    assert box.x0 > -0.02 and box.x1 < width + 0.02
 
 
-def test_every_contact_from_near(case):
+@pytest.mark.parametrize("slide", [False, pytest.param(True, marks=pytest.mark.long)])
+def test_every_contact_from_near(case, slide):
     """Each contact of the roller shall have a panel with the scale of its pressure and where the arc length begins."""
-    for slide in (False, True):
-        drawn = figure(stress, case, slide=slide)
-        assert faults(drawn) == []
-        panels = sorted(drawn.axes, key=lambda axes: axes.get_title(loc="left"))
-        titles = [axes.get_title(loc="left").replace("\n", " ") for axes in panels]
-        names = [contact["name"] for contact in read_run(case).summary["contacts"]]
-        assert all(any(name in title and "arc length from" in title for title in titles[:2]) for name in names)
-        for axes in panels[:2]:
-            assert any("pressure" in text.get_text() and "MPa" in text.get_text() for text in axes.texts)
-            (bar,) = axes.child_axes
-            assert bar.get_ylabel() == "von Mises [MPa]"
-        assert "true scale" in titles[2] and "from the middle" in panels[3].get_xlabel().replace("\n", " ")
+    drawn = figure(stress, case, slide=slide)
+    assert faults(drawn) == []
+    panels = sorted(drawn.axes, key=lambda axes: axes.get_title(loc="left"))
+    titles = [axes.get_title(loc="left").replace("\n", " ") for axes in panels]
+    names = [contact["name"] for contact in read_run(case).summary["contacts"]]
+    assert all(any(name in title and "arc length from" in title for title in titles[:2]) for name in names)
+    for axes in panels[:2]:
+        assert any("pressure" in text.get_text() and "MPa" in text.get_text() for text in axes.texts)
+        (bar,) = axes.child_axes
+        assert bar.get_ylabel() == "von Mises [MPa]"
+    assert "true scale" in titles[2] and "from the middle" in panels[3].get_xlabel().replace("\n", " ")
 
 
 def test_singular_places_are_marked(case, tmp_path):

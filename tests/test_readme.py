@@ -255,7 +255,7 @@ def package(tmp_path_factory):
     case = folder / "edp/examples/wheel-on-rail/wheel-on-rail.case"
     text = case.read_text()
     assert text in README and len(text.splitlines()) <= 12
-    case.write_text(text.replace("size    contact 1.25", "size    contact 5"))
+    case.write_text(text.replace("size    contact 1.25", "size    contact 10"))
     if MULTIGRID.exists():  # newer than its sources
         shutil.copytree(MULTIGRID.parent, folder / "build", copy_function=shutil.copyfile)
     return folder

@@ -5,7 +5,7 @@ import shlex
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, Run, check_invariants, execute, run, scenes, script, skip_without_ipopt, table
+from freefem import ROOT, check_invariants, run, scenes, script, skip_without_ipopt, stored, table
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_readme import README, fences, quoted, rows, section
 
@@ -440,17 +440,16 @@ def test_every_scene_has_a_command():
     assert all(expected and all(len(row) == 5 for row in expected) for *_, expected in EXPERIMENTS)
 
 
-def result(command, out):
-    """The run of a command as it is written, but into another folder; every invariant is checked."""
+def result(command):
+    """The run of a command as it is written, but into another folder, shared; every invariant is checked."""
     words = shlex.split(command)
     assert words[:2] == ["make", "run"]
     (flags,) = [word for word in words if word.startswith("ARGS=")]
     scene = next((word.removeprefix("SCENE=") for word in words if word.startswith("SCENE=")), "disc-on-block")
     given = shlex.split(flags.removeprefix("ARGS="))
     skip_without_ipopt(scene)
-    code, stdout = execute([*FREEFEM, script(scene), *given, "-estimate", "0", "-vtu", "0", "-out", out])
-    assert code == 0, stdout[-2000:]
-    done = Run(code, stdout, out)
+    done = stored(scene, (*given, "-estimate", "0"))
+    assert done.code == 0, done.stdout[-2000:]
     assert done.scene == ("disc-on-block" if scene == "disc-on-block-ipopt" else scene)
     check_invariants(done)
     return done
@@ -491,9 +490,9 @@ def is_long(scene, command):
     "scene, command, expected",
     [pytest.param(*each, id=each[1], marks=[pytest.mark.long] if is_long(*each[:2]) else []) for each in EXPERIMENTS],
 )
-def test_numbers(scene, command, expected, tmp_path):
+def test_numbers(scene, command, expected):
     """The command shall give the table's numbers, and its references be those computed here from the flags alone."""
-    done = result(command, tmp_path / "out")
+    done = result(command)
     if scene != "disc-on-block-ipopt":
         assert done.scene == scene
     references = REFERENCES[scene](done.parameters)

@@ -99,7 +99,7 @@ def test_stress_below_the_contact(balls):
 @pytest.mark.parametrize(
     "scene, flags",
     [
-        ("sphere-on-plane", ["-h", 0.3, "-layers", 2]),
+        pytest.param("sphere-on-plane", ["-h", 0.3, "-layers", 2], marks=pytest.mark.long),
         ("sphere-on-block", ["-law", "signorini", "-h", 1.2, "-layers", 1]),
     ],
 )

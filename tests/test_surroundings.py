@@ -606,8 +606,7 @@ def test_series_that_is_complete(tmp_path):
     "scene",
     [
         "disc-on-block",
-        "two-cylinders",
-        *(pytest.param(scene, marks=pytest.mark.long) for scene in ("hertz-line", "meshed-disc")),
+        *(pytest.param(scene, marks=pytest.mark.long) for scene in ("two-cylinders", "hertz-line", "meshed-disc")),
     ],
 )
 def test_series_of_the_exact_distance(tmp_path, scene):

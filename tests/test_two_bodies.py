@@ -49,7 +49,8 @@ def hertz(force, r1, r2, e1, e2, nu=0.3):
     return a, 2 * force / (np.pi * a)
 
 
-@pytest.mark.parametrize("second", [pytest.param(100, marks=pytest.mark.long), 400])
+@pytest.mark.long
+@pytest.mark.parametrize("second", [100, 400])
 def test_two_cylinders(second):
     """Two elastic cylinders: half-width and greatest pressure within 1 % of Hertz at h = a/20."""
     done = run("two-cylinders", "-method", "xnewton", "-tol", 1e-8, "-E2", second, "-h", 0.04)

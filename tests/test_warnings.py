@@ -113,7 +113,7 @@ def test_overlap_lost_in_rounding():
 
 def test_mean_planes_that_pass_through_each_other():
     """A law so soft that the bodies pass through each other shall be named with -kappa, no other one."""
-    flags = ["-force", 0, "-law", "power", "-d0", -0.05]
+    flags = ["-force", 0, "-law", "power", "-d0", -0.05, "-h", 0.2]
     soft = run("two-cylinders", *flags)
     text = warned(soft, "mean planes", "-kappa")
     assert soft.overlapMax > 0.1 * 0.4  # gap 0.1, approach 0.5

@@ -176,10 +176,22 @@ void cut(std::vector<int>::iterator from, std::vector<int>::iterator to, int fir
     cut(middle, to, firstPart + parts / 2, parts - parts / 2);
 }
 
+void forget()
+// What there is of another mesh.
+{
+    CHECK(KSPDestroy(&solver));
+    CHECK(MatDestroy(&K));
+    CHECK(VecScatterDestroy(&toWatched));
+    for (Vec * v : {&load, &last, &carried, &work, &watchedValues}) CHECK(VecDestroy(v));
+    for (Vec & motion : rigidMotions) CHECK(VecDestroy(&motion));
+    rigidMotions.clear();
+}
+
 long multigridParts(pfes3 * const & space, KN<double> * const & own)
 // own: 1 at the elements of this rank, 0 at the others; returns how many they are.
 {
     startPetsc();
+    forget();
     FESpace3 & V = *(FESpace3 *) **space;
     int ranks = ranksNow(), rank = rankNow(), nodes = V.NbOfDF / components, each = nodesOfElement(V);
     placeNodes(V, place);

@@ -34,19 +34,22 @@ CUBIC = False  # True: P3 in space, where the package has it
 LAWS = [(1e3, 3), (1e9, 3), (1e12, 3), (1e3, 10), (1e3, 20)]  # kappa, m
 LAWS_SPACE = LAWS_BODIES = LAWS[:2]
 # Series of runs: flags, and the sizes h (length) that they are run with. A further element or mesh is a further line.
+SECTION = {"reach": 6.95}  # contact is looked for as far as NGSolve's meshes do: 1.1 times the rigid section
 PACKAGE_PLANE = [
     ({"order": 2}, (0.5,)),
-    ({"order": 3, "grading": 60, "corners": 0.1}, (2, 1, 0.5)),
-    ({"order": 3, "grading": 60}, (0.5,)),
-    ({"order": 4, "grading": 60, "corners": 0.1}, (1,)),
-    ({"order": 4, "grading": 60, "corners": 0.02, "reach": 6.95}, (0.5,)),  # NGSolve's meshes reach as far
-    ({"order": 4, "grading": 60}, (0.25,)),
+    ({"order": 3, "grading": 100, "corners": 0.1, **SECTION}, (1.4, 1)),
+    ({"order": 3, "grading": 60, "corners": 0.1, **SECTION}, (0.5,)),
+    ({"order": 4, "grading": 160, "corners": 0.05, **SECTION}, (1.2, 0.7, 0.5, 0.4)),
+    ({"order": 4, "grading": 60, "corners": 0.1, **SECTION}, (0.7, 0.5)),
+    ({"order": 4, "grading": 60, "corners": 0.05, **SECTION}, (0.3,)),
 ]
 # With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
 PACKAGE_PLANE_ENDS = [
-    ({"order": 3, "grading": 60, "corners": 0.1}, (1,)),
-    ({"order": 4, "grading": 60, "corners": 0.1}, (1.5, 1)),
-    ({"order": 4, "grading": 60, "corners": 0.02}, (1,)),
+    ({"order": 3, "grading": 60, "corners": 0.1, **SECTION}, (1,)),
+    ({"order": 4, "grading": 60, "corners": 0.05, **SECTION}, (2,)),
+    ({"order": 4, "grading": 100, "corners": 0.1, **SECTION}, (1,)),
+    ({"order": 4, "grading": 60, "corners": 0.1, **SECTION}, (0.7,)),
+    ({"order": 4, "grading": 60, "corners": 0.02, **SECTION}, (2, 1)),
 ]
 STIFF = 1e9
 PACKAGE_SPACE = [
@@ -80,9 +83,9 @@ PEER_SPACE_STIFF_ENDS = [({"order": 2, "start": 2}, (1.5,)), ({"order": 3, "star
 PEER_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.4, 0.2))]
 PEER_PIN = [({"order": 2}, (0.8,)), ({"order": 3}, (0.8,)), ({"order": 4}, (0.8,))]
 # What tells the contact's width, of each code: flags of a run with the same law.
-COARSE = {"order": 2, "h": 0.5}
+COARSE = {"order": 3, "grading": 60, "corners": 0.1, "h": 1, **SECTION}
 PEER_COARSE = {
-    "disc-on-block": {"corners": 3, **COARSE},
+    "disc-on-block": {"corners": 3, "order": 2, "h": 0.5},
     "sphere-on-block": {"mesh": "tetrahedra", "order": 2, "h": 1.5},
 }
 
