@@ -571,7 +571,8 @@ def test_rotation_drags(tmp_path, coarse_punch):
         (PUNCH + "move pushed 0 -1\nleg 1\nleg 1\nclamp free\n", "clamp: in leg 2, but it holds in every leg"),
         (PUNCH + f"{PLANE} friction 0.3\nleg 1\nleg 1\n{PLANE} move 0 1\n", "no move here or in line"),
         (PUNCH + f"{PLANE} move 0 0\nleg 1\nleg 1\n{PLANE} move 0 1 friction 0.3\n", "interference unlike line"),
-        (PUNCH.replace("contact contact", "tie contact").replace("gap", "#") + "move pushed 0 -1\n", "not with tie"),
+        (PUNCH.replace("contact contact", "tie contact").replace("gap", "#"), "tie: not with -distance exact"),
+        (PUNCH.replace("contact contact", "tie contact").replace("gap", "#"), "tie: not with -points nodal"),
         (
             PUNCH.replace(" friction 0.3", "") + "leg 1\nmove pushed 0 -1\nleg 1\nmove pushed 0 -2\n",
             "2 legs without friction",
@@ -579,7 +580,7 @@ def test_rotation_drags(tmp_path, coarse_punch):
     ],
 )
 def test_refusals_of_a_case(tmp_path, coarse_punch, text, words):
-    flags = ("-distance", "exact") if words == "not with tie" else ()
+    flags = words.split()[3:] if words.startswith("tie: not with") else ()
     run = case(tmp_path, coarse_punch, text, *flags, expect=10)
     assert words in run.stdout
 

@@ -396,6 +396,9 @@ def test_numbers_of_a_geometry(tmp_path):
     assert code == 0, why
     code, why, *_ = readable(tmp_path, geo, case, 0, sets=" -setnumber sizes 2")
     assert code == 1 and why == "-set sizes: no number of it that can be set; allowed: radius width height size"
+    geo = tmp_path / "several.geo"
+    geo.write_text('DefineConstant[ a = 1, b = {2, Min 0, Name "x]y, c"},\n // z = 1\n  dd=2 ];DefineConstant[e];')
+    assert readable(tmp_path, geo, case, 0, sets=" -setnumber z 2")[1].endswith("allowed: a b dd e")
 
 
 WORDS = {
