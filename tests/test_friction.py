@@ -569,6 +569,11 @@ def test_rotation_drags(tmp_path, coarse_punch):
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "allowed: at least 0 and below"),
         (PUNCH + "move pushed 0 -1\nleg 1\nleg 1\nclamp free\n", "clamp: in leg 2, but it holds in every leg"),
+        (PUNCH + "move pushed 0 -1\nleg 1\nleg 1\nthickness 2\n", "thickness: in leg 2, but it holds in every leg"),
+        (
+            PUNCH + "move pushed 0 -1\nleg 1\nleg 1\nmove pushed 0 -2\nmove pushed 0 -3\n",
+            "move of pushed in leg 2: stated before, in line",
+        ),
         (PUNCH + f"{PLANE} friction 0.3\nleg 1\nleg 1\n{PLANE} move 0 1\n", "no move here or in line"),
         (PUNCH + f"{PLANE} move 0 0\nleg 1\nleg 1\n{PLANE} move 0 1 friction 0.3\n", "interference unlike line"),
         (PUNCH.replace("contact contact", "tie contact").replace("gap", "#"), "tie: not with -distance exact"),

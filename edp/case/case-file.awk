@@ -248,6 +248,7 @@ function readLaw(v,   name, list, n, k, given, taken) {
 function changed(key,   k) {
   if (legs < 2) return 0
   if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated there, be it as 0")
+  once(key SUBSEP legs, word[1] " of " word[2] " in leg " legs)
   return base[key] + 0
 }
 function putChange(of, v,   k, line) {
@@ -563,13 +564,13 @@ FILENAME == ARGV[1] {
   if (!words) next
   at = 1
   if (!(word[1] in usage)) no(word[1] ": unknown statement; " leadTo(word[1]) "allowed: " statementNames)
+  if (legs > 1 && word[1] !~ /^(leg|obstacle|move|rotate|force|pressure|traction|weight)$/)
+    no(word[1] ": in leg " legs ", but it holds in every leg; allowed there: move, rotate, pressure, traction, weight, an obstacle\047s move")
   if (word[1] ~ /^(units|state|thickness)$/) single()
   else if (word[1] == "group") readGroup()
   else if (word[1] == "size") readSize()
   else {
     if (!firstLine) firstLine = FNR
-    if (legs > 1 && word[1] ~ /^(body|contact|tie|clamp|symmetry|expand|preload)$/)
-      no(word[1] ": in leg " legs ", but it holds in every leg; allowed there: move, rotate, pressure, traction, weight, an obstacle\047s move")
     if (word[1] == "body") readBody()
     else if (word[1] == "leg") readLeg()
     else if (word[1] == "contact") readContact()
