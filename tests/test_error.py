@@ -107,6 +107,14 @@ def test_prescribed_force(solved):
     )
 
 
+def test_prescribed_force_on_a_soft_law(solved):
+    """What is off at the contact moves the greatest pressure under a given force too; what is off far away does not."""
+    law = ("-force", 19.42, "-d0", -0.001763, "-m", 1.149, "-kappa", 63.62, "-nu", 0.2139)
+    coarse, fine = (solved("disc-on-block", *law, "-order", order, "-h", h) for order, h in ((2, 0.4116), (4, 0.3)))
+    true = abs(coarse.pressureMax - fine.pressureMax)
+    assert true + fine.estimates["pressureMax"]["error"] <= coarse.estimates["pressureMax"]["error"] <= 4 * true
+
+
 def test_counts_are_apart(solved):
     """The estimates shall be printed, change no count of the run, and cost no more back-substitutions than a few."""
     told, silent = (solved("disc-on-block", "-h", 1, "-estimate", wanted) for wanted in (1, 0))

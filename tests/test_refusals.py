@@ -205,12 +205,15 @@ def test_gmsh_failing(package, path_without_gmsh, tmp_path, does):
     assert "h 0.0375" in line
 
 
-@pytest.mark.parametrize("flag, value", [("-h", "1e-14"), ("-grading", "1e20"), ("-depth", "1e14"), ("-R", "1e-13")])
+@pytest.mark.parametrize(
+    "flag, value", [("-h", "1e-14"), ("-grading", "1e20"), ("-depth", "1e14"), ("-R", "1e-13"), ("-reach", "1e-6")]
+)
 def test_shape_that_cannot_be_meshed(package, flag, value):
     """A ratio of lengths that the mesh's decimals cannot carry shall be refused, not rounded to another shape."""
     line = refused(package, DISC, "-method", "newton", flag, value)
-    assert flag in line or "gmsh failed" in line
+    assert line.startswith(flag + " ") or "gmsh failed" in line
     assert "allowed" in line
+    assert flag != "-grading" or "size" not in line
 
 
 def test_gmsh_is_real():
