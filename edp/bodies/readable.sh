@@ -65,7 +65,21 @@ test $cad = 0 || finer="lower sizes (size contact, size NAME in the case file)"
 # what sets a number must name one
 if test -n "$SETS" && test -z "$again"; then
     test "$kind" = geo || no "-set: it has no numbers to be set; allowed: with a .geo file"
-    constants=$(sed -n 's/^ *DefineConstant *\[ *\([A-Za-z_0-9]*\).*/\1/p' "$file" | tr '\n' ' ' | sed 's/ $//')
+    # several names in one DefineConstant, over lines, with {value, Name "..."}
+    constants=$(awk '
+        { gsub(/"[^"]*"/, ""); sub(/\/\/.*/, ""); text = text " " $0 }
+        END {
+            while (gsub(/\{[^{}]*\}/, "", text)) ;
+            while (match(text, /DefineConstant[ \t]*\[[^]]*\]/)) {
+                n = split(substr(text, RSTART, RLENGTH - 1), part, /[[,]/)
+                text = substr(text, RSTART + RLENGTH)
+                for (k = 2; k <= n; k++) {
+                    sub(/=.*/, "", part[k])
+                    gsub(/[ \t\r]/, "", part[k])
+                    if (part[k] != "") printf "%s", (many++ ? " " : "") part[k]
+                }
+            }
+        }' "$file")
     next=
     for word in $SETS; do
         test "$next" != name || case " $constants " in *" $word "*) ;; *)

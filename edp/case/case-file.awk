@@ -379,6 +379,7 @@ function readContact(   a, b, v, f, law, gap, next_, over) {
 # a contact whose surfaces neither part nor slide: a statement "tied" of its own behind it
 function readTie(   a, b, v, k) {
   if (!rubs) no("tie: read by parts.edp and parts-3d.edp alone; allowed here: bodies that share nodes")
+  if (ENVIRON["RUBS"] ~ / /) no("tie: not with " ENVIRON["RUBS"] "; allowed: -distance linear, -points segment")
   a = group(dim - 1)
   b = group(dim - 1)
   if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
@@ -477,7 +478,7 @@ function single(   text, k) {
 BEGIN {
   space = ENVIRON["SPACE"] + 0
   dim = 2 + space
-  rubs = ENVIRON["RUBS"] + 0
+  rubs = ENVIRON["RUBS"] != ""
   split("curve surface volume", kind, " ")
   kind[0] = "point"
   at3 = space ? " z" : ""
