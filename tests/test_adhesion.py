@@ -196,6 +196,7 @@ def test_pull_off(mu):
     assert done.pullOff / unit == pytest.approx(PULL_OFF[mu], rel=0.005)
 
 
+@pytest.mark.long
 def test_bradley():
     """For a stiff sphere the pull-off force shall be 2 pi w R."""
     given, unit = flags(0.01, (-1, 0.5, -1))

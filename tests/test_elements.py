@@ -58,7 +58,7 @@ def test_smooth_pressures(order):
     assert np.abs(p / np.sqrt(smooth) - 1).max() < (6e-3 if order == 3 else 1e-3)
 
 
-@pytest.mark.parametrize("method, steps", short_of([("paper", 12), ("newton", 8)], [("linesearch", 8)]))
+@pytest.mark.parametrize("method, steps", short_of([("paper", 12)], [("newton", 8), ("linesearch", 8)]))
 def test_methods_between_nodes(method, steps):
     """P3's points are no nodes: methods on the whole system shall find what the condensed one does."""
     done = run("disc-on-block", "-order", 3, "-method", method)
@@ -123,20 +123,20 @@ def test_work_is_force(scene, u0, flags):
     assert slope == pytest.approx(force, rel=1e-5)
 
 
+P4_DISC = ("disc-on-block", ["-h", 2, "-order", 4])
+P2_SPHERE = ("sphere-on-block", ["-h", 2, "-patch", 4, "-layers", 1, "-order", 2])
+
+
 @pytest.mark.parametrize(
-    "scene, flags",
-    [
-        ("disc-on-block", ["-h", 2, "-order", 4]),
-        pytest.param("sphere-on-block", ["-h", 2, "-patch", 4, "-layers", 1, "-order", 2], marks=pytest.mark.long),
-    ],
+    "scene, flags, method",
+    short_of([(*P4_DISC, "newton")], [(*P4_DISC, "paper"), (*P2_SPHERE, "newton"), (*P2_SPHERE, "paper")]),
 )
-def test_methods_agree(scene, flags):
+def test_methods_agree(scene, flags, method):
     """The paper's scheme and Newton's method shall find xnewton's solution."""
     best = run(scene, *flags, "-tol", 1e-9)
-    for method in ("paper", "newton"):
-        other = run(scene, *flags, "-tol", 1e-9, "-eps", 1e-9, "-method", method)
-        assert other.force == pytest.approx(best.force, rel=1e-7)
-        np.testing.assert_allclose(other.contact["pressure"], best.contact["pressure"], atol=1e-6 * best.pressureMax)
+    other = run(scene, *flags, "-tol", 1e-9, "-eps", 1e-9, "-method", method)
+    assert other.force == pytest.approx(best.force, rel=1e-7)
+    np.testing.assert_allclose(other.contact["pressure"], best.contact["pressure"], atol=1e-6 * best.pressureMax)
 
 
 def test_stress_without_jumps(tmp_path):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from freefem import ROOT, parts_script, run_in, short_of
 from PIL import Image
+from test_parts import read
 
 from postprocess.__main__ import main
 
@@ -103,14 +104,6 @@ def test_shrink_fit(state, tmp_path):
         along, around = a - b / r**2, a + b / r**2
         mises = np.sqrt(((along - around) ** 2 + (around - third) ** 2 + (third - along) ** 2) / 2)
         assert abs(r - B) < 0.3 or abs(row["vonMises"] - mises) <= row["vonMisesError"]
-
-
-def test_interference(tmp_path):
-    """Said behind a contact it shall be the overlap of the nominal surfaces."""
-    case = f"state stress\n{BODIES}contact bore seat interference 0.02\n"
-    solve(tmp_path, RING, case, "-estimate", 0, "-vtu", 0)
-    found = summary(tmp_path)["contacts"][0]
-    assert found["normalForce"] / (np.pi / 2 * B) == pytest.approx(seat_pressure(0.02, 0, True), rel=1e-4)
 
 
 BLOCK = """
@@ -289,7 +282,8 @@ line top 0 2 20 2
 """
 
 
-@pytest.mark.parametrize("order", [2, pytest.param(4, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("order", [2, 4])
 def test_stresses_of_a_cantilever(order, tmp_path):
     """Bending and shear across its middle, bending along its top; at the clamp's corners nothing is claimed."""
     done = solve(tmp_path, BEAM, PUSHED, "-order", order, size=0.5)
@@ -348,7 +342,6 @@ def test_stresses_below_a_contact(tmp_path):
 @pytest.mark.parametrize(
     "line, words",
     [
-        ("preload seat 20", "on the boundary"),
         ("preload cut -1", "out of range"),
         ("expand cut 1 1", "allowed for expand: its surfaces"),
         ("expand head 1e-5", "the change of temperature is missing"),
@@ -357,9 +350,15 @@ def test_stresses_below_a_contact(tmp_path):
         ("line a/b 0 0 1 1", "letters, digits"),
     ],
 )
-def test_refusals(line, words, tmp_path):
-    done = solve(tmp_path, BOLT, f"{JOINT}{line}\n".replace("preload cut 20\n", ""), expect=10)
-    assert words in done.stdout and len(done.stdout.strip().splitlines()) == 1
+def test_refused_as_read(line, words, tmp_path):
+    (tmp_path / "part.geo").write_text(BOLT)
+    code, why, _ = read(tmp_path, f"{JOINT}{line}\n".replace("preload cut 20\n", ""), "part.geo")
+    assert code == 3 and words in why and "\n" not in why
+
+
+def test_refused_by_the_run(tmp_path):
+    done = solve(tmp_path, BOLT, JOINT.replace("cut 20", "seat 20"), expect=10)
+    assert "on the boundary" in done.stdout and len(done.stdout.strip().splitlines()) == 1
 
 
 def test_help_in_two_parts():
@@ -369,9 +368,13 @@ def test_help_in_two_parts():
     assert "-preconditioner" in whole and "-method" in whole
 
 
-def test_order_of_the_screen(tmp_path):
-    """First contacts with their errors, last the solver's counts."""
-    said = solve(tmp_path, RING, f"{BODIES}contact bore seat interference 0.02\n", "-vtu", 0).stdout
+def test_interference_on_the_screen(tmp_path):
+    """Said behind a contact it shall be the overlap of the nominal surfaces; first contacts with their errors, last the
+    solver's counts."""
+    case = f"state stress\n{BODIES}contact bore seat interference 0.02\n"
+    said = solve(tmp_path, RING, case, "-vtu", 0).stdout
+    found = summary(tmp_path)["contacts"][0]
+    assert found["normalForce"] / (np.pi / 2 * B) == pytest.approx(seat_pressure(0.02, 0, True), rel=1e-4)
     at = [
         said.index(words)
         for words in ("bore seat within", "hub: moved", "symmetry below: carries", "  adaptations", "  dofs")

@@ -93,7 +93,7 @@ def test_pin_in_hole(tmp_path, force, size):
 
 def test_roller(tmp_path):
     """Both contacts of the roller shall be Hertz's and carry the same force, and so the stresses below one."""
-    case = example("roller", tmp_path, "", "-axis", "1", size=0.2)
+    case = example("roller", tmp_path, "", "-axis", "1", "-estimate", "1", size=0.2)
     a, greatest = forms.hertz_line(2000, 10, forms.contact_modulus(STEEL, STEEL))
     above, below = case.summary["contacts"]
     for contact in (above, below):
@@ -108,6 +108,12 @@ def test_roller(tmp_path):
     assert below["depth"][-1] == pytest.approx(3 * a, rel=0.05)
     np.testing.assert_allclose(below["s22"], exact, rtol=0, atol=0.04 * greatest)
     assert np.abs(below["s12"]).mean() < 0.01 * greatest
+    told = case.summary["estimates"]  # both contacts are known alike, and the way of what pushes it
+    for contact in told["contacts"]:
+        assert contact["force"]["error"] <= 1e-7
+        assert abs(contact["contactLength"]["value"] - 2 * a) <= contact["contactLength"]["error"]
+        assert abs(contact["pressureMax"]["value"] - greatest) <= contact["pressureMax"]["error"] + 2e-3 * greatest
+    assert told["loads"][0]["name"] == "force grip" and 0 < told["loads"][0]["way"]["error"] < 0.01
 
 
 def test_roller_true_distance(tmp_path):
@@ -121,6 +127,7 @@ def test_roller_true_distance(tmp_path):
     assert case.summary["outOfBalance"] < 1e-9
 
 
+@pytest.mark.long
 def test_press_fit(tmp_path):
     """The mean pressure between two rings that nothing else holds shall be Lame's, and be the same all round."""
     case = example("press-fit", tmp_path, "", "-estimate", "1", edges=92)
@@ -217,6 +224,7 @@ def joint(folder, case):
 GALLERY = {"shrink-fit": shrunk, "hip-joint": pressed_head, "snap-hook": pushed_hook, "bolted-sleeve": joint}
 
 
+@pytest.mark.long
 def test_shrink_fit(tmp_path):
     """A ring that cools shall press like Lame's, its stresses along a line within their errors."""
     case = example("shrink-fit", tmp_path, "", "-estimate", "1", edges=10)
@@ -229,6 +237,7 @@ def test_shrink_fit(tmp_path):
     balanced(case)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "clearance, size, least, most",
     [(0.3, 0.14, 0.01, 0.025), pytest.param(0.06, 0.3, 0.04, 0.06, marks=pytest.mark.long)],
@@ -263,6 +272,7 @@ def test_snap_hook_with_friction(tmp_path, friction):
     assert case.first["stickShare"] == 0
 
 
+@pytest.mark.long
 def test_bolted_sleeve(tmp_path):
     """Bolt and sleeve shall share the load as the joint diagram has it, and part where it says."""
     case = example("bolted-sleeve", tmp_path, "", "-history", "1", "-steps", "8", size=1.2)
@@ -271,6 +281,7 @@ def test_bolted_sleeve(tmp_path):
     assert case.first["contactPoints"] == 0 and "nothing presses" in case.stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("friction", [0.05, pytest.param(0.2, marks=pytest.mark.long)])
 def test_taper(tmp_path, friction):
     """Driven in it slips all over; let go of it stays where friction is above its slope, and comes out where not."""

@@ -221,7 +221,7 @@ def agrees(cell, value, change=0.0):
     return abs(value - float(text)) <= 0.501 * last + change * abs(float(text))
 
 
-SELDOM = ("1-law", "5-cost", "8-error")  # what they show of runs is in other labs and tests too
+SELDOM = ("1-law", "5-cost", "7-gecko", "8-error", OWN_PART)  # what they show of runs is in other labs and tests too
 
 
 def instructor_rows():
@@ -448,6 +448,7 @@ def test_figures_refuse(figure, words, tmp_path, capsys):
     assert not (tmp_path / "x.pdf").exists()
 
 
+@pytest.mark.long
 def test_figures_of_a_lab(tmp_path, capsys):
     """`figures` shall draw a lab's figures from a lab's run."""
     run_in(ROOT, lab_script("2-newton"), "-vtu", 0, out=tmp_path / "run")

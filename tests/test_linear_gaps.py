@@ -67,7 +67,7 @@ Line(12) = {12, 14}; Line(13) = {11, 13};
 Curve Loop(2) = {10, 12, -11, -13}; Plane Surface(2) = {2};
 Physical Surface("head") = {1}; Physical Surface("cup") = {2}; Physical Curve("head-surface") = {1};
 Physical Curve("grip") = {3}; Physical Curve("cup-bore") = {10}; Physical Curve("shell") = {11};
-Field[1] = MathEval; Field[1].F = "0.35 * (1 + 0.25 * Abs(Sqrt(x * x + y * y) - 14) / 0.35)";
+Field[1] = MathEval; Field[1].F = "0.5 * (1 + 0.25 * Abs(Sqrt(x * x + y * y) - 14) / 0.5)";
 Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 2;
 """
 IN_CUP = """units mm MPa
@@ -222,6 +222,7 @@ def test_too_much(said):
     assert linear.holds("force", true.known("force")[0]) and not linear.linear["trusted"]
 
 
+@pytest.mark.long
 def test_slides_that_change_nothing(said):
     """A disc under a plane that slides along it: no word, the true distance gives the same number."""
     case = PRESSED.format(4.99).replace("0 -1\n", "0 -1 move 1 0\n") + "clamp shaft\n"
@@ -231,6 +232,7 @@ def test_slides_that_change_nothing(said):
     assert linear.known("force")[1] == pytest.approx(true.known("force")[1], rel=1e-3)
 
 
+@pytest.mark.long
 def test_motion_of_the_whole(said):
     """A body's motion is its area's mean: of a disc that turns about its middle 0, however its nodes are spread."""
     turned = said(CAM, PRESSED.format(4.99) + "rotate shaft 0 0 0.02\n", rx=5)
@@ -251,6 +253,7 @@ def test_shaft_in_hub(said):
         )
 
 
+@pytest.mark.long
 def test_rounds_leave_errors(said):
     """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
     folder = ROOT / "edp/examples/press-fit"

@@ -27,6 +27,7 @@ MESHES = {
         {"block": BLOCK},
     ),
     "block-far-3d": (["h", 0.01, "fine", 0.03, "patch", 0.09], {"block": BLOCK}),
+    "block-rim-3d": ([], {"block": BLOCK / 4}),
     "quarter-spheres": (["h", 0.05, "layers", 2], {"lower": QUARTER, "upper": QUARTER}),
 }
 
@@ -78,7 +79,7 @@ def mesh(request, folder):
     """(bodies' sizes, names, nodes, elements of the bodies, elements of their boundary, dimension)."""
     numbers, sizes = MESHES[request.param]
     source = request.param.split()[0]
-    dimension = 3 if source in ("block-3d", "block-far-3d", "quarter-spheres") else 2
+    dimension = 3 if source in ("block-3d", "block-far-3d", "block-rim-3d", "quarter-spheres") else 2
     names, nodes, elements = made(folder, source, dimension, *numbers)
     inner, outer = (TETRAHEDRON, TRIANGLE) if dimension == 3 else (TRIANGLE, EDGE)
     return sizes, names, nodes, elements[inner], elements[outer], dimension

@@ -256,6 +256,7 @@ class TestMovie:
             assert picture.n_frames >= frames and picture.size == (860, 480)
         assert (film / "movie.gif").stat().st_size < 3e6 / 13 * frames
 
+    @pytest.mark.long
     def test_the_same_bytes_again_and_whole_or_not_at_all(self, film, tmp_path, monkeypatch, capsys):
         """The same run shall give the same files; an interruption none, and none of what was there is lost."""
         assert main(["movie", "--out", str(tmp_path), str(film)]) == 0

@@ -64,7 +64,7 @@ CASES = [
     ["patch-test-3d"],
     ["patch-test-3d", "-order", 2, "-lower", 3, "-upper", 4],
 ]
-QUICK = {(0, 1), (1, 2), (4, 2), (8, 2)}
+QUICK = {(0, 1), (1, 1), (4, 1), (8, 2)}
 RUNS = [
     pytest.param(CASES[k], ranks, marks=[] if (k, ranks) in QUICK else [pytest.mark.long])
     for k in range(len(CASES))

@@ -9,6 +9,7 @@ from freefem import ROOT, execute, run, run_in, script
 
 PUNCH = ROOT / "edp/examples/punch"
 LAW = "law power kappa 1e3 m 3 d0 -0.05"
+LONG = pytest.mark.long
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +77,7 @@ def shrink(lines, size):
 # ---------------------------------------------------------------- pairing along the normals
 
 
-@pytest.mark.parametrize("points", ["nodal", "segment"])
+@pytest.mark.parametrize("points", ["nodal", pytest.param("segment", marks=pytest.mark.long)])
 def test_true_distance_to_a_nearly_rigid_disc(points):
     """In hard contact the meshed disc's true distance shall give the rigid disc's force, up to 1/Eratio."""
     flags = ["-law", "signorini", "-d0", 0, "-distance", "exact", "-tol", 1e-8, "-order", 2]
@@ -181,7 +182,7 @@ def narrow(name, keep):
     [
         ("contact", lambda x: x > 0.5, []),
         pytest.param("contact", lambda x: x < 0.5, ["-points", "nodal"], marks=pytest.mark.long),
-        ("master", lambda x: abs(x) < 1, []),
+        pytest.param("master", lambda x: abs(x) < 1, [], marks=pytest.mark.long),
         pytest.param("master", lambda x: abs(x) < 1, ["-points", "nodal"], marks=pytest.mark.long),
     ],
 )
@@ -195,16 +196,19 @@ def test_contact_cut_off(mesh, tmp_path, curve, keep, points):
     assert not [line for line in whole.summary["warnings"] if "reaches the end" in line]
 
 
+OVER = ["-reach", 2, "-u0", 1.5, "-h", 0.5]
+
+
 @pytest.mark.parametrize(
     "scene, flags, said",
     [
-        ("disc-on-block", ["-reach", 2, "-u0", 1.5, "-h", 0.5], True),
-        ("disc-on-block", ["-reach", 2, "-u0", 1.5, "-h", 0.5, "-geometry", "axisymmetric"], True),
+        ("disc-on-block", OVER, True),
+        pytest.param("disc-on-block", [*OVER, "-geometry", "axisymmetric"], True, marks=LONG),
         ("disc-on-block", ["-geometry", "axisymmetric", "-h", 0.5], False),  # the axis is no end
-        ("two-cylinders", ["-reach", 0.5], True),
+        ("two-cylinders", ["-reach", 0.5, "-h", 0.2], True),
         ("confined-block", ["-law", "exponential"], False),
         ("rough", ["-force", 200, "-h", 0.2, "-modes", 20], False),
-        pytest.param("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False, marks=pytest.mark.long),
+        pytest.param("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False, marks=LONG),
         ("sphere-on-plane", ["-patch", 0.8, "-h", 0.2], True),
     ],
 )

@@ -44,7 +44,7 @@ def made(request, tmp_path_factory):
 def case(tmp_path_factory):
     """A coarse roller between plates: a run, and a check of it."""
     folder = tmp_path_factory.mktemp("case")
-    geo = (ROOT / "edp/examples/roller/roller.geo").read_text().replace("size = {0.06,", "size = {0.5,")
+    geo = (ROOT / "edp/examples/roller/roller.geo").read_text().replace("size = {0.06,", "size = {1,")
     (folder / "roller.geo").write_text(geo)
     command = [*FREEFEM, "edp/parts.edp", "-mesh", folder / "roller.geo", "-case", "edp/examples/roller/roller.case"]
     for flags in ([], ["-check", "1"]):

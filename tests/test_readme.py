@@ -219,8 +219,8 @@ def test_freefem_commands(line, tmp_path):
         pytest.skip("the plugin is not built: make mpi")
     if "-h" in words:
         words[words.index("-h") + 1] = "2"
-    if "multigrid" in words:
-        words += ["-h", "2"]
+    words += ["-h", "2"] if "multigrid" in words else ["-h", "0.2"] if "-legs" in words else []
+    words += ["-set", "size", "0.4"] if "-case" in words else []
     if "bodies.msh" in words:
         (made,) = [shlex.split(line) for line in commands() if line.startswith("gmsh")]
         assert execute([word if word != "bodies.msh" else tmp_path / word for word in made], ROOT)[0] == 0
@@ -274,7 +274,7 @@ def test_make_run_commands(line, package):
     words = shlex.split(line.replace("-h 0.1", "-h 0.5"))[1:]
     if "NP=" in line and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
-    code, stdout = make(package, *words, *([] if "ARGS" in line else ["ARGS=-h 2 -estimate 0"]))
+    code, stdout = make(package, *words, *([] if "ARGS" in line else ["ARGS=-h 2 -order 1 -estimate 0"]))
     assert code == 0, stdout
     scene = re.search(r"SCENE=([\w-]+)", line)
     assert (package / "results" / (scene[1] if scene else "disc-on-block") / "xnewton" / "summary.json").exists()

@@ -479,6 +479,9 @@ SLOW_TOO = (
     "-modes 16",
     "meshed-disc",
     "hertz-line",
+    "rolling",
+    "fretting-bodies",
+    "fretting-3d",
 )  # their scenes' other commands are short
 
 

@@ -242,7 +242,7 @@ EXTREMES = [
 
 # milder than others, or in other tests too
 USUAL = [["-nu", 0.499], ["-nu", 0], ["-E", 1e-6], ["-E", 1e9], ["-gap", 3, "-u0", 5], ["-R", 60]]
-USUAL += [["-m", 30], ["-kappa", 1e15], ["-kappa", 1e-3], ["-d0", -2], ["-depth", 2]]
+USUAL += [["-nu", -0.9], ["-m", 1.05], ["-m", 30], ["-kappa", 1e15], ["-kappa", 1e-3], ["-d0", -2], ["-depth", 2]]
 BOTH = [["-gap", -1, "-u0", 0], ["-kappa", 1e15]]  # of two bodies too
 MESHED = [flags for flags in EXTREMES if flags != ["-R", 0.6]]  # smaller than an element
 

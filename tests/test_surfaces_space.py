@@ -233,7 +233,8 @@ EXACT = ["-distance", "exact", "-h", 0.5, "-layers", 1]
 LAYER = ["-law", "power", "-kappa", 100, "-m", 2, "-d0", -0.05, "-tol", 1e-11]
 
 
-@pytest.mark.parametrize("order, points", [(1, "nodal"), pytest.param(2, "segment", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("order, points", [(1, "nodal"), (2, "segment")])
 def test_distance_has_an_energy(order, points):
     """With the true distance the force shall be the derivative of the energy: Simpson's rule to 1e-9."""
     flags = [*EXACT, *LAYER, "-order", order, "-points", points, "-force", 0]

@@ -14,6 +14,7 @@ import time
 import numpy as np
 import pytest
 from freefem import (
+    FAST,
     FREEFEM,
     PLUGIN_SAYS,
     ROOT,
@@ -128,6 +129,8 @@ def test_comma_locale(mesh, comma, tmp_path, name):
     """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
     env = {**comma, name: "de_DE.UTF-8"}
     package = tree(tmp_path / "package")  # its meshes are made in that language
+    if FAST.parent.exists():  # the plugins round in their own ways
+        (package / "build").symlink_to(FAST.parent)
     (tmp_path / "table.csv").write_text("".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6)))
     flags = {
         BODIES: ["-mesh", mesh(0.5), "-case", f"{PUNCH}.case", "-order", 1],

@@ -237,7 +237,7 @@ def dual_norm(C, e):
     return math.sqrt(e @ np.linalg.solve(C, e))
 
 
-@pytest.mark.parametrize("m", [pytest.param(2, marks=pytest.mark.long), 3, 10])
+@pytest.mark.parametrize("m", [*(pytest.param(m, marks=pytest.mark.long) for m in (2, 3)), 10])
 def test_distance_to_hard_contact(problem, m):
     """||q0 - q||_C shall be at most kappa^(-1/m) ||p0^(1/m)||_(1/C), not far below, and fall at that rate."""
     scene = problem(DISC, "-h", 0.5)

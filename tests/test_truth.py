@@ -182,6 +182,7 @@ def test_named_boundaries(go):
     told.holds("contacts.0.normalForce", LAME)
 
 
+@pytest.mark.long
 def test_true_kinks(go):
     """A true polygon of 11 sides: nothing is cut off."""
     part = drawn("polygon 2")
@@ -520,7 +521,7 @@ def test_pie(go):
     go(pie(), "body disc E 1000 nu 0.3\nobstacle rim circle 0 0 R 1.001 inside\nweight disc 0 -1\n")
 
 
-@pytest.mark.parametrize("sides", [60, 8])
+@pytest.mark.parametrize("sides", short_of([8], [60]))
 def test_coincident_nodes(go, sides):
     """Many nodes in one place; on few points an indefinite kernel: a press fit of 1e-7 between coarse circles."""
     sketch = Sketch(Draw())

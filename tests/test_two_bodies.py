@@ -69,6 +69,7 @@ def test_exchange_of_slave_and_master():
     assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ratio", [pytest.param(1, marks=pytest.mark.long), 1.37])
 def test_interface_of_equal_cylinders(ratio):
     """Two equal cylinders shall meet in a plane half-way: flat to 1e-3 of the height that the arc loses there."""

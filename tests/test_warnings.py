@@ -17,12 +17,16 @@ SENSIBLE = [
     ("hertz-line", []),
     ("meshed-disc", []),
     ("patch-test", []),
-    ("rough", []),
+    pytest.param("rough", [], marks=pytest.mark.long),
     pytest.param("two-cylinders", [], marks=pytest.mark.long),
     pytest.param("wavy", [], marks=pytest.mark.long),
-    ("flat-punch", ["-a", 1, "-force", 20, "-order", 2, "-h", 0.05, "-grading", 160, "-law", "signorini"]),
+    pytest.param(
+        "flat-punch",
+        ["-a", 1, "-force", 20, "-order", 2, "-h", 0.05, "-grading", 160, "-law", "signorini"],
+        marks=pytest.mark.long,
+    ),
     ("patch-test-3d", []),
-    ("sphere-on-plane", []),
+    pytest.param("sphere-on-plane", [], marks=pytest.mark.long),
 ]
 
 

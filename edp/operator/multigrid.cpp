@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <malloc.h>
 #include <new>
 #include <numeric>
 #include <unistd.h>
@@ -192,6 +193,9 @@ long multigridParts(pfes3 * const & space, KN<double> * const & own)
 {
     startPetsc();
     forget();
+    mallopt(M_MMAP_MAX, 1 << 16);          // FreeFEM forbids it, and to give anything back: matrices come and go here
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 24);
     FESpace3 & V = *(FESpace3 *) **space;
     int ranks = ranksNow(), rank = rankNow(), nodes = V.NbOfDF / components, each = nodesOfElement(V);
     placeNodes(V, place);
@@ -431,6 +435,7 @@ long multigridMatrix(Matrice_Creuse<double> * const & matrix, Matrice_Creuse<dou
     heldStiffness *= 1e20;
     std::vector<double>().swap(place);
     std::vector<int>().swap(ownerOf);
+    malloc_trim(0);
     return components * ownNodes;
 }
 
@@ -449,6 +454,17 @@ long multigridSetUp(string * const & options)
     CHECK(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
     CHECK(KSPSetFromOptions(solver));
     CHECK(KSPSetUp(solver));
+    // what products of several ranks keep for being made again
+    PetscInt count;
+    Mat * coarse;
+    CHECK(PCGetCoarseOperators(levels, &count, &coarse));
+    for (PetscInt l = 0; l + 1 < count; l++)
+    {
+        CHECK(MatProductClear(coarse[l]));
+        CHECK(MatDestroy(&coarse[l]));
+    }
+    CHECK(PetscFree(coarse));
+    malloc_trim(0);
     return 0;
 }
 

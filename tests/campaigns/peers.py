@@ -29,7 +29,6 @@ OTHERS = {"pressureMaxError": "greatest pressure", "halfWidthError": "half-width
 OTHERS_ERRORS = (1e-3, 1e-4, 1e-5, 1e-6)
 WRONG = 0.1  # error in force of a run that says it has converged
 TOL = 1e-8  # of the residual, for both
-CUBIC = False  # True: P3 in space, where the package has it
 
 LAWS = [(1e3, 3), (1e9, 3), (1e12, 3), (1e3, 10), (1e3, 20)]  # kappa, m
 LAWS_SPACE = LAWS_BODIES = LAWS[:2]
@@ -45,18 +44,20 @@ PACKAGE_PLANE = [
 ]
 # With the stiff laws, kappa >= STIFF, and `-ends` half the contact's width; a run with the flags COARSE tells it about.
 PACKAGE_PLANE_ENDS = [
-    ({"order": 3, "grading": 60, "corners": 0.1, **SECTION}, (1,)),
-    ({"order": 4, "grading": 60, "corners": 0.05, **SECTION}, (2,)),
+    ({"order": 4, "grading": 60, "corners": 0.05, **SECTION}, (2, 0.35)),
     ({"order": 4, "grading": 100, "corners": 0.1, **SECTION}, (1,)),
     ({"order": 4, "grading": 60, "corners": 0.1, **SECTION}, (0.7,)),
     ({"order": 4, "grading": 60, "corners": 0.02, **SECTION}, (2, 1)),
 ]
 STIFF = 1e9
 PACKAGE_SPACE = [
-    ({"order": 1, "layers": 2}, (1,)),
-    ({"order": 2, "layers": 1, "grading": 10}, (1.5, 1, 0.75)),
-    *([({"order": 3, "layers": 1, "grading": grading}, (1.5,)) for grading in (40, 20, 10)] if CUBIC else []),
+    ({"order": 2, "layers": 1, "grading": 10}, (1.5, 1)),
+    ({"order": 3, "layers": 1, "grading": 40}, (3,)),
+    ({"order": 3, "layers": 1, "grading": 20, "edges": 1}, (1.5,)),
+    ({"order": 3, "layers": 1, "grading": 10, "edges": 1}, (1.5,)),
 ]
+# With the stiff law, in the place of P3's.
+PACKAGE_SPACE_ENDS = [({"order": 3, "grading": 10}, (2.5,)), ({"order": 3, "grading": 10, "edges": 1}, (2,))]
 PACKAGE_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.2,))]
 PACKAGE_PIN = [({"order": 2}, (0.8,)), ({"order": 3}, (0.8,)), ({"order": 4}, (0.8,))]
 PEER_PLANE = [
@@ -83,7 +84,10 @@ PEER_SPACE_STIFF_ENDS = [({"order": 2, "start": 2}, (1.5,)), ({"order": 3, "star
 PEER_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.4, 0.2))]
 PEER_PIN = [({"order": 2}, (0.8,)), ({"order": 3}, (0.8,)), ({"order": 4}, (0.8,))]
 # What tells the contact's width, of each code: flags of a run with the same law.
-COARSE = {"order": 3, "grading": 60, "corners": 0.1, "h": 1, **SECTION}
+COARSE = {
+    "disc-on-block": {"order": 3, "grading": 60, "corners": 0.1, "h": 1, **SECTION},
+    "sphere-on-block": {"order": 2, "h": 1.5, "layers": 1},
+}
 PEER_COARSE = {
     "disc-on-block": {"corners": 3, "order": 2, "h": 0.5},
     "sphere-on-block": {"mesh": "tetrahedra", "order": 2, "h": 1.5},
@@ -123,7 +127,8 @@ def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
                 (PEER_SPACE, PEER_SPACE_ENDS) if law[0] < STIFF else (PEER_SPACE_STIFF, PEER_SPACE_STIFF_ENDS)
             )
             theirs = theirs + told(rims, radius)
-            found += both("sphere-on-block", place, law, PACKAGE_SPACE, theirs)
+            ours = PACKAGE_SPACE if law[0] < STIFF else PACKAGE_SPACE[:1] + told(PACKAGE_SPACE_ENDS, radius)
+            found += both("sphere-on-block", place, law, ours, theirs)
         for law in LAWS_BODIES:
             start = {"start": 2 if law[0] >= STIFF else 1}
             found += both("two-cylinders", place, law, PACKAGE_CYLINDERS, with_flags(PEER_CYLINDERS, start), BODIES)
@@ -203,12 +208,12 @@ def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
             found = {"scene": PIN, "kappa": float(kappa), "m": float(m), "h": float(h)}
         else:
             kappa, m = flags["kappa"], flags["m"]
-        found |= reference.compared(summary, (found or summary)["scene"], float(kappa), float(m), folder)
+        scene = (found or summary)["scene"]
+        found |= reference.compared(summary, scene, float(kappa), float(m), folder)
         if "ends" in flags:
             law = {"law": "power", "kappa": kappa, "m": m, "tol": TOL}
-            coarse = case("coarse", method="xnewton", **COARSE, **law)
+            coarse = case("coarse", scene, method="xnewton", **COARSE[scene], **law)
             if item.program:
-                scene = flags["problem"]
                 coarse = case("coarse", method="ngsolve", problem=scene, **PEER_COARSE[scene], **law)
                 coarse = dataclasses.replace(coarse, script=item.script, program=item.program)
             row = campaign.run_case(coarse, sources, processes)
