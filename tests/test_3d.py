@@ -162,6 +162,15 @@ def test_elements_at_the_rim():
     assert sphere.contact["weight"].sum() == pytest.approx(8 * 1.1**2 * 2.25 * 17.75 * np.sin(np.pi / 8), rel=1e-6)
 
 
+def test_contact_fills_the_rings():
+    """P2 touches at the middles of the rim's chords: that contact fills -patch shall be said, of no other."""
+    flags = ["-ends", 2, "-order", 2, "-h", 1.5, "-kappa", 1e10, "-patch", 2.5, "-estimate", 0]
+    full, within = run(SCENE, *flags, "-u0", 1.4), run(SCENE, *flags, "-u0", 0.5)
+    assert any("raise -patch" in text for text in full.summary["warnings"])
+    assert 0 < (within.contact["pressure"] > 0).sum() < within.points
+    assert not any("raise -patch" in text for text in within.summary["warnings"])
+
+
 @pytest.mark.parametrize("symmetry", ["half", "whole"])
 def test_rim_of_a_half_and_of_a_whole(symmetry):
     """A half and a whole on meshes of rings shall have the quarter's force, but for their meshes."""

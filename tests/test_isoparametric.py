@@ -156,6 +156,40 @@ def test_ball(tmp_path, order, most):
     within(summary, "force", 4 / 3 * np.pi, most)
 
 
+PLUG = """SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 2, Pi / 2};
+Physical Volume("plug") = {1}; Mesh.MeshSizeMin = 0.7; Mesh.MeshSizeMax = 0.7;
+"""
+PLUGGED = "".join(
+    f"group {name} plane {place} {normal}\n"
+    for name, place, normal in (("x", "0 1 0.5", "1 0 0"), ("y", "1 0 0.5", "0 1 0"), ("low", "1 1 0", "0 0 1"))
+)
+PLUGGED += "group top plane 1 1 1 0 0 1\nbody plug E 1000 nu 0.3\nobstacle low plane 0 0 0 0 0 1\n"
+PLUGGED += "symmetry x\nsymmetry y\npressure top 3\n"
+
+
+@pytest.mark.parametrize("order, most", [(1, 0.02), (2, 1e-4)])
+def test_pressure_within_a_rim(tmp_path, order, most):
+    """A pressure on a flat face whose rim is round: the balance's force is known to the shape of the rim."""
+    summary, _ = run(tmp_path, PLUG, PLUGGED, "-order", order)
+    assert within(summary, "force", 3 * np.pi, most)["error"] < 10 * abs(summary["force"] - 3 * np.pi)
+
+
+FLUSH = PLUG.replace("Physical", "Cylinder(2) = {0, 0, 1, 0, 0, 1, 2, Pi / 2}; Physical")
+FLUSH += 'Physical Volume("upper") = {2}; MeshSize{PointsOf{Volume{2};}} = 0.5;\n'
+STACKED = PLUGGED.replace("pressure top 3", "").replace("top plane 1 1 1", "top plane 1 1 2").replace("nu 0.3", "nu 0")
+STACKED = STACKED.replace(
+    "obstacle low plane 0 0 0 0 0 1", "group a between plug upper\ngroup b between upper plug\nsymmetry low"
+)
+STACKED += "body upper E 3000 nu 0\ncontact a b\nmove top 0 0 -0.01\n"
+
+
+def test_facets_at_a_rim(tmp_path):
+    """A pressure that is uniform but for P3's straight elements: they are said, no pressure without bound."""
+    summary, _ = run(tmp_path, FLUSH, STACKED, "-order", 3)
+    (said,) = [text for text in summary["warnings"] if "the greatest one means nothing" in text]
+    assert "straight elements" in said and "-order 2" in said and "without bound" not in said
+
+
 PIPE = """Point(1) = {{0, 0, 0}}; Macro Sector
 q = newl; p = newp;
 Point(p) = {{r1, 0, 0}}; Point(p+1) = {{r2, 0, 0}}; Point(p+2) = {{0, r2, 0}}; Point(p+3) = {{0, r1, 0}};
