@@ -321,7 +321,8 @@ def bodies(folder, mesh, case, *flags, space=False):
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
     script = (ROOT / "edp/parts.edp").read_text().split('include "options/parts/case-file.idp"')[0]
-    head = 'macro threeDimensional() 1 //\nmacro inSpace(do, what) //\nstring scene = "parts-3d";\n' if space else ""
+    head = "macro threeDimensional() 1 //\nmacro inSpace(do, what) //\nmacro behindFloating(do, what) //\n"
+    head = head + 'string scene = "parts-3d";\n' if space else ""
     stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)
     return told(stdout), stdout
 
@@ -646,7 +647,7 @@ def test_thickness(tmp_path):
 
 def test_nothing_resists(tmp_path):
     """A load on a motion that nothing resists is refused by the body's name; without one it is fixed and said below."""
-    pushed = STACK + 'clamp bottom\npressure "upper top" 2\ntraction "upper left" 0.1 0\n'
+    pushed = STACK + 'clamp bottom\npressure "upper top" 2\ntraction "upper left" 1e-3 0\n'
     said = solve(tmp_path, stack(), pushed, expect=10).stdout
     assert "upper: along x: a load works on it, but no contact, support or symmetry resists it" in said
 

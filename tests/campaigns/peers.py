@@ -58,7 +58,12 @@ PACKAGE_SPACE = [
 ]
 # With the stiff law, in the place of P3's.
 PACKAGE_SPACE_ENDS = [({"order": 3, "grading": 10}, (2.5,)), ({"order": 3, "grading": 10, "edges": 1}, (2,))]
-PACKAGE_CYLINDERS = [({"order": 2}, (0.4,)), ({"order": 3}, (0.4, 0.2)), ({"order": 4}, (0.2,))]
+PACKAGE_CYLINDERS = [
+    ({"order": 2}, (0.4,)),
+    ({"order": 3, "grading": 200, "corners": 0.5}, (0.8, 0.4)),
+    ({"order": 3, "grading": 60, "corners": 0.1}, (0.2,)),
+    ({"order": 4, "grading": 200, "corners": 0.5}, (0.4, 0.2)),
+]
 PACKAGE_PIN = [({"order": 2}, (0.8,)), ({"order": 3}, (0.8,)), ({"order": 4}, (0.8,))]
 PEER_PLANE = [
     ({"order": 2, "corners": 3}, (0.5,)),
