@@ -80,7 +80,9 @@ def test_products_of_a_case(tmp_path):
     text = (ROOT / "edp/parts-3d.edp").read_text()
     parts = (ROOT / "edp/parts.edp").read_text().split('include "solve/solve.idp"')[0]
     text = text.replace('include "parts.edp"', parts) + PRODUCTS
+    text += 'for (int n = 3000; n < 5000; n += 1000) tell("offered" + n, levelsOffered(n));\n'
     values = told(snippet(tmp_path, text, "-mesh", "turned.geo", "-case", "turned.case", "-order", 1))
+    assert values["offered3000"][0] == 0 < values["offered4000"][0]
     assert values["levels"][0] >= 2
     assert values["off0"][0] < 0.01
     assert values["off1"][0] < 0.02
@@ -174,6 +176,23 @@ def test_runs(scene, flags, tmp_path):
     assert other["force"] == pytest.approx(usual["force"], rel=1e-5) and other["force"] != usual["force"]
     assert other["newton"] <= usual["newton"] + 1
     assert other["backsolves"] <= usual["backsolves"] + 5
+
+
+def test_no_convergence(tmp_path):
+    """Where products over grids do not solve the model a matrix shall take their place, said once: no run hangs."""
+    package = tree(tmp_path / "package")
+    many = package / "edp" / "options" / "many"
+    for name, before, after in (
+        ("levels.idp", "int manyOnLevels = 1500;", "int manyOnLevels = 20;"),
+        ("levels-inverse.idp", "int innerMost = 300;", "int innerMost = 1;"),
+    ):
+        text = (many / name).read_text()
+        assert text.count(before) == 1
+        (many / name).write_text(text.replace(before, after))
+    usual = run("rough", "-order", 1, "-h", 0.2).summary
+    other = run_in(package, script("rough"), "-order", 1, "-h", 0.2, "-estimate", 0, "-vtu", 0, out=tmp_path / "out")
+    assert other.stdout.count("do not converge on these points") == 1
+    assert other.summary["force"] == pytest.approx(usual["force"], rel=1e-5)
 
 
 def test_no_matrix(tmp_path):

@@ -235,6 +235,22 @@ def test_case(case, ways, flags, ranks, tmp_path):
 
 
 @built
+def test_moved_support_is_in_balance(tmp_path):
+    """What moves a support is a load far greater than the forces: these shall balance as far as a case is asked to."""
+    mesh = cube(Mesh(), cells=(4, 4, 3))
+    cube(mesh, cells=(5, 3, 2), at=(0, 0, 1), prefix="upper ", name="upper")
+    (tmp_path / "a.msh").write_text(mesh.text(turn_in_space(1)))
+    down = vector((0, 0, -1e-5), turn_in_space(1), 3)
+    bodies = "body block E 70 nu 0.3\nbody upper E 210 nu 0.3\n"
+    (tmp_path / "a.case").write_text(f'{bodies}contact "upper bottom" top\nclamp bottom\nmove "upper top" {down}\n')
+    files = ["-mesh", tmp_path / "a.msh", "-case", tmp_path / "a.case", "-out", tmp_path / "out"]
+    flags = ["-solver", "multigrid", "-order", 2, "-tol", 1e-4, "-estimate", 0, "-vtu", 0]
+    code, output = on_ranks(1, "edp/parts-3d.edp", *files, *flags)
+    assert code == 0, output[-2000:]
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["outOfBalance"] <= 5e-7
+
+
+@built
 def test_case_that_turns_is_refused(tmp_path):
     (tmp_path / "a.msh").write_text(cube(Mesh()).text())
     case = "body block E 100 nu 0.3\nobstacle top plane 0 0 1.1 0 0 -1\nrotate bottom 0 0 0 0 0 1 0.01\n"
