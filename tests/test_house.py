@@ -15,26 +15,14 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-<<<<<<< HEAD
-READ = {"edp/main.edp": (10554, 90), "edp/parts.edp": (20026, 128), BARE: (7323, 58)}  # lines, files
-=======
-READ = {"edp/main.edp": (10528, 90), "edp/parts.edp": (20005, 128), BARE: (7323, 58)}  # lines, files
->>>>>>> w-big2
+READ = {"edp/main.edp": (10554, 90), "edp/parts.edp": (20029, 128), BARE: (7323, 58)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 31,
     "of these by two other files or more": 6,
     "files in knots, if hooks count too": 34,
     "names declared by files that are no twins": 49,
     "IFMACRO": 151,
-<<<<<<< HEAD
-<<<<<<< HEAD
-    "lines of .edp and .idp": 38787,
-=======
-    "lines of .edp and .idp": 38880,
->>>>>>> w-space2
-=======
-    "lines of .edp and .idp": 38807,
->>>>>>> w-big2
+    "lines of .edp and .idp": 38949,
 }
 TYPE = r"(?:real|int|bool|string|mesh3?|meshS|meshL|matrix|fespace|complex)(?:\[[a-z, ]*\])*"
 MACRO = re.compile(r"^[ \t]*macro (\w+)(?:\(([^)\n]*)\))?([\s\S]*?)//.*$", re.M)
