@@ -2,13 +2,12 @@
 
 import contextlib
 import os
-import shutil
 import signal
 import subprocess
 import time
 
 import pytest
-from freefem import ROOT, being_written, environment, execute, files, interruptible, tree
+from freefem import ROOT, environment, execute, files, interruptible, tree
 
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]
 
@@ -102,23 +101,6 @@ def interrupted(package, folder, how, *words):
     assert process.returncode != 0
 
 
-@pytest.mark.long
-def test_interrupted_figure(package):
-    """A run of `make figures` that is ended before its end shall be no target, and be made again."""
-    folder = package / "results" / "figures" / "signorini-start"
-    target = [f"case.signorini-start={QUICK}", "results/figures/signorini-start/summary.json"]
-    figure = [f"case.paper={QUICK}", f"case.signorini-start=edp/main.edp {LONG}", "results/figures/thresholds.pdf"]
-    assert make(package, *target)[0] == 0
-    for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-        (package / "edp" / "laws" / "power.idp").touch()
-        interrupted(package, folder, how, *figure)
-        assert not (folder / "summary.json").exists(), how
-        assert not list(folder.parent.glob("thresholds.*")), how
-        code, stdout = make(package, *target)
-        assert code == 0 and "confined-block" in stdout, how
-        assert not being_written(folder) and (folder / "summary.json").exists(), how
-
-
 def test_interrupted_movie(package):
     """A run of `make movie` that is ended shall leave neither a summary nor the movie of the run before."""
     folder = package / "results" / "movies" / "confined-block"
@@ -134,17 +116,6 @@ def test_interrupted_movie(package):
     assert not set(names) & set(files(folder))
 
 
-def test_refused_movie(package):
-    """Flags that are refused shall leave an earlier run and its movie as they were."""
-    folder = package / "results" / "movies" / "wavy"
-    folder.mkdir(parents=True)
-    for name in ("movie.html", "summary.json"):
-        (folder / name).write_text("of an earlier run")
-    code, stdout = make(package, "movie", "SCENE=wavy", "ARGS=-kappa 0")
-    assert code != 0 and "no movie" in stdout
-    assert sorted(path.name for path in folder.iterdir()) == ["movie.html", "summary.json"]
-
-
 def test_clean(package):
     """`make clean` shall remove results and generated meshes, nothing else."""
     for name in ("results/x/y.csv", "meshes/generated/z.msh", "edp/mine.edp"):
@@ -158,11 +129,7 @@ def test_clean(package):
     assert (package / "edp" / "mine.edp").exists()
 
 
-def test_make_is_there():
-    """The tests themselves need make."""
-    assert shutil.which("make")
-
-
+@pytest.mark.long
 def test_what_is_begun_outside(tmp_path):
     """What `make new` begins shall stand its own test, which tells a spoilt law; an existing folder is refused."""
     folder = tmp_path / "my own"
