@@ -368,20 +368,6 @@ def test_help_in_two_parts():
     assert "-preconditioner" in whole and "-method" in whole
 
 
-def test_interference_on_the_screen(tmp_path):
-    """Said behind a contact it shall be the overlap of the nominal surfaces; first contacts with their errors, last the
-    solver's counts."""
-    case = f"state stress\n{BODIES}contact bore seat interference 0.02\n"
-    said = solve(tmp_path, RING, case, "-vtu", 0).stdout
-    found = summary(tmp_path)["contacts"][0]
-    assert found["normalForce"] / (np.pi / 2 * B) == pytest.approx(seat_pressure(0.02, 0, True), rel=1e-4)
-    at = [
-        said.index(words)
-        for words in ("bore seat within", "hub: moved", "symmetry below: carries", "  adaptations", "  dofs")
-    ]
-    assert at == sorted(at)
-
-
 def test_sweep(tmp_path, monkeypatch, capsys):
     """Runs side by side, goes on with what is missing, and refuses what belongs to another sweep."""
     (tmp_path / "part.geo").write_text(RING.replace("SIZE", "6"))
