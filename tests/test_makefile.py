@@ -1,13 +1,7 @@
 """The Makefile as a user meets it. Nothing is installed here: set-up counts as done (-o)."""
 
-import contextlib
-import os
-import signal
-import subprocess
-import time
-
 import pytest
-from freefem import ROOT, environment, execute, files, interruptible, tree
+from freefem import ROOT, environment, execute, tree
 
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]
 
@@ -72,48 +66,6 @@ def test_results_are_targets(package):
     (package / "edp" / "laws" / "power.idp").touch()
     make(package, *words)
     assert (package / target).stat().st_mtime_ns > made
-
-
-LONG = "-method incremental -steps 100000 -h 1 -order 2"  # an hour
-
-
-def interrupted(package, folder, how, *words):
-    """Start make, wait until the run has opened its folder, and end it: Ctrl-C for the whole group, or a kill."""
-    process = subprocess.Popen(
-        ["make", *DONE, *words],
-        cwd=package,
-        env=environment(),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-        preexec_fn=interruptible,
-    )
-    end = time.monotonic() + 100
-    try:
-        while not folder.exists() or (folder / "summary.json").exists():
-            assert process.poll() is None and time.monotonic() < end
-            time.sleep(0.01)
-    finally:
-        while process.poll() is None:  # FreeFEM overhears a Ctrl-C while a shell of its own is at work: once more then
-            os.killpg(process.pid, how if time.monotonic() < end + 60 else signal.SIGKILL)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(2)
-    assert process.returncode != 0
-
-
-def test_interrupted_movie(package):
-    """A run of `make movie` that is ended shall leave neither a summary nor the movie of the run before."""
-    folder = package / "results" / "movies" / "confined-block"
-    (folder / ".run").mkdir(parents=True)
-    names = ["movie.html", "movie.gif", "summary.json", "states.pvd", "state-3.vtu"]
-    (folder / ".run" / ".written").write_text("\n".join([*names, ""]))
-    for name in names:
-        (folder / name).write_text("of an earlier run")
-    interrupted(package, folder, signal.SIGINT, "movie", "SCENE=confined-block", f"ARGS={LONG} -kappa 1e9")
-    end = time.monotonic() + 10  # what is being removed when make ends is removed to the end
-    while set(names) & set(files(folder)) and time.monotonic() < end:
-        time.sleep(0.01)
-    assert not set(names) & set(files(folder))
 
 
 def test_clean(package):

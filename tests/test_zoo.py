@@ -129,17 +129,8 @@ def readable(folder, mesh, case, space=1, sets=""):
     (folder / "a.case").write_text(case)
     out = folder / "read"
     environment = {**os.environ, "LC_ALL": "C"}
-    command = [
-        "sh",
-        "edp/bodies/readable.sh",
-        str(os.getpid()),
-        mesh,
-        out,
-        folder / "a.case",
-        str(space),
-        "solve",
-        sets,
-    ]
+    given = [str(os.getpid()), mesh, out, folder / "a.case", str(space), "solve", sets]
+    command = ["sh", "edp/bodies/readable.sh", *given]
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     why = (out / "why").read_text().strip() if (out / "why").exists() else ""
     assert done.returncode in (0, 4) or why.count("\n") == 0

@@ -122,19 +122,10 @@ def sources_digest(root: Path) -> str:
 
 
 def source_files(root: Path) -> list[Path]:
-    found = [
-        *root.glob("edp/**/*.edp"),
-        *root.glob("edp/**/*.idp"),
-        *root.glob("edp/**/*.sh"),
-        *root.glob("edp/**/*.awk"),
-        *root.glob("meshes/*.awk"),
-        *root.glob("edp/**/*.txt"),
-        *root.glob("edp/**/*.cpp"),
-        *root.glob("edp/examples/**/*.geo"),
-        *root.glob("edp/examples/**/*.case"),
-        *root.glob("meshes/*.geo"),
-        *(path for kind in ("py", "geo", "case") for path in root.glob(f"*.{kind}")),  # of a copy: what is added
-    ]
+    below = [f"edp/**/*.{kind}" for kind in "edp idp sh awk txt cpp".split()]
+    below += ["edp/examples/**/*.geo", "edp/examples/**/*.case", "meshes/*.geo", "meshes/*.awk"]
+    below += ["*.py", "*.geo", "*.case"]  # of a copy: what is added
+    found = {path for pattern in below for path in root.glob(pattern)}
     return sorted(path for path in found if path.is_file())
 
 
@@ -229,15 +220,8 @@ class Processes:
             with self.lock:
                 if self.stopping:
                     raise Interrupted
-                process = subprocess.Popen(
-                    command,
-                    cwd=cwd,
-                    env=environment,
-                    stdin=subprocess.DEVNULL,
-                    stdout=printed,
-                    stderr=subprocess.STDOUT,
-                    start_new_session=True,
-                )
+                to = {"stdin": subprocess.DEVNULL, "stdout": printed, "stderr": subprocess.STDOUT}
+                process = subprocess.Popen(command, cwd=cwd, env=environment, start_new_session=True, **to)
                 self.active.add(process.pid)
 
             def end():

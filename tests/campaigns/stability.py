@@ -337,16 +337,7 @@ def law_table() -> str:
 
 PROBLEM = "scene law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset".split()
 NOTHING = 1e-150  # a force or pressure below is none: its square underflows
-BODIES = (
-    "two-cylinders",
-    "two-spheres",
-    "sphere-on-plane",
-    "sphere-on-block",
-    "patch-test",
-    "patch-test-3d",
-    "meshed-disc",
-    "rough",
-)
+BODIES = "two-cylinders two-spheres sphere-on-plane sphere-on-block patch-test patch-test-3d meshed-disc rough".split()
 PRESCRIBED = {"two-cylinders": 8.631, "two-spheres": 14.652014652, "sphere-on-plane": 14.652014652}  # scenes' -force
 MORE_PROBLEM = ("-force", "-distance", "-Eratio", "-points", "-layers", "-ends", "-symmetry")  # flags without a column
 
@@ -360,15 +351,8 @@ def problem(row: dict[str, str]) -> tuple[str, ...]:
 def checks(rows: list[dict[str, str]]) -> list[dict]:
     """Comparisons of xnewton's answers with independent ones."""
     good = [row for row in rows if row["status"] == "converged"]
-    return [
-        *against_newton(good),
-        *against_exact_state(good),
-        *rigid_layer(good),
-        *linear_layer(good),
-        *twins(good),
-        *reactions(good),
-        *counts(good),
-    ]
+    kinds = against_newton, against_exact_state, rigid_layer, linear_layer, twins, reactions, counts
+    return [entry for kind in kinds for entry in kind(good)]
 
 
 def check(what: str, row: dict, found: float, expected: float, tolerance: float, error: float | None = None) -> dict:
