@@ -411,3 +411,30 @@ def test_sweep(tmp_path, monkeypatch, capsys):
     assert "another sweep" in sweep("body hub E *", "1", expect=2)
     assert "0 lines begin" in sweep("force grip 0 *", "1", expect=2)
     assert re.search(r"allowed: numbers", sweep(number, "a", expect=2))
+
+
+def test_sweep_of_changed_files(tmp_path, monkeypatch, capsys):
+    """A run is done anew when a law's table or a file that the geometry includes has changed, and kept otherwise."""
+    (tmp_path / "part.geo").write_text('Include "shapes/ring.geo";\n')
+    (tmp_path / "shapes").mkdir()
+    shape, law = tmp_path / "shapes/ring.geo", tmp_path / "law.csv"
+    shape.write_text(RING.replace("SIZE", "6"))
+    law.write_text("0,0\n0.02,1\n0.05,10\n0.5,500\n")
+    contact = "contact bore seat law table law.csv d0 -0.05 interference 0.02\n"
+    (tmp_path / "part.case").write_text(BODIES.replace("yield 100", "") + contact)
+    monkeypatch.chdir(tmp_path)
+    words = ["sweep", "part.geo", "part.case", "--out", "all", "--flags=-estimate 0", "--values", "210000"]
+
+    def sweep(there):
+        assert main([*words, "--number", "body ring E *"]) == 0, (tmp_path / "all/210000.log").read_text()
+        assert f"{there} of 1 runs are there" in capsys.readouterr().out
+        summary = json.loads((tmp_path / "all/210000/summary.json").read_text())
+        return summary["contacts"][0]["normalForce"], summary["ndof"]
+
+    first = sweep(0)
+    assert sweep(1) == first
+    law.write_text(law.read_text().replace("0.02,1", "0.02,2"))
+    other = sweep(0)
+    assert abs(other[0] / first[0] - 1) > 0.01 and other[1] == first[1]
+    shape.write_text(RING.replace("SIZE", "5"))
+    assert sweep(0)[1] > first[1]
