@@ -265,6 +265,29 @@ def test_stresses_of_lame(tmp_path):
         assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
 
+@pytest.mark.parametrize("bore", [True, False], ids=["rigid bore", "pair"])
+def test_displacements_where_curves_end(tmp_path, bore):
+    """A spline is off most beside its ends, here on symmetry planes: what lines say there, against Lame's."""
+    held = "body hub E 200000 nu 0.3\nsymmetry below\nsymmetry left\nobstacle seat circle 0 0 R 20 inside\n"
+    case = held if bore else f"{BODIES}contact bore seat interference 0.02\n"
+    lines = f"line end 10 0 {20 if bore else 30} 0\nline other 0 10 0 {20 if bore else 30}\n"
+    geometry = f"{RING}Transfinite Curve {{8}} = 6;"
+    if bore:
+        geometry = re.sub("Physical Surface.*", 'Physical Surface("hub") = 1;', RING).replace("{1, 5}", "1")
+        geometry = geometry.replace("{3, 7}", "3")
+    solve(tmp_path, geometry, f"{case}pressure inner 100\n{lines}", "-order", 4, size=3)
+    at_bore = [moved(B, lame(100, p, A, B), HUB, False) for p in (0, 1)]
+    p = at_bore[0] / (at_bore[0] - at_bore[1]) if bore else seat_pressure(0.02, 100, False)
+    for name in ("end", "other"):
+        table = np.genfromtxt(tmp_path / f"out/line-{name}.csv", delimiter=",", names=True)
+        radius = np.hypot(table["x"], table["y"])
+        stress, way = fit(np.minimum(radius, B - 1e-9) if bore else radius, p)
+        away = np.abs(radius - B) > 0.1
+        assert (np.abs(np.hypot(table["ux"], table["uy"]) - way) <= table["displacementError"] + 1e-12)[away].all()
+        assert (np.abs(table["vonMises"] - stress) <= table["vonMisesError"])[away].all()
+        assert np.median(table["displacementError"] / way.max()) < 2e-2
+
+
 BEAM = """
 h = SIZE;
 Point(1) = {0, 0, 0, h}; Point(2) = {20, 0, 0, h}; Point(3) = {20, 2, 0, h}; Point(4) = {0, 2, 0, h};
