@@ -369,6 +369,55 @@ def test_partly_covered(tmp_path, share, order, element):
     assert weight @ values["linear"] == pytest.approx(-(2 * end - 1.5 * end**2 + 3.5), abs=1e-9)
 
 
+# ---------------------------------------------------------------- problem/problem.idp
+
+# The solver's overlaps are made wrong by a share of the greatest one, and the displacement by a share of itself.
+SPOILT = """
+include "solve/solve.idp"
+real[int] right = Cq;
+real[int] overlaps = shat;
+real[int] u = displacement;
+func int tellAgain(string name)
+{
+    goOn();
+    judgeOverlaps();
+    tell(name, converged);
+    Cq = right;
+    shat = overlaps;
+    displacement = u;
+    return 0;
+}
+tellAgain("right");
+real share = 1e-5 * max(right.linfty, approach);
+int most = 0;
+for (int i = 0; i < points; i++) if (paired[i] && q[i] > q[most]) most = i;
+Cq[most] += 0.5 * share; shat[most] += 0.5 * share;
+tellAgain("little");
+Cq[most] += 2 * share; shat[most] += 2 * share;
+tellAgain("much");
+Cq[most] -= 2 * share; shat[most] -= 2 * share;
+tellAgain("less");
+displacement *= 1.001;
+tellAgain("moved");
+"""
+
+
+@pytest.mark.parametrize("flags", ["", "-method paper", "-force 80", "-law signorini -tol 1e-12"])
+def test_overlaps_of_the_displacement(flags, tmp_path):
+    """What the solver has summed must be what the displacement makes, to 10 -tol, or the run has no result."""
+    text = scene_text("disc-on-block") + SPOILT
+    tol = float(flags.split()[-1]) if "-tol" in flags else 1e-6
+    text = text.replace("1e-5 * max", f"{max(10 * tol, 1e-8)} * max")
+    values = told(snippet(tmp_path, text, *flags.split(), "-order", 1, "-h", 1, "-estimate", 0, "-vtu", 0))
+    assert {name: bool(value[0]) for name, value in values.items()} == {
+        "right": True,
+        "little": True,
+        "much": False,
+        "less": False,
+        "moved": False,
+    }
+
+
 # ---------------------------------------------------------------- solve/full-system.idp
 
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
