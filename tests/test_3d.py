@@ -74,6 +74,7 @@ def test_hard_contact_is_the_limit():
     assert wall.halfWidth is None
 
 
+@pytest.mark.long
 def test_hertz():
     """Under a force: radius and greatest pressure within 3 % of Hertz at h = a/10, the error falling with h."""
     greatest = 3 * FORCE / (2 * np.pi)
