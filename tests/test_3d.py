@@ -151,6 +151,7 @@ def test_elements_at_the_rim():
     assert sphere.contact["weight"].sum() == pytest.approx(8 * 1.1**2 * 2.25 * 17.75 * np.sin(np.pi / 8), rel=1e-6)
 
 
+@pytest.mark.long
 def test_contact_fills_the_rings():
     """P2 touches at the middles of the rim's chords: that contact fills -patch shall be said, of no other."""
     flags = ["-ends", 2, "-order", 2, "-h", 1.5, "-kappa", 1e10, "-patch", 2.5, "-estimate", 0]

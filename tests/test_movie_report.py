@@ -559,6 +559,7 @@ class TestDoctor:
         assert code == 1 and re.search(r"^MISSING +plugin gmsh +cannot be loaded", stdout, re.M)
 
 
+@pytest.mark.long
 def test_pictures_of_a_run(tmp_path, capsys):
     """A run's own pictures shall be shown with it, where they have been drawn; captions lean on no other."""
     folder = tmp_path / "results/disc"
