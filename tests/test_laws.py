@@ -106,12 +106,13 @@ def test_law_over_its_range(tmp_path, kappa, m):
 
 PAIRS = [(0, 0), (0.1, 0.3), (0.25, 1), (0.3, 2.5), (0.7, 4), (1, 40)]
 CURVES = [((100 / kappa) ** (1 / m), ("-kappa", kappa, "-m", m)) for kappa, m in [(1e3, 3), (1e12, 1.05), (1e30, 30)]]
-CURVES += [(0.05, ("-law", "exponential")), (0.02, ("-law", "barrier")), (0.29, ("-law", "table", "-table", "pairs.csv"))]
+CURVES += [(0.05, ("-law", "exponential")), (0.02, ("-law", "barrier"))]
+CURVES += [(0.29, ("-law", "table", "-table", "pairs.csv"))]
 
 
-@pytest.mark.parametrize("top, flags", CURVES, ids=lambda value: " ".join(map(str, value)) if isinstance(value, tuple) else "")
+@pytest.mark.parametrize("top, flags", CURVES, ids=[" ".join(map(str, flags)) for _, flags in CURVES])
 def test_law_derivatives(tmp_path, top, flags):
-    """Slope and pressure shall be the derivatives of pressure and potential, by central differences, and grow from 0."""
+    """Slope and pressure shall be the derivatives of pressure and potential, by central differences."""
     (tmp_path / "pairs.csv").write_text("".join(f"{s},{p}\n" for s, p in PAIRS))
     middle = top * np.logspace(-1, 1, 9)
     step = 1e-5 * middle
