@@ -258,7 +258,7 @@ def test_limits():
             f"{name}: {owners()[name]}" for name in twins if len(twins[name]) > 1
         ],
         "IFMACRO": [name for name in sources() for _ in re.findall(r"(?<!END)IFMACRO\(", sources()[name])],
-        "lines of .edp and .idp": 39149[line for name in sources() for line in sources()[name].splitlines()],
+        "lines of .edp and .idp": [line for name in sources() for line in sources()[name].splitlines()],
     }
     assert at_present.keys() == LIMITS.keys()
     for name, found in at_present.items():
