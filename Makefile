@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -389,6 +389,9 @@ coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold,
 	@$(PYTHON) tests/campaigns/coverage.py
 	@$(PYTHON) tests/campaigns/foreign.py
 
+mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
+	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
+
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
@@ -470,6 +473,9 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 
 pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
 	@$(PYTHON) tests/pages.py
+
+numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, and show them
+	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/page_numbers.py
 
 clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))

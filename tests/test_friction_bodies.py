@@ -3,6 +3,7 @@
 from math import pi
 
 import pytest
+from freefem import table
 from test_friction import case
 
 FIT = """
@@ -110,3 +111,51 @@ def test_sleeve_pulled_off(tmp_path, pull, code):
     fit = case(tmp_path, SLEEVE, SLEEVED + f"traction rim 0 {pull}\n", expect=code)
     assert code == 0 or "no equilibrium: friction and contact bear 9" in fit.message
     assert code == 0 or "(traction rim)" in fit.message
+
+
+# ---------------------------------------------------------------- symmetry planes
+
+QUARTER = """
+Point(1) = {0, -20, 0, 8};
+Point(2) = {20, -20, 0, 8};
+Point(3) = {20, 0, 0, 4};
+Point(4) = {0, 0, 0, 0.3};
+Point(5) = {0, 10, 0, 4};
+Point(6) = {10, 10, 0, 4};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Point(7) = {0, 0, 0, 0.22};
+Circle(5) = {7, 5, 6};
+Line(6) = {6, 5};
+Line(7) = {5, 7};
+Curve Loop(2) = {5 : 7};
+Plane Surface(2) = {2};
+Physical Surface("block") = {1};
+Physical Surface("disc") = {2};
+Physical Curve("base") = {1};
+Physical Curve("top") = {3};
+Physical Curve("middle") = {4, 7};
+Physical Curve("round") = {5};
+Physical Curve("load") = {6};
+"""
+PRESSED = """body block E 70e3 nu 0.3
+body disc E 210e3 nu 0.3
+contact top round friction 0.1
+symmetry middle
+clamp base
+force load 0 -1000
+"""
+
+
+def test_mirrored_point_has_no_friction(tmp_path):
+    """Half of a cylinder on half of a block, meshes that do not match: where the plane cuts them nothing slides."""
+    half = case(tmp_path, QUARTER, PRESSED, "-estimate", 1)
+    contact = half.summary["contacts"][0]
+    assert contact["mesh"]["shearForce"]["error"] < 0.05 * abs(contact["shearForce"][0])
+    rows = table(half.folder / "contact.csv")
+    first = abs(rows["x"]).argmin()
+    assert abs(rows["x"][first]) < 1e-9 and rows["shear"][first] == 0 and rows["slip"][first] == 0

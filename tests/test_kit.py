@@ -5,7 +5,8 @@ import re
 
 import pytest
 from freefem import FREEFEM, ROOT, execute, run_in, short_of
-from test_labs import BARE, LABS, answers, number_printed
+from page_numbers import printed
+from test_labs import BARE, LABS, answers
 from test_readme import fences
 
 from postprocess import markdown
@@ -39,8 +40,8 @@ def test_the_page_without_gmsh(made, tmp_path):
     assert "gmsh" not in re.sub(r"//.*", "", (made / "algorithm1.edp").read_text())
     code, stdout = execute([*FREEFEM, made / "algorithm1.edp"], tmp_path, BARE)
     assert code == 0, stdout
-    assert (number_printed(stdout, "adaptations"), number_printed(stdout, "Newton steps")) == (3, 12)
-    assert number_printed(stdout, "force") == pytest.approx(152.09, rel=0.01)
+    assert (printed(stdout, "adaptations"), printed(stdout, "Newton steps")) == (3, 12)
+    assert printed(stdout, "force") == pytest.approx(152.09, rel=0.01)
 
 
 # ---------------------------------------------------------------- answers

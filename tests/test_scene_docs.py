@@ -6,6 +6,7 @@ import shlex
 import numpy as np
 import pytest
 from freefem import ROOT, check_invariants, run, scenes, script, skip_without_ipopt, stored, table
+from page_numbers import agrees, number
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_readme import fences, quoted, rows, section
 
@@ -17,25 +18,6 @@ INDEPENDENT = {"force": FORCE, "pressureMax": PRESSURE_MAX, "halfWidth": HALF_WI
 
 def headings(text, level):
     return re.findall(rf"^{'#' * level} (.*)$", text, re.M)
-
-
-def number(text):
-    """A number as it is written for readers: a true minus sign, maybe a percent sign."""
-    text = text.replace("−", "-").strip()
-    return float(text.removesuffix("%")) / 100 if text.endswith("%") else float(text)
-
-
-def last_digit(text):
-    """One unit in the last digit of a written number."""
-    percent = 0.01 if text.endswith("%") else 1.0
-    digits, _, exponent = text.removesuffix("%").strip().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2])) * percent
-
-
-def agrees(value, text):
-    """Whether the value is the written number: to its digits, or to the tolerance written behind it."""
-    written, _, tolerance = (word.strip() for word in text.replace("−", "-").partition("±"))
-    return abs(value - number(written)) <= (float(tolerance) if tolerance else 0.51 * last_digit(written))
 
 
 # ---------------------------------------------------------------- sections and boundaries
