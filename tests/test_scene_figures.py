@@ -162,7 +162,6 @@ def test_waves():
 
 
 @pytest.mark.long
-@pytest.mark.long
 def test_rigid():
     """The differences from the rigid disc shall fall with the ratio of the moduli, slope -1 to 0.01."""
     discs = [run("meshed-disc", *DISC, "-Eratio", ratio) for ratio in (1e2, 1e4, 1e6)]
