@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import named, run, run_in, script, table
+from freefem import named, run, run_in, script
 
 BASE = ["-method", "xnewton", "-tol", 1e-8]
 LAWS = [
@@ -203,30 +203,3 @@ def test_sphere_about_the_axis_against_hertz():
     sphere = run("disc-on-block", *BASE, *flags)
     assert sphere.halfWidthMoment == pytest.approx(a, rel=0.01)
     assert sphere.pressureMax == pytest.approx(3 * force / (2 * np.pi * a**2), rel=0.01)
-
-
-def test_load_series_goes_on(tmp_path):
-    """A load series shall write a row a step and go on after its last step, to the same end."""
-    flags = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 6, "-vtu", 0]
-    whole = run_in(".", script("disc-on-block"), *flags, out=tmp_path / "whole")
-    rows = table(tmp_path / "whole" / "series.csv")
-    assert list(rows["step"]) == [1, 2, 3, 4, 5, 6]
-    assert (np.diff(rows["force"]) >= 0).all()
-    # as if it had been interrupted after the third step
-    state = (tmp_path / "whole" / "series.state").read_text().splitlines()
-    points = whole.summary["points"]
-    short = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 3, "-vtu", 0]
-    shorter = run_in(".", script("disc-on-block"), *short, out=tmp_path / "half")
-    assert shorter.summary["points"] == points
-    again = tmp_path / "half"
-    half = (again / "series.state").read_text().splitlines()
-    # only the form of that state is borrowed: its identity, and the rows, are those of the whole run
-    body = half[1:]
-    forces = body[-points:]
-    data = [line for row in rows[:3] for line in map(repr, map(float, row))]
-    (again / "series.state").write_text("\n".join([state[0], "3 3 0", *data, *forces]) + "\n")
-    resumed = run_in(".", script("disc-on-block"), *flags, out=again)
-    assert "goes on after step 3" in resumed.stdout
-    end = table(again / "series.csv")
-    assert list(end["step"]) == [1, 2, 3, 4, 5, 6]
-    np.testing.assert_allclose(end["force"], rows["force"], rtol=1e-5)
