@@ -106,6 +106,7 @@ def test_prescribed_force(solved):
     )
 
 
+@pytest.mark.long
 def test_prescribed_force_on_a_soft_law(solved):
     """What is off at the contact moves the greatest pressure under a given force too; what is off far away does not."""
     law = ("-force", 19.42, "-d0", -0.001763, "-m", 1.149, "-kappa", 63.62, "-nu", 0.2139)
@@ -278,6 +279,7 @@ def check_pin(case):
     assert "weight core: displacement along it" in case.stdout and "±" in case.stdout
 
 
+@pytest.mark.long
 def test_accuracy_of_own_parts(tmp_path):
     """New meshes of a user's parts shall keep their curves, and their errors what was asked for."""
     asked = "-estimate", 1, "-accuracy", 2e-2, "-goal", "pressure"
