@@ -490,6 +490,106 @@ def test_sweep(tmp_path, monkeypatch, capsys):
     assert re.search(r"allowed: numbers", sweep(number, "a", expect=2))
 
 
+# ---------------------------------------------------------------- what motions need, how long contacts are
+
+
+RINGS = """
+SetFactory("OpenCASCADE");
+Disk(1) = {0, 0, 0, 5}; Disk(2) = {0, 0, 0, 1}; BooleanDifference(3) = {Surface{1}; Delete;}{Surface{2}; Delete;};
+Disk(4) = {0, 0, 0, 8}; Disk(5) = {0, 0, 0, 5}; BooleanDifference(6) = {Surface{4}; Delete;}{Surface{5}; Delete;};
+Mesh.MeshSizeMax = SIZE; Mesh.MeshSizeMin = SIZE;
+"""
+TWISTED = """group shaft surfaces 3
+group hub surfaces 6
+group inner near 0.9 0
+group seat between shaft hub
+group bore between hub shaft
+group outer near 9 0
+body shaft E 1000 nu 0.3
+body hub E 1000 nu 0.3
+clamp inner
+contact bore seat interference 0.005 friction {}
+leg 1
+rotate outer 0 0 0
+leg 1
+rotate outer 0 0 0.02
+"""
+
+
+@pytest.mark.parametrize("friction", [0.9, 0.05], ids=["sticks", "slips"])
+def test_moment_of_a_rotation(tmp_path, friction):
+    """What turns a ring on a shaft: by both rings' shear where all sticks, else by friction's share of what presses."""
+    solve(tmp_path, RINGS, TWISTED.format(friction), "-vtu", 0, size=1.2)
+    shear, lame1 = 1000 / 2.6, 1000 * 0.3 / 1.3 / 0.4
+
+    def stiffness(held, radius):  # of u = a (r - held^2/r) at `radius`: pressure over displacement
+        return (2 * (lame1 + shear) + 2 * shear * held**2 / radius**2) / abs(radius - held**2 / radius)
+
+    pressure = 0.005 / (1 / stiffness(1, 5) + 1 / stiffness(8, 5))
+    moment = 4 * np.pi * shear * 0.02 / (1 - 1 / 64) if friction == 0.9 else friction * pressure * 2 * np.pi * 25
+    found = summary(tmp_path)["prescribed"][0]
+    assert abs(found["moment"] - moment) <= found["error"] < 0.1 * moment
+
+
+DISC = """
+Point(1) = {0, 10, 0, 4}; Point(2) = {-10, 10, 0, 4}; Point(3) = {10, 10, 0, 4}; Point(4) = {0, 0, 0, SIZE};
+Circle(1) = {2, 1, 4}; Circle(2) = {4, 1, 3}; Line(3) = {3, 2}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Point(11) = {-20, 0, 0, 5}; Point(12) = {20, 0, 0, 5}; Point(13) = {20, -20, 0, 5}; Point(14) = {-20, -20, 0, 5};
+Point(15) = {0, 0, 0, SIZE}; Line(11) = {11, 15}; Line(15) = {15, 12}; Line(12) = {12, 13}; Line(13) = {13, 14};
+Line(14) = {14, 11}; Curve Loop(2) = {11, 15, 12, 13, 14}; Plane Surface(2) = {2};
+Physical Surface("disc") = {1}; Physical Surface("block") = {2};
+Physical Curve("round") = {1, 2}; Physical Curve("flat") = {3}; Physical Curve("top") = {11, 15};
+Physical Curve("base") = {13};
+"""
+
+
+ALONE = f"""{DISC[: DISC.index("Point(11)")]}Physical Surface("disc") = 1; Physical Curve("round") = {{1, 2}};
+Physical Curve("flat") = {{3}};"""
+
+
+@pytest.mark.parametrize("friction", ["", " friction 0.3"], ids=["free", "rubs"])
+@pytest.mark.parametrize("other", ["base", "obstacle"])
+def test_what_several_motions_need(tmp_path, friction, other):
+    """What two motions need is what passes through the contact between: the same number, and the same error."""
+    case = f"body disc E 1000 nu 0.3\nbody block E 2000 nu 0.3\ncontact round top{friction}\nmove base 0 0.1\n"
+    if other == "obstacle":
+        case = f"body disc E 1000 nu 0.3\nobstacle round plane 0 0 0 1 move 0 0.1{friction}\n"
+    done = solve(tmp_path, DISC if other == "base" else ALONE, f"{case}move flat 0 -0.1\n", "-vtu", 0, size=0.3)
+    run = summary(tmp_path)
+    contact = run["estimates"]["contacts"][0]["force"]
+    assert len(run["prescribed"]) == 2
+    for found in run["prescribed"]:
+        assert abs(found["force"]) == pytest.approx(contact["value"], rel=1e-6)
+        assert found["error"] == pytest.approx(contact["error"], rel=0.01)
+    assert re.search("move flat:  force [0-9.]+ ± ", done.stdout)
+    if run["linearised"]:
+        force, *others = (
+            change["change"] for change in run["linearised"]["changes"] if change["kind"] != "normal force"
+        )
+        assert np.abs(others) == pytest.approx(abs(force), rel=1e-3) and force != 0
+
+
+FLAT = """
+Point(1) = {0, 0, 0, SIZE}; Point(2) = {10, 0, 0, SIZE}; Point(3) = {10, 5, 0, SIZE}; Point(4) = {0, 5, 0, SIZE};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(11) = {-10, -10, 0, 2}; Point(12) = {20, -10, 0, 2}; Point(13) = {20, 0, 0, 1}; Point(14) = {-10, 0, 0, 1};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11}; Curve Loop(2) = {11:14};
+Plane Surface(2) = {2}; Physical Surface("upper") = {1}; Physical Surface("block") = {2};
+Physical Curve("foot") = {1}; Physical Curve("head") = {3}; Physical Curve("top") = {13}; Physical Curve("base") = {11};
+"""
+
+
+@pytest.mark.parametrize(
+    "pull, length, least, most", [(0, 10, 1e-14, 1e-8), (3.05, 10, 0.1, 0.5), (3.1, 9.96, 0.1, 0.5)]
+)
+def test_length_of_a_flat_face(tmp_path, pull, length, least, most):
+    """A face that presses all over is known to rounding, not where a corner is about to lift, or just has."""
+    case = "body upper E 1000 nu 0.3\nbody block E 1e5 nu 0.3\ncontact foot top friction 0.9\nclamp base\n"
+    solve(tmp_path, FLAT, f"{case}traction head {pull} -10\n", "-vtu", 0, size=1)
+    found = summary(tmp_path)["estimates"]["contacts"][0]["contactLength"]
+    assert abs(found["value"] - length) <= found["error"] and least < found["error"] < most
+
+
 def test_sweep_of_changed_files(tmp_path, monkeypatch, capsys):
     """A run is done anew when a law's table or a file that the geometry includes has changed, and kept otherwise."""
     (tmp_path / "part.geo").write_text('Include "shapes/ring.geo";\n')

@@ -91,7 +91,7 @@ def test_model(solved):
     exact = solved("disc-on-block", *flags, "-eps", 1e-10, "-estimate", 0)
     true = abs(rough.force - exact.force)
     assert rough.wallPoints > 0 and true > 0
-    assert rough.estimates["parts"]["model"] == pytest.approx(true, rel=0.5)
+    assert rough.estimates["parts"]["model"] == pytest.approx(true, rel=0.1)
 
 
 def test_prescribed_force(solved):

@@ -159,3 +159,15 @@ def test_mirrored_point_has_no_friction(tmp_path):
     rows = table(half.folder / "contact.csv")
     first = abs(rows["x"]).argmin()
     assert abs(rows["x"][first]) < 1e-9 and rows["shear"][first] == 0 and rows["slip"][first] == 0
+
+
+def test_greatest_pressures_of_two_meshes(tmp_path):
+    """Neither's error excludes the other: a load's way moves pressures by what a unit of the load does."""
+    found = []
+    for k, share in enumerate((6, 12)):
+        (tmp_path / str(k)).mkdir()
+        mesh = QUARTER.replace("0.3}", f"{0.3 / share}}}").replace("0.22}", f"{0.22 / share}}}")
+        summary = case(tmp_path / str(k), mesh, PRESSED, "-estimate", 1).summary
+        found.append((summary["pressureMax"], summary["estimates"]["pressureMax"]["error"]))
+    (one, first), (other, second) = found
+    assert abs(one - other) < first + second < 0.02 * one
