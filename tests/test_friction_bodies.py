@@ -3,8 +3,9 @@
 from math import pi
 
 import pytest
-from freefem import table
+from freefem import ROOT, run_in, table
 from test_friction import case
+from test_paraview import Grid
 
 FIT = """
 SetFactory("OpenCASCADE");
@@ -159,3 +160,44 @@ def test_mirrored_point_has_no_friction(tmp_path):
     rows = table(half.folder / "contact.csv")
     first = abs(rows["x"]).argmin()
     assert abs(rows["x"][first]) < 1e-9 and rows["shear"][first] == 0 and rows["slip"][first] == 0
+
+
+def test_greatest_pressures_of_two_meshes(tmp_path):
+    """Neither's error excludes the other: a load's way moves pressures by what a unit of the load does."""
+    found = []
+    for k, share in enumerate((6, 12)):
+        (tmp_path / str(k)).mkdir()
+        mesh = QUARTER.replace("0.3}", f"{0.3 / share}}}").replace("0.22}", f"{0.22 / share}}}")
+        summary = case(tmp_path / str(k), mesh, PRESSED, "-estimate", 1).summary
+        found.append((summary["pressureMax"], summary["estimates"]["pressureMax"]["error"]))
+    (one, first), (other, second) = found
+    assert abs(one - other) < first + second < 0.02 * one
+
+
+# ---------------------------------------------------------------- the files of P3 in space
+
+BOX = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Volume("box") = {1};
+"""
+RUBBED = """group foot plane 0 0 0 0 0 1
+group head plane 0 0 1 0 0 1
+size box 1
+body box E 1000 nu 0.3
+obstacle foot plane 0 0 0 0 0 1 friction 0.3
+move head 0.004 0.002 -0.01
+"""
+
+
+def test_all_fields_of_a_contact(tmp_path):
+    """P3 in space with friction and estimates: contact.vtu has what each of them adds, under its own name."""
+    (tmp_path / "box.geo").write_text(BOX)
+    (tmp_path / "box.case").write_text(RUBBED)
+    words = "-mesh", tmp_path / "box.geo", "-case", tmp_path / "box.case", "-order", 3
+    rubbed = run_in(ROOT, "edp/parts-3d.edp", *words, out=tmp_path / "out")
+    found, rows = Grid(rubbed.folder / "contact.vtu").at_points, table(rubbed.folder / "contact.csv")
+    for name in ("shearX", "shearY", "shearZ", "slipX", "slipY", "slipZ", "slide", "status", "pressure"):
+        (field,) = [field for field in found if field.lower().startswith(("contact" + name, name.lower()))]
+        assert found[field][: len(rows[name])] == pytest.approx(rows[name], rel=1e-8, abs=1e-12), name
+    assert abs(rows["slide"]).max() == 2 and found["recoveredPressure[pressure]"].max() > 0
