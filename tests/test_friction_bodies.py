@@ -3,8 +3,9 @@
 from math import pi
 
 import pytest
-from freefem import table
+from freefem import ROOT, run_in, table
 from test_friction import case
+from test_paraview import Grid
 
 FIT = """
 SetFactory("OpenCASCADE");
@@ -171,3 +172,32 @@ def test_greatest_pressures_of_two_meshes(tmp_path):
         found.append((summary["pressureMax"], summary["estimates"]["pressureMax"]["error"]))
     (one, first), (other, second) = found
     assert abs(one - other) < first + second < 0.02 * one
+
+
+# ---------------------------------------------------------------- the files of P3 in space
+
+BOX = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Volume("box") = {1};
+"""
+RUBBED = """group foot plane 0 0 0 0 0 1
+group head plane 0 0 1 0 0 1
+size box 1
+body box E 1000 nu 0.3
+obstacle foot plane 0 0 0 0 0 1 friction 0.3
+move head 0.004 0.002 -0.01
+"""
+
+
+def test_all_fields_of_a_contact(tmp_path):
+    """P3 in space with friction and estimates: contact.vtu has what each of them adds, under its own name."""
+    (tmp_path / "box.geo").write_text(BOX)
+    (tmp_path / "box.case").write_text(RUBBED)
+    words = "-mesh", tmp_path / "box.geo", "-case", tmp_path / "box.case", "-order", 3
+    rubbed = run_in(ROOT, "edp/parts-3d.edp", *words, out=tmp_path / "out")
+    found, rows = Grid(rubbed.folder / "contact.vtu").at_points, table(rubbed.folder / "contact.csv")
+    for name in ("shearX", "shearY", "shearZ", "slipX", "slipY", "slipZ", "slide", "status", "pressure"):
+        (field,) = [field for field in found if field.lower().startswith(("contact" + name, name.lower()))]
+        assert found[field][: len(rows[name])] == pytest.approx(rows[name], rel=1e-8, abs=1e-12), name
+    assert abs(rows["slide"]).max() == 2 and found["recoveredPressure[pressure]"].max() > 0
