@@ -186,14 +186,15 @@ def test_thresholds(scene, flags, first):
 
 def test_model_error():
     """The model error shall be eq. (7)'s, in the shifted threshold, and stop the loop below eps and not before."""
-    for eps in (0.5, 0.02):
-        result = run(DISC, "-method", "paper", "-T0", "d0", "-h", 0.5, "-eps", eps)
+    for kappa, eps in ((1e3, 0.5), (1e3, 0.02), (1e9, 0.2)):  # the last ends at the wall
+        result = run(DISC, "-method", "paper", "-T0", "d0", "-h", 0.5, "-kappa", kappa, "-eps", eps)
         errors = []
         for model in result.models:
             wall = model["status"] == WALL
-            tau, fresh = model["threshold"][wall] + 0.25, (model["pressure"][wall] / 1e3) ** (1 / 3)
+            tau, fresh = model["threshold"][wall] + 0.25, (model["pressure"][wall] / kappa) ** (1 / 3)
             errors.append(((fresh - tau) / fresh).max(initial=0))
         assert result.modelError == pytest.approx(errors[-1], rel=1e-9, abs=1e-14)
+        assert (result.modelError > 0) == (kappa == 1e9)
         assert errors[-1] < eps
         assert (np.array(errors[:-1]) >= eps).all()
 
