@@ -123,8 +123,7 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     """The bodies of a run with its files for ParaView; older runs, whose tables say less, have one contact, upwards."""
     path = run.path / "contact.csv"
     grid, surface = read_grid(run.path / "solution.vtu"), read_surface(run.path / "contact.vtu")
-    with path.open(encoding="utf-8") as file:
-        names = file.readline().strip().split(",")
+    names = column_names(path)
     optional = "z normalX normalY normalZ contact along chain shear shearX shearY shearZ slide".split()
     optional = [name for name in optional if name in names]
     table = read_table(path, ["x", "y", "weight", "overlap", "pressure", *optional])
