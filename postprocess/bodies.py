@@ -16,7 +16,7 @@ from matplotlib.tri import Triangulation
 
 from postprocess import style
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, brief, read_run, read_table
+from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
 from postprocess.vtu import Grid, Surface, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
