@@ -126,35 +126,6 @@ def test_progress_appears_as_it_happens(tmp_path):
     assert files(out) == []
 
 
-def test_output_has_its_parts(tmp_path):
-    """A run shall say what is solved, the flags not as by default, aligned Newton steps, a summary and its picture."""
-    flags = ["-method", "paper", "-h", 2, "-kappa", "1000.0", "-gap", 0.4]  # kappa's default in other words
-    result = run_in(ROOT, script(DISC), *flags, out=tmp_path / "out")
-    lines = result.stdout.splitlines()
-    assert lines[0] == "disc-on-block: a rigid disc pressed into an elastic block by u0."
-    assert lines[1] == "Method paper, law power, P1, h = 2; not as by default:"
-    assert [line.split()[0] for line in lines if line.startswith("  -")] == ["-gap", "-method", "-h", "-out"]
-    assert lines[-1].split()[:6] == [
-        "picture:",
-        ".venv/bin/python",
-        "-m",
-        "postprocess",
-        "state",
-        f"{tmp_path / 'out'}/",
-    ]
-    progress = [line for line in lines if is_progress(line)]
-    assert len(progress) == result.newton
-    assert len({len(line) for line in progress}) == 1
-    head = lines[lines.index(progress[0]) - 1]
-    assert len(head) == len(progress[0])
-    for word in ("adapt", "newton", "residual", "contact", "changes", "wall", "overlap", "force", "backsolves"):
-        assert word in head
-    closing = "\n".join(lines[lines.index(progress[-1]) + 1 :])
-    assert "converged" in closing
-    assert f"{result.force:.6g}" in closing
-    assert str(tmp_path / "out") in closing
-
-
 @pytest.mark.parametrize("name", ["scenes/confined-block.edp", "labs/0-algorithm/algorithm1.edp"])
 def test_from_any_folder(name, package, tmp_path):
     """Started by edp/freefem.sh from anywhere scripts shall find their modules; what a run says draws it from there."""
@@ -302,19 +273,6 @@ def test_same_shape_same_mesh(package):
 
 
 # ---------------------------------------------------------------- whole or not at all
-
-
-def test_second_run_replaces_the_first(tmp_path):
-    """A run into the folder of another shall leave its own files only."""
-    out = tmp_path / "out"
-    run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-estimate", 0, "-states", 1, out=out)
-    states = {path.name for path in out.glob("state-*.vtu")}
-    assert len(states) > 2
-    of_states = {"states.csv", "states.pvd", "steps.csv", "triangles.csv", *states}
-    assert set(files(out)) == {*RESULTS, *of_states}
-    (out / "mine.txt").touch()
-    run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-estimate", 0, "-vtu", 0, out=out)
-    assert set(files(out)) == {"mine.txt", *RESULTS} - {"contact.vtu", "solution.vtu"}
 
 
 @pytest.mark.parametrize("word", ["\033[31mbody", "a" * 30000], ids=["escape", "long"])
