@@ -104,6 +104,7 @@ grown(weight)
 grown(overlapBefore)
 grown(immobile)
 grown(paired)
+grown(contactOf)
 paired = 1;
 normalZ = 1;
 verticalGaps = true;
