@@ -1,10 +1,12 @@
 """Friction between own parts, where few loads or slender bodies decide: press fits, parts on mirrors, belts."""
 
+import re
+import sys
 from math import exp, pi
 
 import numpy as np
 import pytest
-from freefem import ROOT, run_in, table
+from freefem import ROOT, execute, run_in, table
 from test_friction import case, series
 from test_paraview import Grid
 
@@ -228,7 +230,7 @@ Physical Surface("belt") = {1};
 Physical Curve("inner") = {3, 4};
 Physical Curve("slack") = {7};
 Physical Curve("tight") = {6};
-Mesh.MeshSizeMax = 0.4;
+Mesh.MeshSizeMax = 0.9;
 """
 BELTED = """body belt E 2000 nu 0.3
 obstacle inner circle 0 0 R 10 friction MU
@@ -249,3 +251,12 @@ def test_belt_over_half_a_turn(tmp_path, friction, down):
     assert belt.summary["contacts"][0]["stickShare"] == 0
     tight = -belt.summary["supports"][0]["force"][1]
     assert tight == pytest.approx(0.2 * exp(friction * pi * 10 / 10.1), rel=0.01)
+
+
+def test_sample_of_the_campaign(tmp_path):
+    """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
+    kinds = "fit", "block", "wedge", "belt"
+    command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]
+    code, stdout = execute(command)
+    assert code == 0 and stdout.count(" 0 failed") == len(kinds), stdout
+    assert max(map(int, re.findall(r"newton: .*most (\d+)", stdout))) <= 12
