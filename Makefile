@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage tables labs kit page site check-lab test test-all test-systems lint pages doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -389,6 +389,9 @@ coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold,
 	@$(PYTHON) tests/campaigns/coverage.py
 	@$(PYTHON) tests/campaigns/foreign.py
 
+mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
+	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
+
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
 	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
@@ -445,9 +448,12 @@ doctor: ## say what is installed, what is missing and how to get it
 # ---------------------------------------------------------------- checks
 
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
-test: $(VENV)/dev.stamp | system ## run the tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
+test: ## run the tests that take few seconds: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
+test-all: ## run every test there is, the long ones as well: what .ci/run runs
+test-all: MARKED := -m 'long or not long'
+test test-all: $(VENV)/dev.stamp | system
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)
-	@PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -n 3 --dist worksteal $(PYTEST_ARGS) $(TESTS)
+	@PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -n 3 --dist worksteal $(MARKED) $(PYTEST_ARGS) $(TESTS)
 
 # What tests need beside the package: each is skipped where its tool is not there.
 tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, Chromium, a locale's sources
@@ -455,9 +461,6 @@ tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipp
 	command -v chromium chromium-browser google-chrome >/dev/null || missing=' chromium'; \
 	test -e /usr/share/i18n/locales/de_DE || missing="$$missing locales"; \
 	$(INSTALL_MISSING)
-
-test-all: $(VENV)/dev.stamp | system ## run the long tests as well: every figure drawn anew, `make bench` and `make stability` begun
-	@$(PYTHON) -m pytest -q -n 3 --dist worksteal -m 'long or not long' $(PYTEST_ARGS) $(TESTS)
 
 # As root, with debootstrap. CONTACT_SYSTEMS=folder keeps the trees; SYSTEMS="trixie noble" chooses.
 test-systems: | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README's commands, make test, the same numbers
@@ -470,6 +473,9 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 
 pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
 	@$(PYTHON) tests/pages.py
+
+numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, and show them
+	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/page_numbers.py
 
 clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))

@@ -29,6 +29,7 @@ PLUGINS = {
     "lapack": "dense matrices",
     "bfstream": "files for ParaView",
     "qf11to25": "nodal stresses",
+    "Element_P3": "P3",
     "Element_P4": "P4",
     "Element_P3dc": "P4",
 }

@@ -36,7 +36,7 @@ def folders() -> list[Path]:
 
 def read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return re.sub("<!--= .*? -->", "", path.read_text(encoding="utf-8"))  # where a number is from
     except OSError:
         raise ResultsError(path, "is not there: the kit is made of a checkout's own pages") from None
 

@@ -1,10 +1,9 @@
 """A headless Chromium, told what to do through its DevTools pipe: no driver and no further Python package.
 
-`with Browser(folder) as browser: page = browser.open(path)`: then `page.evaluate(expression)`, `page.screenshot()`,
+`with Browser(folder) as browser: page = browser.open(path)`: then `page.evaluate(expression)`,
 `page.messages` (what it complained about) and `page.requests` (what it asked the network for).
 """
 
-import base64
 import contextlib
 import fcntl
 import json
@@ -119,20 +118,6 @@ class Page:
         while not self.evaluate(expression):
             assert time.monotonic() < deadline, f"never true: {expression}"
             time.sleep(0.05)
-
-    def screenshot(self, path, whole=False):
-        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole, **self.clip(whole))
-        Path(path).write_bytes(base64.b64decode(answer["data"]))
-
-    def clip(self, whole):
-        if not whole:
-            return {}
-        size = self.call("Page.getLayoutMetrics")["cssContentSize"]
-        return {"clip": {"x": 0, "y": 0, "width": size["width"], "height": min(size["height"], 16000), "scale": 1}}
-
-    def pdf(self):
-        """The page as it is printed."""
-        return base64.b64decode(self.call("Page.printToPDF", printBackground=True)["data"])
 
     def occurred(self, *methods):
         self.evaluate("1")  # what has happened so far has been told by the time this is answered

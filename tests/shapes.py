@@ -84,19 +84,20 @@ ON_SLAB = {
     "top": "1:" + box3(-8, -8, 0, 8, 8, 0),
 }
 
+
+def on_block(geo: str, skin: str = "round") -> Shape:
+    """A body that rests on the block by its weight."""
+    return plane(f"{BLOCK} {geo}", TWO + f"contact top {skin}\nweight upper <0 -20>", **ON_BLOCK, **{skin: "2"})
+
+
+def on_slab(geo: str, skin: str = "round") -> Shape:
+    return solid(f"{SLAB} {geo}", TWO + f"contact top {skin}\nweight upper <0 0 -20>", **ON_SLAB, **{skin: "2"})
+
+
 SHAPES = {
-    "disc": plane(
-        f"{BLOCK} Disk(2) = {{0, 5, 0, 5}};", TWO + "contact top round\nweight upper <0 -20>", **ON_BLOCK, round="2"
-    ),
-    "ellipse": plane(
-        f"{BLOCK} Disk(2) = {{0, 3, 0, 6, 3}};", TWO + "contact top round\nweight upper <0 -20>", **ON_BLOCK, round="2"
-    ),
-    "cushion": plane(
-        f"{BLOCK} Rectangle(2) = {{-4, 0, 0, 8, 6, 1.5}};",
-        TWO + "contact top shell\nweight upper <0 -20>",
-        **ON_BLOCK,
-        shell="2",
-    ),
+    "disc": on_block("Disk(2) = {0, 5, 0, 5};"),
+    "ellipse": on_block("Disk(2) = {0, 3, 0, 6, 3};"),
+    "cushion": on_block("Rectangle(2) = {-4, 0, 0, 8, 6, 1.5};", "shell"),
     "pin": plane(
         "Rectangle(1) = {-10, -10, 0, 20, 20}; Disk(3) = {0, 0, 0, 4.1};\n"
         "BooleanDifference(4) = { Surface{1}; Delete; }{ Surface{3}; Delete; }; Disk(2) = {0, 0, 0, 4};",
@@ -168,15 +169,8 @@ SHAPES = {
         base="1:" + box(-10, -8, 10, -8),
         top="1:" + box(-10, 0, 10, 0),
     ),
-    "ball": solid(
-        f"{SLAB} Sphere(2) = {{0, 0, 4, 4}};", TWO + "contact top round\nweight upper <0 0 -20>", **ON_SLAB, round="2"
-    ),
-    "log": solid(
-        f"{SLAB} Cylinder(2) = {{-5, 0, 3, 10, 0, 0, 3}};",
-        TWO + "contact top shell\nweight upper <0 0 -20>",
-        **ON_SLAB,
-        shell="2",
-    ),
+    "ball": on_slab("Sphere(2) = {0, 0, 4, 4};"),
+    "log": on_slab("Cylinder(2) = {-5, 0, 3, 10, 0, 0, 3};", "shell"),
     "socket": solid(
         f"{SLAB} Sphere(3) = {{0, 0, 2, 5}};\n"
         "BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{3}; Delete; };\n"
@@ -199,12 +193,7 @@ SHAPES = {
         left="2:" + box3(-4, -6, -4, 4, -6, 4),
         shell="2:/left",
     ),
-    "torus": solid(
-        f"{SLAB} Torus(2) = {{0, 0, 1.5, 4, 1.5}};",
-        TWO + "contact top round\nweight upper <0 0 -20>",
-        **ON_SLAB,
-        round="2",
-    ),
+    "torus": on_slab("Torus(2) = {0, 0, 1.5, 4, 1.5};"),
     "cone": solid(
         f"{SLAB} Cone(2) = {{0, 0, 0, 0, 0, 6, 1.5, 4}};",
         TWO + "contact top shell law power kappa 1e8 m 2 d0 -0.01\nmove lid <0 0 -0.01>",
@@ -222,12 +211,10 @@ SHAPES = {
         caps="2:" + box3(-3, 8, 0, 3, 8, 6),
         over="2:/caps",
     ),
-    "pillow": solid(
-        f"{SLAB} Box(2) = {{-3, -3, 0, 6, 6, 5}}; \n"
+    "pillow": on_slab(
+        "Box(2) = {-3, -3, 0, 6, 6, 5}; \n"
         "b() = Curve In BoundingBox {-3.1, -3.1, -0.1, 3.1, 3.1, 0.1}; Fillet{2}{b()}{1.2}",
-        TWO + "contact top shell\nweight upper <0 0 -20>",
-        **ON_SLAB,
-        shell="2",
+        "shell",
     ),
     "plate": solid(
         SLAB,

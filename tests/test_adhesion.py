@@ -1,6 +1,5 @@
 """Surfaces that attract: the law, the stable step, paths with jumps, against closed forms and an independent code."""
 
-import json
 import subprocess
 import time
 
@@ -144,6 +143,7 @@ def test_from_rest_in_one_step(mu, approach):
     assert done.backsolves <= 12 * done.newton + 12
 
 
+@pytest.mark.long
 def test_rivals():
     """The paper's thresholds and line search shall find the same state; plain Newton shall fail by name."""
     ours = run(SPHERE, "-u0", 0.0005)
@@ -242,6 +242,7 @@ def test_fold():
     np.testing.assert_array_equal(rows["stability"][after - 1], 0)
 
 
+@pytest.mark.long
 def test_dissipation_whatever_the_steps():
     """What a loop dissipates shall not depend on its increments, and be the work done along it."""
     runs = [run(SPHERE, "-path", "-0.0031 0.0011 -0.0031", "-steps", steps) for steps in (5, 20)]
@@ -302,23 +303,6 @@ def test_path_of_forces(tmp_path):
     assert "no stable state carries the force -0.09" in lost.message
     refused = run_in(ROOT, script(SPHERE), "-control", "force", out=tmp_path / "out", expect=10)
     assert "-control force: only with" in refused.stdout
-
-
-def test_rivals_follow_no_path(tmp_path):
-    """The other methods shall refuse a path by name."""
-    for method in ("newton", "linesearch", "paper"):
-        done = run_in(ROOT, script(SPHERE), "-method", method, "-path", "0 1", out=tmp_path / method, expect=10)
-        assert "-path: not a flag of this method" in done.stdout
-
-
-def test_a_path_meets_single_loads():
-    """A state of the path shall be the one that a single load finds there, where there is only one."""
-    done, rows, _ = follow(0.3)
-    given, _ = flags(0.3)
-    middle = rows[len(rows) // 2]
-    alone = run(SPHERE, *given, "-u0", float(middle["approach"]))
-    assert alone.force == pytest.approx(middle["force"], rel=1e-6)
-    assert done.converged
 
 
 def test_profiles():
@@ -444,10 +428,3 @@ def test_coarse_mesh():
     coarse = run(SPHERE, "-h", 0.08, "-force-coarse", 1)
     assert coarse.cohesion < 0.4
     assert coarse.warnings
-
-
-def test_summary_is_strict_json():
-    """The path's entries shall be JSON."""
-    done, *_ = follow(2)
-    text = (done.folder / "summary.json").read_text().replace("#end", "")
-    assert {"pullOff", "pullOffApproach", "loopWork", "dissipated", "jumps", "folds"} <= json.loads(text).keys()

@@ -274,6 +274,7 @@ def test_tension_of_a_heated_shank_in_space(tmp_path):
     assert found["contacts"][0]["normalForce"] - found["preloads"][0]["force"] == pytest.approx(5 * np.pi / 4, rel=4e-3)
 
 
+@pytest.mark.long
 def test_bolt_in_space(tmp_path):
     """The same joint in space."""
     case = JOINT.replace("state stress\n", "").replace("symmetry axis\n", "symmetry axis\nsymmetry side\n")
@@ -331,6 +332,29 @@ def test_stresses_of_lame(tmp_path):
         assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
 
+@pytest.mark.parametrize("bore", [True, False], ids=["rigid bore", "pair"])
+def test_displacements_where_curves_end(tmp_path, bore):
+    """A spline is off most beside its ends, here on symmetry planes: what lines say there, against Lame's."""
+    held = "body hub E 200000 nu 0.3\nsymmetry below\nsymmetry left\nobstacle seat circle 0 0 R 20 inside\n"
+    case = held if bore else f"{BODIES}contact bore seat interference 0.02\n"
+    lines = f"line end 10 0 {20 if bore else 30} 0\nline other 0 10 0 {20 if bore else 30}\n"
+    geometry = f"{RING}Transfinite Curve {{8}} = 6;"
+    if bore:
+        geometry = re.sub("Physical Surface.*", 'Physical Surface("hub") = 1;', RING).replace("{1, 5}", "1")
+        geometry = geometry.replace("{3, 7}", "3")
+    solve(tmp_path, geometry, f"{case}pressure inner 100\n{lines}", "-order", 4, size=3)
+    at_bore = [moved(B, lame(100, p, A, B), HUB, False) for p in (0, 1)]
+    p = at_bore[0] / (at_bore[0] - at_bore[1]) if bore else seat_pressure(0.02, 100, False)
+    for name in ("end", "other"):
+        table = np.genfromtxt(tmp_path / f"out/line-{name}.csv", delimiter=",", names=True)
+        radius = np.hypot(table["x"], table["y"])
+        stress, way = fit(np.minimum(radius, B - 1e-9) if bore else radius, p)
+        away = np.abs(radius - B) > 0.1
+        assert (np.abs(np.hypot(table["ux"], table["uy"]) - way) <= table["displacementError"] + 1e-12)[away].all()
+        assert (np.abs(table["vonMises"] - stress) <= table["vonMisesError"])[away].all()
+        assert np.median(table["displacementError"] / way.max()) < 2e-2
+
+
 BEAM = """
 h = SIZE;
 Point(1) = {0, 0, 0, h}; Point(2) = {20, 0, 0, h}; Point(3) = {20, 2, 0, h}; Point(4) = {0, 2, 0, h};
@@ -383,6 +407,7 @@ Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("f
 """
 
 
+@pytest.mark.long
 def test_stresses_below_a_contact(tmp_path):
     """Hertz's line contact, down its axis: von Mises' stress, its greatest and the depth of that."""
     case = "body block E 1000 nu 0.3\nobstacle face circle 0 10 R 10 force 0 -1\nclamp base\nline axis 0 0 0 -0.4\n"
@@ -434,20 +459,6 @@ def test_help_in_two_parts():
     assert "-preconditioner" in whole and "-method" in whole
 
 
-def test_interference_on_the_screen(tmp_path):
-    """Said behind a contact it shall be the overlap of the nominal surfaces; first contacts with their errors, last the
-    solver's counts."""
-    case = f"state stress\n{BODIES}contact bore seat interference 0.02\n"
-    said = solve(tmp_path, RING, case, "-vtu", 0).stdout
-    found = summary(tmp_path)["contacts"][0]
-    assert found["normalForce"] / (np.pi / 2 * B) == pytest.approx(seat_pressure(0.02, 0, True), rel=1e-4)
-    at = [
-        said.index(words)
-        for words in ("bore seat within", "hub: moved", "symmetry below: carries", "  adaptations", "  dofs")
-    ]
-    assert at == sorted(at)
-
-
 def test_sweep(tmp_path, monkeypatch, capsys):
     """Runs side by side, goes on with what is missing, and refuses what belongs to another sweep."""
     (tmp_path / "part.geo").write_text(RING.replace("SIZE", "6"))
@@ -477,3 +488,130 @@ def test_sweep(tmp_path, monkeypatch, capsys):
     assert "another sweep" in sweep("body hub E *", "1", expect=2)
     assert "0 lines begin" in sweep("force grip 0 *", "1", expect=2)
     assert re.search(r"allowed: numbers", sweep(number, "a", expect=2))
+
+
+# ---------------------------------------------------------------- what motions need, how long contacts are
+
+
+RINGS = """
+SetFactory("OpenCASCADE");
+Disk(1) = {0, 0, 0, 5}; Disk(2) = {0, 0, 0, 1}; BooleanDifference(3) = {Surface{1}; Delete;}{Surface{2}; Delete;};
+Disk(4) = {0, 0, 0, 8}; Disk(5) = {0, 0, 0, 5}; BooleanDifference(6) = {Surface{4}; Delete;}{Surface{5}; Delete;};
+Mesh.MeshSizeMax = SIZE; Mesh.MeshSizeMin = SIZE;
+"""
+TWISTED = """group shaft surfaces 3
+group hub surfaces 6
+group inner near 0.9 0
+group seat between shaft hub
+group bore between hub shaft
+group outer near 9 0
+body shaft E 1000 nu 0.3
+body hub E 1000 nu 0.3
+clamp inner
+contact bore seat interference 0.005 friction {}
+leg 1
+rotate outer 0 0 0
+leg 1
+rotate outer 0 0 0.02
+"""
+
+
+@pytest.mark.parametrize("friction", [0.9, 0.05], ids=["sticks", "slips"])
+def test_moment_of_a_rotation(tmp_path, friction):
+    """What turns a ring on a shaft: by both rings' shear where all sticks, else by friction's share of what presses."""
+    solve(tmp_path, RINGS, TWISTED.format(friction), "-vtu", 0, size=1.2)
+    shear, lame1 = 1000 / 2.6, 1000 * 0.3 / 1.3 / 0.4
+
+    def stiffness(held, radius):  # of u = a (r - held^2/r) at `radius`: pressure over displacement
+        return (2 * (lame1 + shear) + 2 * shear * held**2 / radius**2) / abs(radius - held**2 / radius)
+
+    pressure = 0.005 / (1 / stiffness(1, 5) + 1 / stiffness(8, 5))
+    moment = 4 * np.pi * shear * 0.02 / (1 - 1 / 64) if friction == 0.9 else friction * pressure * 2 * np.pi * 25
+    found = summary(tmp_path)["prescribed"][0]
+    assert abs(found["moment"] - moment) <= found["error"] < 0.1 * moment
+
+
+DISC = """
+Point(1) = {0, 10, 0, 4}; Point(2) = {-10, 10, 0, 4}; Point(3) = {10, 10, 0, 4}; Point(4) = {0, 0, 0, SIZE};
+Circle(1) = {2, 1, 4}; Circle(2) = {4, 1, 3}; Line(3) = {3, 2}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Point(11) = {-20, 0, 0, 5}; Point(12) = {20, 0, 0, 5}; Point(13) = {20, -20, 0, 5}; Point(14) = {-20, -20, 0, 5};
+Point(15) = {0, 0, 0, SIZE}; Line(11) = {11, 15}; Line(15) = {15, 12}; Line(12) = {12, 13}; Line(13) = {13, 14};
+Line(14) = {14, 11}; Curve Loop(2) = {11, 15, 12, 13, 14}; Plane Surface(2) = {2};
+Physical Surface("disc") = {1}; Physical Surface("block") = {2};
+Physical Curve("round") = {1, 2}; Physical Curve("flat") = {3}; Physical Curve("top") = {11, 15};
+Physical Curve("base") = {13};
+"""
+
+
+ALONE = f"""{DISC[: DISC.index("Point(11)")]}Physical Surface("disc") = 1; Physical Curve("round") = {{1, 2}};
+Physical Curve("flat") = {{3}};"""
+
+
+@pytest.mark.parametrize("friction", ["", " friction 0.3"], ids=["free", "rubs"])
+@pytest.mark.parametrize("other", ["base", "obstacle"])
+def test_what_several_motions_need(tmp_path, friction, other):
+    """What two motions need is what passes through the contact between: the same number, and the same error."""
+    case = f"body disc E 1000 nu 0.3\nbody block E 2000 nu 0.3\ncontact round top{friction}\nmove base 0 0.1\n"
+    if other == "obstacle":
+        case = f"body disc E 1000 nu 0.3\nobstacle round plane 0 0 0 1 move 0 0.1{friction}\n"
+    done = solve(tmp_path, DISC if other == "base" else ALONE, f"{case}move flat 0 -0.1\n", "-vtu", 0, size=0.3)
+    run = summary(tmp_path)
+    contact = run["estimates"]["contacts"][0]["force"]
+    assert len(run["prescribed"]) == 2
+    for found in run["prescribed"]:
+        assert abs(found["force"]) == pytest.approx(contact["value"], rel=1e-6)
+        assert found["error"] == pytest.approx(contact["error"], rel=0.01)
+    assert re.search("move flat:  force [0-9.]+ ± ", done.stdout)
+    if run["linearised"]:
+        force, *others = (
+            change["change"] for change in run["linearised"]["changes"] if change["kind"] != "normal force"
+        )
+        assert np.abs(others) == pytest.approx(abs(force), rel=1e-3) and force != 0
+
+
+FLAT = """
+Point(1) = {0, 0, 0, SIZE}; Point(2) = {10, 0, 0, SIZE}; Point(3) = {10, 5, 0, SIZE}; Point(4) = {0, 5, 0, SIZE};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(11) = {-10, -10, 0, 2}; Point(12) = {20, -10, 0, 2}; Point(13) = {20, 0, 0, 1}; Point(14) = {-10, 0, 0, 1};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11}; Curve Loop(2) = {11:14};
+Plane Surface(2) = {2}; Physical Surface("upper") = {1}; Physical Surface("block") = {2};
+Physical Curve("foot") = {1}; Physical Curve("head") = {3}; Physical Curve("top") = {13}; Physical Curve("base") = {11};
+"""
+
+
+@pytest.mark.parametrize(
+    "pull, length, least, most", [(0, 10, 1e-14, 1e-8), (3.05, 10, 0.1, 0.5), (3.1, 9.96, 0.1, 0.5)]
+)
+def test_length_of_a_flat_face(tmp_path, pull, length, least, most):
+    """A face that presses all over is known to rounding, not where a corner is about to lift, or just has."""
+    case = "body upper E 1000 nu 0.3\nbody block E 1e5 nu 0.3\ncontact foot top friction 0.9\nclamp base\n"
+    solve(tmp_path, FLAT, f"{case}traction head {pull} -10\n", "-vtu", 0, size=1)
+    found = summary(tmp_path)["estimates"]["contacts"][0]["contactLength"]
+    assert abs(found["value"] - length) <= found["error"] and least < found["error"] < most
+
+
+def test_sweep_of_changed_files(tmp_path, monkeypatch, capsys):
+    """A run is done anew when a law's table or a file that the geometry includes has changed, and kept otherwise."""
+    (tmp_path / "part.geo").write_text('Include "shapes/ring.geo";\n')
+    (tmp_path / "shapes").mkdir()
+    shape, law = tmp_path / "shapes/ring.geo", tmp_path / "law.csv"
+    shape.write_text(RING.replace("SIZE", "6"))
+    law.write_text("0,0\n0.02,1\n0.05,10\n0.5,500\n")
+    contact = "contact bore seat law table law.csv d0 -0.05 interference 0.02\n"
+    (tmp_path / "part.case").write_text(BODIES.replace("yield 100", "") + contact)
+    monkeypatch.chdir(tmp_path)
+    words = ["sweep", "part.geo", "part.case", "--out", "all", "--flags=-estimate 0", "--values", "210000"]
+
+    def sweep(there):
+        assert main([*words, "--number", "body ring E *"]) == 0, (tmp_path / "all/210000.log").read_text()
+        assert f"{there} of 1 runs are there" in capsys.readouterr().out
+        summary = json.loads((tmp_path / "all/210000/summary.json").read_text())
+        return summary["contacts"][0]["normalForce"], summary["ndof"]
+
+    first = sweep(0)
+    assert sweep(1) == first
+    law.write_text(law.read_text().replace("0.02,1", "0.02,2"))
+    other = sweep(0)
+    assert abs(other[0] / first[0] - 1) > 0.01 and other[1] == first[1]
+    shape.write_text(RING.replace("SIZE", "5"))
+    assert sweep(0)[1] > first[1]

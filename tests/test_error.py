@@ -2,7 +2,6 @@
 
 from itertools import count
 
-import coverage
 import numpy as np
 import pytest
 import reference
@@ -92,7 +91,7 @@ def test_model(solved):
     exact = solved("disc-on-block", *flags, "-eps", 1e-10, "-estimate", 0)
     true = abs(rough.force - exact.force)
     assert rough.wallPoints > 0 and true > 0
-    assert rough.estimates["parts"]["model"] == pytest.approx(true, rel=0.5)
+    assert rough.estimates["parts"]["model"] == pytest.approx(true, rel=0.1)
 
 
 def test_prescribed_force(solved):
@@ -107,6 +106,7 @@ def test_prescribed_force(solved):
     )
 
 
+@pytest.mark.long
 def test_prescribed_force_on_a_soft_law(solved):
     """What is off at the contact moves the greatest pressure under a given force too; what is off far away does not."""
     law = ("-force", 19.42, "-d0", -0.001763, "-m", 1.149, "-kappa", 63.62, "-nu", 0.2139)
@@ -279,6 +279,7 @@ def check_pin(case):
     assert "weight core: displacement along it" in case.stdout and "±" in case.stdout
 
 
+@pytest.mark.long
 def test_accuracy_of_own_parts(tmp_path):
     """New meshes of a user's parts shall keep their curves, and their errors what was asked for."""
     asked = "-estimate", 1, "-accuracy", 2e-2, "-goal", "pressure"
@@ -288,17 +289,3 @@ def test_accuracy_of_own_parts(tmp_path):
     check_pin(case)
     radius = np.hypot(case.contact["x"], case.contact["y"])[::4]
     assert np.abs(radius - 10.01).max() < 1e-5
-
-
-def test_coverage_is_judged():
-    """A number is covered where what is said is at least its distance from the reference's."""
-    empty = {f"{name}{kind}": "" for name in coverage.QUANTITIES for kind in ("Value", "Said", "True")}
-    common = empty | {"status": "converged", "order": "2"}
-    rows = [
-        common | {"name": "a: reference", "forceValue": "10", "forceSaid": "0.001"},
-        common | {"name": "a", "forceValue": "10.1", "forceSaid": "0.2"},
-        common | {"name": "a", "forceValue": "9.5", "forceSaid": "0.2", "approachValue": "2", "approachSaid": "0"},
-    ]
-    numbers = coverage.judged(rows)
-    assert [round(n["said"] / n["true"], 9) for n in numbers] == [2, 0.4]
-    assert "| force | P2 | 2 | 50.0 % | 1.2 |" in coverage.table(numbers)

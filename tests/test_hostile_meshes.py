@@ -198,17 +198,6 @@ def exchange(*pair):
     return change
 
 
-def turn_over(mesh):
-    """The whole upside down: what was the lower body hangs above."""
-    for i, (x, y, z) in mesh.nodes.items():
-        mesh.nodes[i] = (-x, -y, z)
-
-
-def mirror(mesh):
-    for i, (x, y, z) in mesh.nodes.items():
-        mesh.nodes[i] = (-x, y, z)
-
-
 def reverse(mesh):
     """The lines' ends exchanged: gmsh does so for groups of reversed curves; the order says nothing."""
     for _, corners in mesh.lines:
@@ -264,58 +253,36 @@ def stray(name):
     return change
 
 
-def joined(mesh):
-    for groups, _ in mesh.triangles:
-        groups[:] = ["lower"]
-
-
 # what is done to the mesh, or (edited, line) to its text; SAME: the untouched mesh's force, or another one; or words of
 # the refusal
 SAME, SOLVED = "the same force", "a force"
 MESHES = {
     # elements
     "triangle twice": (again("lower", 3), ["overlap"]),
-    "upper triangle twice": (again("upper", 5), ["overlap"]),
     "triangle of both bodies": (again("lower", 3, "upper"), ["overlap"]),
-    "triangle in one more surface": (again("lower", 3, "all"), ["triangle in no body"]),
     "triangle in no body": (lambda mesh: mesh.triangles[5][0].__setitem__(0, "all"), ["triangle in no body"]),
     "triangle without area": (collapse, ["element", "without area"]),
     "triangle clockwise": (lambda mesh: mesh.triangles[5][1].reverse(), SAME),
-    "all clockwise": (mirror, SAME),
     "three triangles on an edge": (add_third_triangle, ["the third", "overlap"]),
     "folded triangle": (add_folded_triangle, ["same side", "overlap"]),
     "one triangle": (one_triangle, ['"upper" has no triangle']),
-    "no triangle": (lambda mesh: mesh.triangles.clear(), ["no triangles"]),
     "quadrangle": (line(-1, "99 3 2 22 22 1 2 12 11"), ["element", "overlap"]),
     "second order": (line(-1, "99 9 2 22 22 1 2 12 3 4 11"), ["element 99", "overlap"]),
     "tetrahedron": (line(-1, "99 4 2 22 22 1 2 12 11"), ["element 99", "tetrahedron"]),
     "corner missing": (line(-1, lambda old: old.rsplit(" ", 1)[0]), ["element", "cut off"]),
-    "corner too many": (line(-1, lambda old: old + " 3"), ["element", "more than"]),
-    "text behind an element": (line(-1, lambda old: old + " // last"), ["element"]),
-    "corner of no number": (line(-1, lambda old: old.rsplit(" ", 1)[0] + " x"), ["element", "node that is missing: x"]),
     "corner not there": (line(-1, lambda old: old.rsplit(" ", 1)[0] + " 777"), ["node that is missing: 777"]),
     "element without tags": (line(-1, lambda old: "99 2 0 " + " ".join(old.split()[5:])), ["in no body"]),
     # lines
     "contact edge twice": (again("contact", 4), SAME),
-    "clamped edge twice": (again("clamped", 4), SAME),
     "edge in one more curve": (again("contact", 4, "free"), SAME),
-    "edge in an unnamed curve": (again("master", 2, "all"), SAME),
     "edge in contact and clamped": (again("contact", 0, "clamped"), ["two physical groups", "clamped"]),
     "lines reversed": (reverse, SAME),
     "dangling line": (add_dangling("free"), SAME),
     "dangling contact": (add_dangling("contact"), ["element", '"contact"', "no triangle has"]),
-    "dangling clamped": (add_dangling("clamped"), ["element", '"clamped"', "no triangle has"]),
     "contact inside": (add_interior("contact"), ['"contact" inside the bodies']),
-    "master inside": (add_interior("master"), ['"master" inside the bodies']),
-    "clamped inside": (add_interior("clamped"), ['"clamped" inside the bodies']),
     "free inside": (add_interior("free"), SAME),
     "contact and master exchanged": (exchange("contact", "master"), SOLVED),
-    "contact below": (exchange("contact", "clamped"), ["line 3", "nothing lies opposite it"]),
-    "master above": (exchange("master", "pushed"), ["line 3", "nothing lies opposite it"]),
-    "upside down": (turn_over, 0.0),
-    "contact partly on the upper body": (stray("contact"), SAME),
     "clamped partly on the upper body": (stray("clamped"), ["line 5", "elsewhere"]),
-    "pushed partly on the lower body": (stray("pushed"), ["line 5", "elsewhere"]),
     "contact in two pieces": (hole, SOLVED),
     "vertical edge": (vertical, SAME),
     # nodes
@@ -324,15 +291,12 @@ MESHES = {
     "negative node number": (line(3, lambda old: "-" + old), ["the node -3"]),
     "node number of no number": (line(3, lambda old: "x" + old), ["the node x3"]),
     "sparse node numbers": (renumbered(1000, 7), SAME),
-    "huge node numbers": (renumbered(1, 2_000_000_000), SAME),
     "nodes not in order": (
         lambda mesh: setattr(mesh, "nodes", dict(sorted(mesh.nodes.items(), key=lambda n: -n[0]))),
         SAME,
     ),
     "node twice": (line(3, lambda old: old.replace("3 ", "2 ", 1)), ["node 2", "twice"]),
     "coordinate nan": (line(3, "3 nan 0 0"), ["node 3", "nan is no number"]),
-    "coordinate 1e400": (line(3, "3 1e400 0 0"), ["node 3", "1e400 is no number"]),
-    "coordinate inf": (line(3, "3 0 -inf 0"), ["node 3", "-inf is no number"]),
     "coordinate hexadecimal": (line(3, "3 0x10 0 0"), ["0x10 is no number"]),
     "comma decimals": (lambda mesh: mesh.text(coordinate=lambda v: repr(v).replace(".", ",")), ["is no number"]),
     "coordinate missing": (line(3, "3 0.5 0"), ["node 3", "2 coordinates"]),
@@ -341,7 +305,6 @@ MESHES = {
         lambda mesh: mesh.nodes.update({i: (x, y, 1.0) for i, (x, y, _) in mesh.nodes.items()}),
         ["z = 0 everywhere"],
     ),
-    "z of rounding": (lambda mesh: mesh.nodes.update({5: (*mesh.nodes[5][:2], 1e-13)}), SAME),
     "huge": (moved(1e12), 0.0),
     "tiny": (moved(1e-12), ["too small"]),
     "too far away": (moved(right=1e12), ["too far"]),
@@ -349,13 +312,11 @@ MESHES = {
     "crack": (crack, ["share no nodes", "crack"]),
     "body in two parts": (split, ["share no nodes"]),
     "bodies share a node": (share_node, ["node 22", "hinge"]),
-    "one body": (joined, ['"upper" has no triangle']),
     "piece that nothing holds": (add_piece, ["lower at", "nothing holds it"]),
     "piece that hangs on a node": (add_hinged_piece, ["node 10", "hinge"]),
     "bodies overlap": (moved(up=-0.3, only="upper"), SOLVED),
     "master below": (moved(up=-5, only="upper"), ["line 3", "nothing lies opposite it"]),
     "bodies aside": (moved(right=30, only="upper"), ["line 3", "nothing lies opposite it"]),
-    "bodies touch": (moved(up=-0.1, only="upper"), SOLVED),
     # names and sections
     "no names": (lambda mesh: mesh.names.clear(), ["no physical groups"]),
     "names missing": (unnamed("contact", "upper"), ["line 2: upper: no physical surface", "allowed: lower"]),
@@ -363,22 +324,13 @@ MESHES = {
     "name with a blank": (edited('"free"', '"free sides"'), SAME),
     "name of a curve on a surface": (edited('2 21 "lower"', '1 21 "lower"'), ["line 1: lower: a curve of the mesh"]),
     "unknown section": (edited("$Nodes", "$Periodic\n1\n0 1 2\n$EndPeriodic\n$Nodes"), SAME),
-    "long comments": (edited("$Nodes", "$Comments\n" + "word $Nodes " * 5000 + "\n$Nodes\n$EndComments\n$Nodes"), SAME),
     "comments first": (edited("$MeshFormat", "$Comments\nmade by hand\n$EndComments\n$MeshFormat"), SAME),
-    "many names": (lambda mesh: mesh.names.update({f"other{i}": 100 + i for i in range(200)}), SAME),
-    "text behind the end": (lambda mesh: mesh.text() + "some text\n", SAME),
-    "blank lines": (edited("$EndNodes", "\n  \n$EndNodes"), SAME),
     "CRLF": (lambda mesh: mesh.text().replace("\n", "\r\n"), SAME),
     "no last line end": (lambda mesh: mesh.text().rstrip(), SAME),
     "second $Nodes": (edited("$Elements", "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements"), ["second $Nodes"]),
     "nodes miscounted": (edited("$Nodes\n45", "$Nodes\n1000000000"), ["$Nodes has 45 lines"]),
-    "count of no number": (edited("$Nodes\n45", "$Nodes\nmany"), ["no number"]),
     "cut off": (lambda mesh: mesh.text()[:-200], ["cut off"]),
-    "cut off in the nodes": (lambda mesh: mesh.text()[:400], ["cut off"]),
     "empty": (lambda mesh: "", ["no physical groups"]),
-    "no mesh": (lambda mesh: "solid\nfacet normal 0 0 1\n", ["no physical groups"]),
-    "zeros": (lambda mesh: "\0" * 100000, ["no physical groups"]),
-    "version 1": (lambda mesh: "$NOD\n1\n1 0 0 0\n$ENDNOD\n", ["no physical groups"]),
     "version 3": (edited("2.2 0 8", "3 0 8"), ["version 3"]),
     "said to be binary": (edited("2.2 0 8", "2.2 1 8"), ["no "]),  # triangles (gmsh 4.8), physical groups (4.12)
     "said to be version 4": (edited("2.2 0 8", "4.1 0 8"), ["gmsh"]),
@@ -464,8 +416,8 @@ def untouched(tmp_path_factory):
 
 
 # refused by the run, which sees where the bodies are, and some of those that the script before it refuses
-REFUSED_BY_A_RUN = ("contact below", "master above", "master below", "bodies aside", "empty", "corner missing")
-REFUSED_BY_A_RUN += ("clamped partly on the upper body", "pushed partly on the lower body", "piece that nothing holds")
+REFUSED_BY_A_RUN = ("master below", "bodies aside", "empty", "corner missing")
+REFUSED_BY_A_RUN += ("clamped partly on the upper body", "piece that nothing holds")
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -499,14 +451,6 @@ def test_hostile(name, tmp_path, untouched):
         assert run.force > 0
     else:
         assert run.force == pytest.approx(force if expected == SAME else expected, rel=1e-9)
-
-
-def test_translated(tmp_path, untouched):
-    """A million sizes away the force shall be the same, to the digits that the coordinates keep."""
-    mesh = Mesh()
-    moved(right=4e6)(mesh)
-    (tmp_path / "far.msh").write_text(mesh.text())
-    assert attempt(tmp_path / "far.msh", tmp_path).force == pytest.approx(untouched[0], rel=1e-7)
 
 
 def test_one_edge(tmp_path, untouched):
@@ -545,34 +489,6 @@ Physical Curve("master") = {5}; Physical Curve("pushed") = {7};
 Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
 Mesh.MeshSizeMax = 0.5;
 """
-
-
-FORMATS = {"text22": (2.2, 0), "text41": (4.1, 0), "binary41": (4.1, 1), "text40": (4.0, 0), "binary22": (2.2, 1)}
-
-
-def test_converted(tmp_path):
-    """Other formats of gmsh and a .geo file itself shall be converted, to the same mesh and the same force."""
-    source = tmp_path / "bodies.geo"
-    source.write_text(GEO)
-    files = {name: tmp_path / f"{name}.msh" for name in FORMATS}
-    saved = (
-        f'Mesh.MshFileVersion = {version}; Mesh.Binary = {binary}; Save "{files[name]}";\n'
-        for name, (version, binary) in FORMATS.items()
-    )
-    (tmp_path / "save.geo").write_text(GEO + "Mesh 2;\n" + "".join(saved))
-    subprocess.run(["gmsh", "-v", "0", tmp_path / "save.geo", "-"], check=True, stdin=subprocess.DEVNULL)
-    as_it_is = numbers(checked(files["text22"], tmp_path)[0])
-    for file in (files["text41"], files["binary41"], files["text40"]):
-        copy, why = checked(file, tmp_path)
-        assert copy, f"{file}: {why}"
-        assert numbers(copy) == pytest.approx(as_it_is, rel=1e-12), file
-    # of these gmsh orders the nodes anew
-    forces = [attempt(file, tmp_path).force for file in (files["text22"], files["binary22"], source)]
-    assert forces[1:] == pytest.approx(2 * forces[:1], rel=1e-9)
-
-
-def numbers(text):
-    return [float(word) for word in text.split() if word[0] in "-0123456789"]
 
 
 @pytest.mark.parametrize(

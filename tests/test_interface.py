@@ -3,6 +3,7 @@
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 
@@ -124,35 +125,6 @@ def test_progress_appears_as_it_happens(tmp_path):
     assert files(out) == []
 
 
-def test_output_has_its_parts(tmp_path):
-    """A run shall say what is solved, the flags not as by default, aligned Newton steps, a summary and its picture."""
-    flags = ["-method", "paper", "-h", 2, "-kappa", "1000.0", "-gap", 0.4]  # kappa's default in other words
-    result = run_in(ROOT, script(DISC), *flags, out=tmp_path / "out")
-    lines = result.stdout.splitlines()
-    assert lines[0] == "disc-on-block: a rigid disc pressed into an elastic block by u0."
-    assert lines[1] == "Method paper, law power, P1, h = 2; not as by default:"
-    assert [line.split()[0] for line in lines if line.startswith("  -")] == ["-gap", "-method", "-h", "-out"]
-    assert lines[-1].split()[:6] == [
-        "picture:",
-        ".venv/bin/python",
-        "-m",
-        "postprocess",
-        "state",
-        f"{tmp_path / 'out'}/",
-    ]
-    progress = [line for line in lines if is_progress(line)]
-    assert len(progress) == result.newton
-    assert len({len(line) for line in progress}) == 1
-    head = lines[lines.index(progress[0]) - 1]
-    assert len(head) == len(progress[0])
-    for word in ("adapt", "newton", "residual", "contact", "changes", "wall", "overlap", "force", "backsolves"):
-        assert word in head
-    closing = "\n".join(lines[lines.index(progress[-1]) + 1 :])
-    assert "converged" in closing
-    assert f"{result.force:.6g}" in closing
-    assert str(tmp_path / "out") in closing
-
-
 @pytest.mark.parametrize("name", ["scenes/confined-block.edp", "labs/0-algorithm/algorithm1.edp"])
 def test_from_any_folder(name, package, tmp_path):
     """Started by edp/freefem.sh from anywhere scripts shall find their modules; what a run says draws it from there."""
@@ -170,6 +142,67 @@ def test_from_any_folder(name, package, tmp_path):
         assert code == 0 and stdout.startswith("usage: python -m postprocess state"), stdout
     code, stdout = execute([*program, "nowhere.edp"], tmp_path, BARE)
     assert code == 10 and stdout.startswith("nowhere.edp: no such script")
+
+
+def test_modules_are_the_package_s(package, tmp_path):
+    """The starter shall read no module, script or Python module of the present folder in place of the package's."""
+    for name in (
+        "case/flags.idp",
+        "case/scene.idp",
+        "laws/power.idp",
+        "case/laws/power.idp",
+        "main.edp",
+        "scenes/wavy.edp",
+    ):
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).write_text('cout << "not the package" << endl; exit(3);\n')
+    for name in ("numpy", "argparse", "csv", "matplotlib"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit(3)\n")
+    for name in (".venv", "postprocess"):
+        if not (package / name).exists():
+            (package / name).symlink_to(ROOT / name)
+    start = ["sh", package / "edp/freefem.sh"]
+    quick = ["-h", 5, "-order", 1, "-vtu", 0, "-out"]
+    # of these the first is handed over to a script that includes main.edp
+    runs = [
+        ("disc-on-block", ["-accuracy", 0.25]),
+        ("confined-block", ["-estimate", 0]),
+        ("labs/1-law/law.edp", ["-estimate", 0]),
+    ]
+    for script_, flags in runs:
+        code, said = execute([*start, script_, *flags, *quick, "out"], tmp_path, BARE)
+        assert code in (0, 21) and (tmp_path / "out" / "summary.json").exists(), said
+    code, said = execute([*start, "postprocess", "show", "out"], tmp_path, BARE)
+    assert code == 0 and "converged" in said, said
+    python = [ROOT / ".venv/bin/python", "-m", "postprocess", "show", "out"]
+    code, said = execute(python, tmp_path, {**BARE, "PYTHONPATH": str(ROOT)})
+    assert code == 0 and "converged" in said, said
+
+
+def test_module_in_the_present_folder(tmp_path):
+    """Without the starter a file that FreeFEM would read in a module's place is refused; one of another name is not."""
+    package = tree(tmp_path / "package")
+    quick = ["-h", 5, "-order", 1, "-estimate", 0, "-vtu", 0]
+    (package / "laws").mkdir()
+    (package / "laws/own.idp").write_text("")
+    assert run_in(package, script(DISC), *quick, out=tmp_path / "out").code == 0
+    shutil.copytree(package / "edp/laws", package / "case/laws")
+    for flags in (quick, [*quick[:4], "-accuracy", 0.25]):
+        said = run_in(package, script(DISC), *flags, out=tmp_path / "never", expect=10).stdout
+        assert said.count("\n") == 1 and "case/laws" in said and "in place of the package's laws/" in said
+    shutil.rmtree(package / "case")
+    here = tmp_path / "here"
+    here.mkdir()
+    shutil.copy(package / "freefem++.pref", here)
+    shutil.copytree(package / "edp", here / "edp")
+    said = run_in(here, package / script(DISC), *quick, out=tmp_path / "never", expect=10).stdout
+    assert "another copy of the package" in said and not (tmp_path / "never").exists()
+    shutil.rmtree(here / "edp")
+    for name in ("edp", "meshes"):  # as make new does: own modules are there on purpose
+        (here / name).symlink_to(package / name)
+    (here / "laws").mkdir()
+    shutil.copy(package / "edp/laws/power.idp", here / "laws")
+    run_in(here, "edp/main.edp", *quick, out=tmp_path / "own")
 
 
 @pytest.mark.parametrize("out", ["it's; touch F", '-1 "$(touch F)"'])
@@ -239,19 +272,6 @@ def test_same_shape_same_mesh(package):
 
 
 # ---------------------------------------------------------------- whole or not at all
-
-
-def test_second_run_replaces_the_first(tmp_path):
-    """A run into the folder of another shall leave its own files only."""
-    out = tmp_path / "out"
-    run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-estimate", 0, "-states", 1, out=out)
-    states = {path.name for path in out.glob("state-*.vtu")}
-    assert len(states) > 2
-    of_states = {"states.csv", "states.pvd", "steps.csv", "triangles.csv", *states}
-    assert set(files(out)) == {*RESULTS, *of_states}
-    (out / "mine.txt").touch()
-    run_in(ROOT, script(BLOCK), "-method", "newton", "-h", 5, "-estimate", 0, "-vtu", 0, out=out)
-    assert set(files(out)) == {"mine.txt", *RESULTS} - {"contact.vtu", "solution.vtu"}
 
 
 @pytest.mark.parametrize(

@@ -104,15 +104,35 @@ def test_law_over_its_range(tmp_path, kappa, m):
     np.testing.assert_allclose(law["inverse"][normal], overlaps[normal], rtol=1e-12)
 
 
-@pytest.mark.parametrize("kappa, m", [(1e3, 3), (1e12, 1.05), (1e30, 30)])
-def test_law_derivatives(tmp_path, kappa, m):
+PAIRS = [(0, 0), (0.1, 0.3), (0.25, 1), (0.3, 2.5), (0.7, 4), (1, 40)]
+CURVES = [((100 / kappa) ** (1 / m), ("-kappa", kappa, "-m", m)) for kappa, m in [(1e3, 3), (1e12, 1.05), (1e30, 30)]]
+CURVES += [(0.05, ("-law", "exponential")), (0.02, ("-law", "barrier"))]
+CURVES += [(0.29, ("-law", "table", "-table", "pairs.csv"))]
+
+
+@pytest.mark.parametrize("top, flags", CURVES, ids=[" ".join(map(str, flags)) for _, flags in CURVES])
+def test_law_derivatives(tmp_path, top, flags):
     """Slope and pressure shall be the derivatives of pressure and potential, by central differences."""
-    middle = (100 / kappa) ** (1 / m) * np.logspace(-1, 1, 9)
+    (tmp_path / "pairs.csv").write_text("".join(f"{s},{p}\n" for s, p in PAIRS))
+    middle = top * np.logspace(-1, 1, 9)
     step = 1e-5 * middle
-    law = law_of(tmp_path, np.concatenate([middle, middle - step, middle + step]), kappa, m)
+    places = np.concatenate([middle, middle - step, middle + step])
+    law = evaluate(tmp_path, LAW_ROWS, places, "-method", "newton", *flags)
     for function, derivative in (("pressure", "slope"), ("potential", "pressure")):
         _, low, high = law[function].reshape(3, -1)
         np.testing.assert_allclose((high - low) / (2 * step), law[derivative][:9], rtol=1e-7)
+    np.testing.assert_allclose(law["inverse"], places, rtol=1e-9)
+    assert 0 < law["potential"][0] < 0.7 * middle[0] * law["pressure"][0]
+
+
+def test_table(tmp_path):
+    """A tabulated law shall pass through its pairs, and store no energy before them."""
+    (tmp_path / "pairs.csv").write_text("".join(f"{s},{p}\n" for s, p in PAIRS))
+    places = [s for s, _ in PAIRS] + [-0.1]
+    law = evaluate(tmp_path, LAW_ROWS, places, "-method", "newton", "-law", "table", "-table", "pairs.csv")
+    np.testing.assert_allclose(law["pressure"], [p for _, p in PAIRS] + [0], rtol=1e-14)
+    assert law["potential"][0] == law["potential"][-1] == 0
+    assert (np.diff(law["potential"][:-1]) > 0).all()
 
 
 # ---------------------------------------------------------------- the law with its wall

@@ -1,14 +1,7 @@
 """The Makefile as a user meets it. Nothing is installed here: set-up counts as done (-o)."""
 
-import contextlib
-import os
-import shutil
-import signal
-import subprocess
-import time
-
 import pytest
-from freefem import ROOT, being_written, environment, execute, files, interruptible, tree
+from freefem import ROOT, environment, execute, tree
 
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]
 
@@ -75,76 +68,6 @@ def test_results_are_targets(package):
     assert (package / target).stat().st_mtime_ns > made
 
 
-LONG = "-method incremental -steps 100000 -h 1 -order 2"  # an hour
-
-
-def interrupted(package, folder, how, *words):
-    """Start make, wait until the run has opened its folder, and end it: Ctrl-C for the whole group, or a kill."""
-    process = subprocess.Popen(
-        ["make", *DONE, *words],
-        cwd=package,
-        env=environment(),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-        preexec_fn=interruptible,
-    )
-    end = time.monotonic() + 100
-    try:
-        while not folder.exists() or (folder / "summary.json").exists():
-            assert process.poll() is None and time.monotonic() < end
-            time.sleep(0.01)
-    finally:
-        while process.poll() is None:  # FreeFEM overhears a Ctrl-C while a shell of its own is at work: once more then
-            os.killpg(process.pid, how if time.monotonic() < end + 60 else signal.SIGKILL)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(2)
-    assert process.returncode != 0
-
-
-@pytest.mark.long
-def test_interrupted_figure(package):
-    """A run of `make figures` that is ended before its end shall be no target, and be made again."""
-    folder = package / "results" / "figures" / "signorini-start"
-    target = [f"case.signorini-start={QUICK}", "results/figures/signorini-start/summary.json"]
-    figure = [f"case.paper={QUICK}", f"case.signorini-start=edp/main.edp {LONG}", "results/figures/thresholds.pdf"]
-    assert make(package, *target)[0] == 0
-    for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-        (package / "edp" / "laws" / "power.idp").touch()
-        interrupted(package, folder, how, *figure)
-        assert not (folder / "summary.json").exists(), how
-        assert not list(folder.parent.glob("thresholds.*")), how
-        code, stdout = make(package, *target)
-        assert code == 0 and "confined-block" in stdout, how
-        assert not being_written(folder) and (folder / "summary.json").exists(), how
-
-
-def test_interrupted_movie(package):
-    """A run of `make movie` that is ended shall leave neither a summary nor the movie of the run before."""
-    folder = package / "results" / "movies" / "confined-block"
-    (folder / ".run").mkdir(parents=True)
-    names = ["movie.html", "movie.gif", "summary.json", "states.pvd", "state-3.vtu"]
-    (folder / ".run" / ".written").write_text("\n".join([*names, ""]))
-    for name in names:
-        (folder / name).write_text("of an earlier run")
-    interrupted(package, folder, signal.SIGINT, "movie", "SCENE=confined-block", f"ARGS={LONG} -kappa 1e9")
-    end = time.monotonic() + 10  # what is being removed when make ends is removed to the end
-    while set(names) & set(files(folder)) and time.monotonic() < end:
-        time.sleep(0.01)
-    assert not set(names) & set(files(folder))
-
-
-def test_refused_movie(package):
-    """Flags that are refused shall leave an earlier run and its movie as they were."""
-    folder = package / "results" / "movies" / "wavy"
-    folder.mkdir(parents=True)
-    for name in ("movie.html", "summary.json"):
-        (folder / name).write_text("of an earlier run")
-    code, stdout = make(package, "movie", "SCENE=wavy", "ARGS=-kappa 0")
-    assert code != 0 and "no movie" in stdout
-    assert sorted(path.name for path in folder.iterdir()) == ["movie.html", "summary.json"]
-
-
 def test_clean(package):
     """`make clean` shall remove results and generated meshes, nothing else."""
     for name in ("results/x/y.csv", "meshes/generated/z.msh", "edp/mine.edp"):
@@ -158,11 +81,7 @@ def test_clean(package):
     assert (package / "edp" / "mine.edp").exists()
 
 
-def test_make_is_there():
-    """The tests themselves need make."""
-    assert shutil.which("make")
-
-
+@pytest.mark.long
 def test_what_is_begun_outside(tmp_path):
     """What `make new` begins shall stand its own test, which tells a spoilt law; an existing folder is refused."""
     folder = tmp_path / "my own"

@@ -27,15 +27,7 @@ cout << "word " << word << endl << "text " << text << endl;
 """
 
 
-def test_flags_have_defaults(tmp_path):
-    """A flag that is not given shall have its default."""
-    stdout = snippet(tmp_path, FLAGS)
-    values = told(stdout)
-    assert (values["alpha"], values["count"]) == (1.5, 3)
-    assert "word one\ntext any\n" in stdout
-
-
-@pytest.mark.parametrize("text", ["0.12345678901234567", "+2", "1e-30", "1E0", "9.999999999999999", ".5", "5."])
+@pytest.mark.parametrize("text", ["0.12345678901234567", "+2", "1E-30", ".5", "5."])
 def test_flags_keep_every_digit(tmp_path, text):
     """A number shall be read with the precision that it is written in."""
     assert told(snippet(tmp_path, FLAGS, "-alpha", text))["alpha"] == float(text)
@@ -50,38 +42,21 @@ def test_flags_in_any_order(tmp_path):
     assert "word two\ntext -1 'a' $b\n" in stdout
 
 
-@pytest.mark.parametrize(
-    "flags, words",
-    [
-        (["-alpha", "0"], ["-alpha 0", "a number in (0, 10)"]),
-        (["-alpha", "10"], ["-alpha 10", "a number in (0, 10)"]),
-        (["-alpha", "abc"], ["-alpha abc", "a number in (0, 10)"]),
-        (["-alpha", "1e3x"], ["-alpha 1e3x", "a number in (0, 10)"]),
-        (["-alpha", "1,5"], ["-alpha 1,5", "a number in (0, 10)"]),
-        (["-alpha", "1.5.2"], ["-alpha 1.5.2", "a number in (0, 10)"]),
-        (["-alpha", "nan"], ["-alpha nan", "a number in (0, 10)"]),
-        (["-alpha", "inf"], ["-alpha inf", "a number in (0, 10)"]),
-        (["-alpha", "1e400"], ["-alpha 1e400", "a number in (0, 10)"]),
-        (["-alpha", "0x1"], ["-alpha 0x1", "a number in (0, 10)"]),
-        (["-alpha", "1e"], ["-alpha 1e", "a number in (0, 10)"]),
-        (["-alpha", "-"], ["-alpha -", "a number in (0, 10)"]),
-        (["-alpha", ""], ["-alpha ", "a number in (0, 10)"]),
-        (["-alpha"], ["-alpha", "a number in (0, 10)"]),
-        (["-alpha", "1", "-alpha", "1"], ["-alpha 1", "-alpha once"]),
-        (["-count", "0"], ["-count 0", "a whole number from 1 to 5"]),
-        (["-count", "6"], ["-count 6", "a whole number from 1 to 5"]),
-        (["-count", "2.5"], ["-count 2.5", "a whole number from 1 to 5"]),
-        (["-count", "1e20"], ["-count 1e20", "a whole number from 1 to 5"]),
-        (["-word", "tw"], ["-word tw", "one two"]),
-        (["-word", "one two"], ["-word one two", "one two"]),
-        (["-word", ""], ["-word ", "one two"]),
-        (["-alpa", "1"], ["-alpa", "did you mean -alpha?"]),
-        (["-other", "1"], ["-other", "-alpha -count -word -text"]),
-        (["stray"], ["stray", "a flag with one value after it"]),
-        (["-text", "a", "b"], ["b", "a flag with one value after it"]),
-    ],
-    ids=named,
-)
+NUMBERS = ["0", "10", "1e3x", "1,5", "1.5.2", "nan", "1e400", "0x1", "-", ""]
+REFUSED = [(["-alpha", text], [f"-alpha {text}", "a number in (0, 10)"]) for text in NUMBERS]
+REFUSED += [(["-count", text], [f"-count {text}", "a whole number from 1 to 5"]) for text in ("0", "6", "2.5", "1e20")]
+REFUSED += [(["-word", text], [f"-word {text}", "one two"]) for text in ("tw", "one two", "")]
+REFUSED += [
+    (["-alpha"], ["-alpha", "a number in (0, 10)"]),
+    (["-alpha", "1", "-alpha", "1"], ["-alpha 1", "-alpha once"]),
+    (["-alpa", "1"], ["-alpa", "did you mean -alpha?"]),
+    (["-other", "1"], ["-other", "-alpha -count -word -text"]),
+    (["stray"], ["stray", "a flag with one value after it"]),
+    (["-text", "a", "b"], ["b", "a flag with one value after it"]),
+]
+
+
+@pytest.mark.parametrize("flags, words", REFUSED, ids=named)
 def test_flags_refused(tmp_path, flags, words):
     """What is not allowed shall be refused in the first line, naming flag, value and what is allowed."""
     first = snippet(tmp_path, FLAGS, *flags, expect=10).splitlines()[0]
@@ -118,21 +93,6 @@ publish();
 """
 
 
-def test_output_is_published_whole(tmp_path):
-    """A file that was written to its end shall appear under its name, an earlier run's files shall be gone."""
-    folder = tmp_path / "folder of results"
-    folder.mkdir()
-    (folder / ".run").mkdir()
-    (folder / ".run/.written").write_text("summary.json\ncontact.csv\nmovie.gif\n")
-    for name in (".run/series.csv", "summary.json", "contact.csv", "movie.gif", "mine.txt", "mine.vtu", "movie.html"):
-        (folder / name).touch()
-    stdout = snippet(tmp_path, OUTPUT.replace("CUT", "0"))
-    assert "root []" in stdout
-    assert "quoted [it'\\''s]" in stdout
-    assert files(folder) == ["history.csv", "mine.txt", "mine.vtu", "movie.html"] and not being_written(folder)
-    assert (folder / "history.csv").read_text() == "a,b\n1,2\n"
-
-
 def test_output_cut_off_is_not_published(tmp_path):
     """A file shorter than its writer left it shall not be published, nor left behind, and the run shall say so."""
     stdout = snippet(tmp_path, OUTPUT.replace("CUT", "4"), expect=30)
@@ -148,14 +108,6 @@ include "case/flags.idp"
 include "case/output.idp"
 include "bodies/gmsh.idp"
 """
-
-
-def test_decimal_text(tmp_path):
-    """The numbers in a mesh's name shall be plain decimals, the same however the ratio was rounded."""
-    values = [0, 0.5, 0.0125, 1 / 3, 20, 160.000000000001, 0.9999999999999, 1.9999999999999, 0.1 + 0.2, 0.3, 1e-12]
-    code = "".join(f'cout << "[" << decimalText({value!r}) << "]" << endl;\n' for value in values)
-    printed = [line[1:-1] for line in snippet(tmp_path, GMSH + code).splitlines() if line.startswith("[")]
-    assert printed == [f"{value:.12f}" for value in values]
 
 
 MESH = """
@@ -392,7 +344,7 @@ tell("linear", seen);
 """
 
 
-SHORT, LONG = (0.62, 0.74, 1), (0.35, 0.56, 0.68, 0.7, 0.75, 0.8, 0.95)
+SHORT, LONG = (0.62, 1), (0.35, 0.56, 0.74, 0.8)
 
 
 @pytest.mark.parametrize("share", [*SHORT, *(pytest.param(share, marks=pytest.mark.long) for share in LONG)])

@@ -1,10 +1,8 @@
 """edp/options/: what a scene reads on request, what the others say of it, and that the core names none of it."""
 
-import json
 import re
 
 import pages
-import pytest
 from freefem import ROOT, run, run_in, snippet
 from test_contracts import EDP, MODULES, owners, part, uses
 
@@ -94,49 +92,6 @@ def test_not_read(tmp_path):
         done = run_in(ROOT, "edp/main.edp", *flags, out=tmp_path / "out", expect=10)
         assert done.stdout == f"{said}: not read by this scene; allowed in: {scenes}\n"
     assert not (tmp_path / "out").exists()
-
-
-SECOND = """
-macro secondLaws(do) do(springs) //
-macro secondLawFiles() include "options/second/springs.idp" //
-macro secondSolver() real second = numberFlag("-second", 2, "", "of the second option", 0, 9); //
-macro secondBeforeSolving() second *= 10; //
-macro secondSummary() put("second", second) //
-"""
-SPRINGS = """
-func int springsPressure(real[int] & s, real[int] & p, real[int] & slope)
-{
-    for (int i = 0; i < s.n; i++) p[i] = max(100 * s[i], 0.);
-    for (int i = 0; i < s.n; i++) slope[i] = s[i] > 0 ? 100. : 0.;
-    return 0;
-}
-func int springsInverse(real[int] & p, real[int] & s)
-{
-    for (int i = 0; i < s.n; i++) s[i] = 0.01 * p[i];
-    return 0;
-}
-func int springsPotential(real[int] & s, real[int] & W)
-{
-    for (int i = 0; i < s.n; i++) W[i] = 50 * max(s[i], 0.)^2;
-    return 0;
-}
-"""
-
-
-@pytest.mark.parametrize("options", ["do(second, what)", "do(attraction, what) do(second, what)"])
-def test_side_by_side(tmp_path, options):
-    """An option shall need no more than its folder and the scene's line, alone and beside another one."""
-    folder = tmp_path / "options/second"
-    folder.mkdir(parents=True)
-    (folder / "second.idp").write_text(SECOND)
-    (folder / "springs.idp").write_text(SPRINGS)
-    text = pages.EACH.sub(f"macro eachOption(do, what) {options} //", (EDP / "main.edp").read_text())
-    words = ["-h", 5, "-second", 3, "-law", "springs", "-out", tmp_path / "out"]
-    path = ["-path", "1 2", "-steps", 1] if "attraction" in options else []
-    snippet(tmp_path, text, *words, *path)
-    summary = json.loads((tmp_path / "out/summary.json").read_text())
-    assert summary["second"] == 30 and summary["parameters"]["law"] == "springs"
-    assert ("pullOff" in summary) == bool(path)
 
 
 def test_meshes_want_estimates(tmp_path):

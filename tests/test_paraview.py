@@ -1,13 +1,10 @@
 """The files for ParaView, read back with an XML parser: fields, points, the series of states, nothing left over."""
 
-import signal
-import subprocess
-import time
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, being_written, environment, files, run_in, script
+from freefem import ROOT, run_in, script
 
 DTYPES = {"Float64": "<f8", "Int64": "<i8"}
 DISPLACEMENT, PRESSURE, STRESS = "displacement[length]", "contactPressure[pressure]", "vonMises[pressure]"
@@ -243,37 +240,3 @@ def test_states_tables(made):
         assert (np.unique(sides, axis=0, return_counts=True)[1] == 2).all()
     else:
         assert (triangles[:, :3] == np.array(grid.cells)).all()
-
-
-def test_nothing_of_an_earlier_run(tmp_path):
-    """A run with fewer states, or without any, shall leave no state of the run before."""
-    out = tmp_path / "out"
-    flags = ["-method", "newton", "-h", 5, "-estimate", 0]
-    steps = run_in(ROOT, script("confined-block"), *flags, "-states", 1, out=out).newton
-    short = run_in(ROOT, script("confined-block"), *flags, "-states", 1, "-maxNewton", 1, out=out, expect=20)
-    assert short.newton == 1 < steps
-    assert sorted(path.name for path in out.glob("state*")) == sorted(
-        [*(f"state-{state}.vtu" for state in range(3)), "states.csv", "states.pvd"]
-    )
-    run_in(ROOT, script("confined-block"), *flags, out=out)
-    assert not list(out.glob("state*"))
-    run_in(ROOT, script("confined-block"), *flags, "-states", 1, "-vtu", 0, out=out)
-    assert not [*out.glob("*.vtu"), *out.glob("*.pvd")] and (out / "states.csv").exists()
-
-
-def test_killed_while_writing(tmp_path):
-    """A run that is killed while it writes its states shall leave none under its name; the next run clears the rest."""
-    out = tmp_path / "out"
-    command = [*FREEFEM, script("confined-block"), "-method", "newton", "-states", "1", "-out", str(out)]
-    process = subprocess.Popen([*command, "-h", "0.4"], cwd=ROOT, env=environment(), stdout=subprocess.DEVNULL)
-    try:
-        end = time.monotonic() + 100
-        while not list(out.glob(".run/state-*.vtu")):
-            assert process.poll() is None and time.monotonic() < end
-            time.sleep(0.001)
-    finally:
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-    assert being_written(out) and not files(out)
-    run_in(ROOT, script("confined-block"), "-method", "newton", "-h", 5, "-estimate", 0, out=out)
-    assert not being_written(out) and not list(out.glob("state*"))

@@ -131,6 +131,42 @@ def test_cache_of_two_packages(tmp_path):
     assert made[0] == made[1] < made[2]
 
 
+def test_what_a_run_is_made_of(tmp_path):
+    """A checksum shall change with every file that is read, also by another file, and with a package that is a link."""
+    package = tree(tmp_path / "package")
+    here = tmp_path / "here"
+    here.mkdir()
+    for name in ("edp", "meshes"):
+        (here / name).symlink_to(package / name)
+    texts = {
+        "part.geo": 'Include "below/b.geo"; // 5" pipe\nField[1].FileName = "grid.dat"; // merge of both\n',
+        "below/b.geo": 'Include "../part.geo";\nMerge StrCat(A, "s.step");\nPhysical Line("include") = {1};\n',
+        "part.case": 'obstacle x plane 0 0 0 1 law table "my law.csv" d0 -1\ncontact a b law table law.csv d0 -1\r\n',
+        "own.edp": 'include "case/flags.idp"\n include "law.idp"\n',
+        **dict.fromkeys(["grid.dat", "below/s.step", "part.geo.opt", "my law.csv", "law.csv", "law.idp"], "1\n"),
+    }
+    (here / "below").mkdir()
+    for name, text in texts.items():
+        (here / name).write_text(text)
+
+    def identity():
+        words = ["sh", "edp/report/identity.sh", 0, "", "part.geo", "part.case", "own.edp"]
+        code, said = execute(words, here, BARE)
+        assert code == 0 and said.count("\n") == 1, said
+        return said
+
+    found = [identity()]
+    assert identity() == found[0]
+    for name in [*texts, "edp/case/counts.idp", "edp/VERSION", "meshes/block.geo"]:
+        with (here / name).open("a") as file:
+            file.write("\n")
+        found.append(identity())
+    assert len(set(found)) == len(found)
+    for unknown in ('Merge Sprintf("p%g.step", n);\n', 'SystemCall "make s.step";\n'):
+        (here / "below/b.geo").write_text(unknown)
+        assert "unknown" in identity()
+
+
 @pytest.mark.parametrize("drawn", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_installed(tmp_path, drawn):
     """make install shall put a starter in place that runs and draws from any folder; make uninstall takes all away."""
@@ -155,9 +191,7 @@ def test_installed(tmp_path, drawn):
     assert listing(prefix) == ["bin", "share"]
 
 
-FIGURES = [
-    f"tests/test_{name}.py" for name in ("postprocess", "pictures", "scene_figures", "hertz_figures", "movie_report")
-]
+FIGURES = ["tests/test_postprocess.py", "tests/test_pictures.py", "tests/test_hertz_figures.py"]
 
 
 @pytest.mark.long

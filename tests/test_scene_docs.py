@@ -6,8 +6,9 @@ import shlex
 import numpy as np
 import pytest
 from freefem import ROOT, check_invariants, run, scenes, script, skip_without_ipopt, stored, table
+from page_numbers import agrees, number
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
-from test_readme import README, fences, quoted, rows, section
+from test_readme import fences, quoted, rows, section
 
 TEXT = (ROOT / "edp/scenes/README.md").read_text()
 SCENES = scenes()
@@ -17,25 +18,6 @@ INDEPENDENT = {"force": FORCE, "pressureMax": PRESSURE_MAX, "halfWidth": HALF_WI
 
 def headings(text, level):
     return re.findall(rf"^{'#' * level} (.*)$", text, re.M)
-
-
-def number(text):
-    """A number as it is written for readers: a true minus sign, maybe a percent sign."""
-    text = text.replace("−", "-").strip()
-    return float(text.removesuffix("%")) / 100 if text.endswith("%") else float(text)
-
-
-def last_digit(text):
-    """One unit in the last digit of a written number."""
-    percent = 0.01 if text.endswith("%") else 1.0
-    digits, _, exponent = text.removesuffix("%").strip().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2])) * percent
-
-
-def agrees(value, text):
-    """Whether the value is the written number: to its digits, or to the tolerance written behind it."""
-    written, _, tolerance = (word.strip() for word in text.replace("−", "-").partition("±"))
-    return abs(value - number(written)) <= (float(tolerance) if tolerance else 0.51 * last_digit(written))
 
 
 # ---------------------------------------------------------------- sections and boundaries
@@ -48,18 +30,6 @@ def test_every_scene_has_a_section():
     for scene in SCENES:
         assert headings(section(TEXT, scene), 3) == PARTS
         assert re.search(r"^    d\(x", section(TEXT, scene), re.M) or "That of `disc-on-block`" in section(TEXT, scene)
-
-
-def test_links():
-    """Relative links shall exist, and the README shall lead here."""
-    for target in re.findall(r"\]\(([^)#]+)\)", TEXT):
-        assert (ROOT / "edp/scenes" / target).exists(), target
-    assert "(edp/scenes/README.md)" in section(README, "Scenes")
-
-
-def test_width():
-    """Prose, formulas and commands shall stay within 130 columns."""
-    assert not [line for line in TEXT.splitlines() if len(line) > 130 and not line.startswith("|")]
 
 
 def included(name, space=None):

@@ -306,17 +306,8 @@ def test_crossed_cylinders(tmp_path, ratio, extent, growth):
     text = "".join(f"{name} = {float(value)!r};\n" for name, value in numbers.items()) + f'Include "{example}";\n'
     (tmp_path / "a.geo").write_text(text)
     out = tmp_path / "out"
-    command = [
-        *FREEFEM,
-        "edp/parts-3d.edp",
-        "-mesh",
-        tmp_path / "a.geo",
-        "-case",
-        example.with_suffix(".case"),
-        "-vtu",
-        "0",
-    ]
-    code, stdout = execute([*command, "-out", out], ROOT)
+    words = ["-mesh", tmp_path / "a.geo", "-case", example.with_suffix(".case"), "-vtu", "0", "-out", out]
+    code, stdout = execute([*FREEFEM, "edp/parts-3d.edp", *words], ROOT)
     assert code == 0, stdout[-3000:]
     contact = json.loads((out / "summary.json").read_text())["contacts"][0]
     assert contact["semiAxes"] == pytest.approx([a, b], rel=0.01)

@@ -8,7 +8,6 @@ import resource
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
 import numpy as np
@@ -30,7 +29,6 @@ from freefem import (
     tree,
 )
 from freefem import script as scene_script
-from systems import NotTried, bootstrap, inside, mounted, tracked
 
 from postprocess.__main__ import main
 
@@ -124,10 +122,9 @@ def comma(tmp_path_factory):
     return env
 
 
-@pytest.mark.parametrize("name", ["LC_ALL", pytest.param("LANG", marks=pytest.mark.long)])
-def test_comma_locale(mesh, comma, tmp_path, name):
+def test_comma_locale(mesh, comma, tmp_path):
     """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
-    env = {**comma, name: "de_DE.UTF-8"}
+    env = {**comma, "LC_ALL": "de_DE.UTF-8"}
     package = tree(tmp_path / "package")  # its meshes are made in that language
     if FAST.parent.exists():  # the plugins round in their own ways
         (package / "build").symlink_to(FAST.parent)
@@ -147,28 +144,19 @@ def test_comma_locale(mesh, comma, tmp_path, name):
 # ---------------------------------------------------------------- side by side
 
 
-def four_at_once(trials, folder):
-    """Runs that begin together in folders of one parent that is not there yet: those that failed."""
-    failed = []
+@pytest.mark.parametrize("trials", [1, pytest.param(20, marks=pytest.mark.long)])
+def test_four_runs_in_one_new_folder(tmp_path, trials):
+    """Runs that begin together in folders of one parent that is not there yet shall not disturb each other."""
     for trial in range(trials):
-        parent = folder / f"new {trial}" / "below"
+        parent = tmp_path / f"new {trial}" / "below"
         runs = [start(BLOCK, *TINY, "-out", parent / name) for name in "abcd"]
         for name, process in zip("abcd", runs, strict=True):
-            code, stdout = ended(process)
-            if code != 0 or "summary.json" not in files(parent / name) or being_written(parent / name):
-                failed.append(stdout[-300:])
+            assert ended(process)[0] == 0
+            assert "summary.json" in files(parent / name) and not being_written(parent / name)
         assert sorted(path.name for path in parent.iterdir()) == list("abcd")
-        shutil.rmtree(parent.parent)
-    return failed
 
 
-@pytest.mark.parametrize("trials", [1, pytest.param(200, marks=pytest.mark.long)])
-def test_four_runs_in_one_new_folder(tmp_path, trials):
-    """Runs shall not disturb each other when they make their folders."""
-    assert four_at_once(trials, tmp_path) == []
-
-
-@pytest.mark.parametrize("trials", [2, pytest.param(100, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [2, pytest.param(20, marks=pytest.mark.long)])
 def test_two_runs_into_one_folder(tmp_path, trials):
     """Of two runs into one folder both shall be done, one after the other, or one refused; its files are one run's."""
     out, refusals = tmp_path / "out", 0
@@ -252,7 +240,7 @@ def test_publishing_of_a_killed_run(tmp_path):
     assert being_written(tmp_path).count("contact.csv") == 1 and "summary.json" not in files(tmp_path)
 
 
-@pytest.mark.parametrize("trials", [1, pytest.param(30, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [1, pytest.param(5, marks=pytest.mark.long)])
 def test_one_mesh_made_by_four_runs(tmp_path, trials):
     """Runs that need the same mesh at the same time shall each get it, whole."""
     for trial in range(trials):
@@ -262,39 +250,6 @@ def test_one_mesh_made_by_four_runs(tmp_path, trials):
         assert [ended(process)[0] for process in runs] == [0, 0, 0, 0]
         (path,) = (package / "meshes" / "generated").iterdir()
         assert path.suffix == ".msh"
-
-
-def figures(package, seconds):
-    """`make -j2 figures`, killed with all that it has started after some seconds; its output until then."""
-    command = ["make", "-j2", "-o", ".venv/run.stamp", "-o", "system", f"PYTHON={sys.executable}", "figures"]
-    with open(package / "log", "w+") as log:
-        process = subprocess.Popen(
-            command, cwd=package, env=environment(), stdout=log, stderr=log, start_new_session=True
-        )
-        try:
-            process.wait(seconds)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        log.seek(0)
-        return process.returncode, log.read()
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("trial", range(30))
-def test_figures_begun_on_a_fresh_tree(tmp_path, trial):
-    """`make -j2 figures` shall get on in a fresh clone, and again after a kill, without a failed run."""
-    package = tree(tmp_path / "package")
-    shutil.copytree(ROOT / "postprocess", package / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
-    done = set()
-    for _ in range(2):
-        code, said = figures(package, 20)
-        assert code in (0, -signal.SIGKILL) and "Error" not in said and "refused" not in said, said[-2000:]
-        summaries = set((package / "results" / "figures").glob("*/summary.json"))
-        assert summaries and summaries >= done
-        done = summaries
-        for path in summaries:
-            assert json.loads(path.read_text())["converged"]
 
 
 # ---------------------------------------------------------------- the user's own files, odd names
@@ -427,14 +382,6 @@ def test_control_characters(package, name, told):
     assert listing(package) == before
 
 
-@pytest.mark.parametrize("out", ["x" * 300, "a/" + "y" * 300])
-def test_folder_that_cannot_be_made(package, out):
-    """A name that is too long shall be refused before anything is made."""
-    before = listing(package)
-    assert "not writable" in refused_in_one_line(run_in(package, BLOCK, *TINY, "-out", out, expect=10).stdout)
-    assert listing(package) == before
-
-
 # ---------------------------------------------------------------- kills
 
 
@@ -560,32 +507,26 @@ def test_series_counts_go_on(tmp_path, method):
     assert whole.newton > resumed.newton == len(resumed.history)
 
 
-@pytest.mark.parametrize("script", [DISC, pytest.param(BODIES, marks=pytest.mark.long)])
-def test_series_of_another_problem(mesh, tmp_path, script):
+def test_series_of_another_problem(tmp_path):
     """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
     package = tree(tmp_path / "package")
     out, file, power = tmp_path / "out", tmp_path / "given", package / "edp" / "laws" / "power.idp"
-    if script == DISC:
-        given = "".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6))
-        flags = ["-h", 2, "-order", 1, "-law", "table", "-table", file]
-        source = power.read_text()
-        changes = {
-            "table": (file, given.replace("0.5,0.25", "0.5,0.2501")),
-            "flag": (file, given),
-            "sources": (power, f"{source}// changed\n"),
-        }
-    else:
-        given, finer, coarser = (mesh(size).read_text() for size in (0.6, 0.5, 0.8))
-        flags = ["-mesh", file, "-case", f"{PUNCH}.case", "-order", 1]
-        changes = {"finer mesh": (file, finer), "coarser mesh": (file, coarser)}
+    given = "".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6))
+    flags = ["-h", 2, "-order", 1, "-law", "table", "-table", file]
+    source = power.read_text()
+    changes = {
+        "table": (file, given.replace("0.5,0.25", "0.5,0.2501")),
+        "flag": (file, given),
+        "sources": (power, f"{source}// changed\n"),
+    }
     flags += ["-history", 1, "-steps", 12, "-vtu", 0, "-estimate", 0]
     file.write_text(given)
-    interrupted_series(script, *flags, "-out", out, cwd=package, rows=3)
+    interrupted_series(DISC, *flags, "-out", out, cwd=package, rows=3)
     for what, (path, text) in changes.items():
         shutil.copytree(out, tmp_path / what)
         file.write_text(given)
         path.write_text(text)
-        again = run_in(package, script, *flags, *(["-E", 101] if what == "flag" else []), out=tmp_path / what)
+        again = run_in(package, DISC, *flags, *(["-E", 101] if what == "flag" else []), out=tmp_path / what)
         assert "begun anew" in again.stdout and "goes on" not in again.stdout, what
         np.testing.assert_array_equal(np.unique(again.history["step"]), range(1, 13), err_msg=what)
         assert again.newton == len(again.history), what
@@ -639,45 +580,4 @@ def test_axis_ends_with_the_body(tmp_path, scene, flags):
         assert rows["depth"][-1] == pytest.approx(depth, rel=1e-6)
 
 
-def test_contact_lost_in_rounding(tmp_path):
-    """A gap and a motion beside which the layer is nothing shall not pass for bodies that do not touch."""
-    out = tmp_path / "out"
-    lost = run_in(ROOT, "edp/main.edp", "-h", 2, "-gap", 1e16, "-u0", 1e16, "-vtu", 0, out=out, expect=20)
-    assert "lost in the rounding of -gap" in lost.message
-
-
 # ---------------------------------------------------------------- a bare system
-
-
-def test_docker_keeps_what_is_edited():
-    """The Dockerfile's head and the manual shall say the same commands: the checkout is mounted, Python's are not."""
-    head = [line[4:] for line in (ROOT / "Dockerfile").read_text().splitlines() if line.startswith("#   docker")]
-    assert "\n".join(head) in (ROOT / "edp/SETUP.md").read_text()
-    assert head[1].split()[4:8] == ["-v", '"$PWD:/contact"', "-v", "/contact/.venv"]
-
-
-@pytest.mark.long
-@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("debootstrap"), reason="needs root and debootstrap")
-def test_dockerfile(tmp_path):
-    """In a bare Debian the Dockerfile's commands shall set all up, and `make run` run, on two processes too."""
-    lines = (ROOT / "Dockerfile").read_text().splitlines()
-    lines = [line for line in lines if not line.startswith("#")]
-    words = {line.split()[0] for line in lines}
-    assert lines[0] == "FROM debian:12" and words == {"FROM", "RUN", "COPY", "WORKDIR", "CMD"}
-    system = tmp_path / "debian"
-    try:
-        bootstrap("bookworm", system)
-    except NotTried as reason:
-        pytest.skip(str(reason))
-    with mounted(system):
-        folder = ""
-        for line in [*lines, "RUN make run", "RUN make run SCENE=sphere-on-block NP=2"]:
-            word, _, rest = line.partition(" ")
-            folder = rest if word == "WORKDIR" else folder
-            if word == "COPY":
-                tracked(system / rest.split()[1].strip("/"))
-            elif word == "RUN":
-                code, said = inside(system, rest, f"/{folder}")
-                assert code == 0, f"{line}\n{said[-2000:]}"
-    assert (system / "contact/results/disc-on-block/xnewton/summary.json").exists()
-    assert json.loads((system / "contact/results/sphere-on-block/xnewton/summary.json").read_text())["ranks"] == 2

@@ -80,7 +80,8 @@ def test_equal_sectors(solve):
             assert "finite rotations" not in stdout and "linearised" not in stdout
 
 
-@pytest.mark.parametrize("contact", ["rim top", pytest.param("top rim", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("contact", ["rim top", "top rim"])
 def test_master_or_slave(solve, contact):
     """An elliptic ring that turns above a block, as its slave and as its master: as drawn turned."""
     below = {"size": (4, 2), "cells": (24, 6), "at": (-2, -6.98)}
@@ -160,6 +161,7 @@ def test_see_saw(solve):
         assert abs(value - true) < error < 0.02 * true
 
 
+@pytest.mark.long
 def test_rod_in_a_bowl(solve):
     """It leans on a rim: two points bear it, the next have hardly a lever; where they bear is in the errors."""
     r, half, rim, length, tilt = 5, 0.2, 0.5, 10, 0.5

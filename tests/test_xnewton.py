@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import named, run, run_in, script, table
+from freefem import named, run, run_in, script
 
 BASE = ["-method", "xnewton", "-tol", 1e-8]
 LAWS = [
@@ -121,19 +121,6 @@ def test_pressure_does_not_oscillate():
     assert p1.pressureMax == pytest.approx(p2.pressureMax, rel=0.02)
 
 
-def test_steel_bearing_in_si_units():
-    """A steel bearing in metres and pascals shall take the steps of its twin in units of the radius and the modulus."""
-    shape = {"-R": 1, "-width": 4, "-depth": 2, "-gap": 2e-4, "-d0": -2e-4, "-u0": 1.2e-3, "-h": 4e-3, "-reach": 0.06}
-    metres = ["-grading", 80, *(word for flag, value in shape.items() for word in (flag, value * 5e-3))]
-    plain = ["-grading", 80, *(word for flag, value in shape.items() for word in (flag, value))]
-    young, kappa = 2.1e11, 1e7
-    steel = run("disc-on-block", *BASE, *metres, "-E", young, "-kappa", kappa * young / (5e-3) ** 3)
-    twin = run("disc-on-block", *BASE, *plain, "-E", 1, "-kappa", kappa)
-    for name in ("newton", "kernelNewton", "backsolves", "contactPoints"):
-        assert steel.summary[name] == twin.summary[name], name
-    assert steel.force == pytest.approx(twin.force * young * 5e-3, rel=1e-9)
-
-
 @pytest.mark.parametrize(
     "flags",
     [
@@ -203,30 +190,3 @@ def test_sphere_about_the_axis_against_hertz():
     sphere = run("disc-on-block", *BASE, *flags)
     assert sphere.halfWidthMoment == pytest.approx(a, rel=0.01)
     assert sphere.pressureMax == pytest.approx(3 * force / (2 * np.pi * a**2), rel=0.01)
-
-
-def test_load_series_goes_on(tmp_path):
-    """A load series shall write a row a step and go on after its last step, to the same end."""
-    flags = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 6, "-vtu", 0]
-    whole = run_in(".", script("disc-on-block"), *flags, out=tmp_path / "whole")
-    rows = table(tmp_path / "whole" / "series.csv")
-    assert list(rows["step"]) == [1, 2, 3, 4, 5, 6]
-    assert (np.diff(rows["force"]) >= 0).all()
-    # as if it had been interrupted after the third step
-    state = (tmp_path / "whole" / "series.state").read_text().splitlines()
-    points = whole.summary["points"]
-    short = ["-method", "xnewton", "-h", 0.5, "-history", 1, "-steps", 3, "-vtu", 0]
-    shorter = run_in(".", script("disc-on-block"), *short, out=tmp_path / "half")
-    assert shorter.summary["points"] == points
-    again = tmp_path / "half"
-    half = (again / "series.state").read_text().splitlines()
-    # only the form of that state is borrowed: its identity, and the rows, are those of the whole run
-    body = half[1:]
-    forces = body[-points:]
-    data = [line for row in rows[:3] for line in map(repr, map(float, row))]
-    (again / "series.state").write_text("\n".join([state[0], "3 3 0", *data, *forces]) + "\n")
-    resumed = run_in(".", script("disc-on-block"), *flags, out=again)
-    assert "goes on after step 3" in resumed.stdout
-    end = table(again / "series.csv")
-    assert list(end["step"]) == [1, 2, 3, 4, 5, 6]
-    np.testing.assert_allclose(end["force"], rows["force"], rtol=1e-5)

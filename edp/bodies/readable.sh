@@ -174,7 +174,7 @@ case $kind in geo | step | stp | brep | iges | igs)
         test -s "$after" || { cp "$picked" "$after.$run" && mv "$after.$run" "$after"; } 2> /dev/null || after=$picked
     fi
     kept=$generated/own-$(cat "$file" ${after:+"$after"} | cksum | tr ' ' -)$(echo "$SETS" | cksum | tr ' ' -)$how.msh
-    if ! { test "$kind" = geo && grep -qiE 'merge|include|shapefromfile' "$file"; } && mkdir -p "$generated" 2> /dev/null \
+    if test "$(sh "${0%/*}/reads.sh" "$run" "$file" | wc -l)" = 1 && mkdir -p "$generated" 2> /dev/null \
         && AFTER=$after sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22 $SETS $import; then
         test "$space" = 0 || ! AFTER=$after sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 $SETS $import \
             || surface=${kept%.msh}-surface.msh

@@ -1,12 +1,15 @@
 # identity.sh: the checksum of everything that decides on a run's results beside its flags: sh identity.sh RUN ROOT FILE...
 # Needs: ROOT, the repository, with a trailing slash or empty; FILEs: the scene's script, and what the run reads.
-# Gives: one line on standard output; the same after a change of dates or places, another after one of contents.
+# Gives: one line on standard output; the same after a change of dates or places, another after one of contents, be it in a file
+#        that one of these reads (bodies/reads.sh). Where that cannot be known, another one each time.
 # Exit code: 0.
 LC_ALL=C
 export LC_ALL
 root=${2:-.}
 shift 2
-for file; do
-    test ! -f "$file" || cksum < "$file"
+sh "$root/edp/bodies/reads.sh" 0 "$@" | while IFS= read -r file; do
+    if test "$file" = '?'; then echo "unknown $(date +%s) $$"
+    else cksum < "$file"
+    fi
 done | tr '\n' ' '
-cd "$root" && find edp meshes/*.geo meshes/*.awk -type f ! -name '*.md' | sort | xargs cat | cksum
+cd "$root" && find edp/ meshes/*.geo meshes/*.awk -type f ! -name '*.md' | sort | xargs cat | cksum

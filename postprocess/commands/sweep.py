@@ -2,7 +2,8 @@
 
 CASE is a case file, MESH its mesh. NUMBER is the statement whose number is replaced, with * in its place, as
 "force grip 0 *". --values has the numbers, or FROM:TO:COUNT. Runs go side by side on the cores; one that is there is
-not run again, so an interrupted sweep goes on. DIR has a folder for each run, sweep.csv, sweep.pdf and sweep.png; the
+not run again, so an interrupted sweep goes on, unless a law's table, a file that MESH includes or the package has
+changed since. DIR has a folder for each run, sweep.csv, sweep.pdf and sweep.png; the
 last three are written when all runs have ended. What begins with - needs a =: --values=-3:-1:20, --flags="-order 4".
 """
 
@@ -51,14 +52,15 @@ def run(arguments: argparse.Namespace) -> None:
     line, word = place(case, lines, arguments.number)
     what = {"mesh": checksum(mesh), "case": lines, "number": arguments.number, "flags": arguments.flags.split()}
     same(folder, what)
+    origin = identity(mesh, case, *arguments.flags.split())
     todo = []
     for value in values:
         target = folder / f"{value:.12g}"
-        if not done(target):
+        if not done(target, origin):
             todo.append((target, case_with(lines, line, word, value)))
     print(f"{len(values) - len(todo)} of {len(values)} runs are there", flush=True)
-    execute(todo, mesh, arguments)
-    failed = [value for value in values if not done(folder / f"{value:.12g}")]
+    execute(todo, mesh, origin, arguments)
+    failed = [value for value in values if not done(folder / f"{value:.12g}", origin)]
     if failed:
         first = folder / f"{failed[0]:.12g}.log"
         raise ResultsError(folder, f"{len(failed)} runs have failed, the first for {failed[0]:.6g}: see {first}")
@@ -86,7 +88,7 @@ def numbers(words: list[str]) -> list[float]:
             raise ResultsError("--values", f"{word}: allowed: numbers, or FROM:TO:COUNT")
     if not np.isfinite(found).all():
         raise ResultsError("--values", "allowed: finite numbers")
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(float(f"{value:.12g}") for value in found))  # as their folders are named
 
 
 def text_of(path: Path) -> str:
@@ -145,12 +147,24 @@ def same(folder: Path, what: dict) -> None:
         write_files({path: json.dumps(what, indent=1).encode()})
 
 
-def done(folder: Path) -> bool:
-    """A run writes its summary last."""
-    return (folder / "summary.json").exists() and read_run(folder).summary["converged"]
+def identity(*files: Path | str) -> str:
+    """The checksums of these files, of all that they read, and of the package."""
+    words = ["sh", ROOT / "edp/report/identity.sh", "0", ROOT, *files]
+    return subprocess.run([*map(str, words)], stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
-def execute(todo: list, mesh: Path, arguments: argparse.Namespace) -> None:
+def record(folder: Path) -> Path:
+    """Beside a run's folder: the identity of what it was computed from."""
+    return folder.with_name(f"{folder.name}.identity")
+
+
+def done(folder: Path, origin: str) -> bool:
+    """Whether a run of these files has come to its end: its record is written after it, its summary last."""
+    there = record(folder).exists() and (folder / "summary.json").exists()
+    return there and text_of(record(folder)) == origin and read_run(folder).summary["converged"]
+
+
+def execute(todo: list, mesh: Path, origin: str, arguments: argparse.Namespace) -> None:
     """So many at once; when interrupted none is left running."""
     script = "parts-3d" if arguments.space else "parts"
     running, waiting = {}, list(todo)
@@ -160,6 +174,7 @@ def execute(todo: list, mesh: Path, arguments: argparse.Namespace) -> None:
             while waiting and len(running) < max(1, arguments.jobs):
                 folder, case = waiting.pop(0)
                 stated = folder.with_name(f"{folder.name}.case")
+                record(folder).unlink(missing_ok=True)
                 write_files({stated: case.encode()})
                 log = folder.with_name(f"{folder.name}.log").open("wb")
                 words = ["sh", ROOT / "edp/freefem.sh", script, "-mesh", mesh, "-case", stated, "-out", folder]
@@ -175,6 +190,8 @@ def execute(todo: list, mesh: Path, arguments: argparse.Namespace) -> None:
             for process in [process for process in running if process.poll() is not None]:
                 folder, log = running.pop(process)
                 log.close()
+                if process.returncode in (0, 21):  # as of a run whose summary has converged
+                    write_files({record(folder): origin.encode()})
                 print(
                     f"{folder.name}: {'done' if process.returncode == 0 else f'code {process.returncode}'}", flush=True
                 )

@@ -26,7 +26,7 @@ from pathlib import Path
 import campaign
 import numpy as np
 import reference
-from campaign import case, decade, markdown, select, signed, value
+from campaign import case, decade, flags_of, markdown, select, signed, value
 
 FOLDER = campaign.RESULTS_FOLDER / "bench"
 REPEATS = 3
@@ -42,8 +42,8 @@ RIVALS = [
     {"method": "newton"},
     {"method": "linesearch"},
     {"method": "incremental", "steps": 5},
+    {"method": "ipopt"},
 ]
-IPOPT = {"method": "ipopt"}
 
 SPHERE = "sphere-on-block"
 # Series of meshes: the flags that they share, and their h (length); the other laws do without P1 and the finest of P2.
@@ -125,14 +125,10 @@ CROSSED_SIZES = (0.16, 0.11, 0.08)  # the geometry's own parameter; growing away
 CROSSED_FINE = 0.06
 
 
-def rivals(root: Path) -> list[dict]:
-    return RIVALS + ([IPOPT] if campaign.has_ipopt(root) else [])
-
-
-def work_precision(root: Path) -> list[campaign.Case]:
+def work_precision(_root: Path) -> list[campaign.Case]:
     found = []
     for kappa, m in CASES:
-        for rival in rivals(root):
+        for rival in RIVALS:
             tolerances = TOLERANCES if rival["method"] == "xnewton" else RIVALS_TOLERANCES
             for tol in tolerances[-1:] if rival["method"] == "incremental" else tolerances:
                 flags = {**rival, "law": "power", "kappa": kappa, "m": m, "h": 0.2, "order": 2, "tol": tol, "eps": tol}
@@ -142,7 +138,7 @@ def work_precision(root: Path) -> list[campaign.Case]:
     return found
 
 
-def meshes(root: Path) -> list[campaign.Case]:
+def meshes(_root: Path) -> list[campaign.Case]:
     """Every degree over h; the rivals on the paper's case, and two of them in space."""
     found = []
 
@@ -161,7 +157,7 @@ def meshes(root: Path) -> list[campaign.Case]:
         add("disc-on-block", law, RIVALS[0], PLANE if law == CASES[0] else PLANE_SHORT)
         if law[0] >= 1e9:
             add("disc-on-block", law, RIVALS[0], [({**PLANE[2][0], "ends": ends(*law)}, PLANE[2][1])])
-    for rival in rivals(root)[1:]:
+    for rival in RIVALS[1:]:
         add("disc-on-block", CASES[0], rival, RIVALS_PLANE)
     add(SPHERE, CASES[0], RIVALS[0], SPACE)
     for rival in RIVALS[2:4]:
@@ -443,27 +439,11 @@ def report_work_precision(rows: list[dict]) -> str:
             group = select(rows, kappa=kappa, m=m, method=method, T0=start, tol=1e-8)
             for row in group:
                 good = row["status"] == "converged"
-                lines.append(
-                    [
-                        f"{decade(kappa)}, {m}",
-                        method_words(row),
-                        row["newton"] if good else row["status"],
-                        row["factorisations"],
-                        row["backsolves"],
-                        f"{contact_seconds(row):.3f}" if good else "-",
-                        f"{value(row, 'forceError'):.0e}" if good else "-",
-                    ]
-                )
-    header = [
-        "κ, m",
-        "method (tol 1e-8)",
-        "linearisations",
-        "factorisations",
-        "back-substitutions",
-        "CPU s",
-        "error",
-    ]
-    return markdown(header, lines)
+                counts = [row["newton"] if good else row["status"], row["factorisations"], row["backsolves"]]
+                numbers = [f"{contact_seconds(row):.3f}", f"{value(row, 'forceError'):.0e}"] if good else ["-", "-"]
+                lines.append([f"{decade(kappa)}, {m}", method_words(row), *counts, *numbers])
+    header = "κ, m|method (tol 1e-8)|linearisations|factorisations|back-substitutions|CPU s|error"
+    return markdown(header.split("|"), lines)
 
 
 def problem(row: dict[str, str]) -> tuple[str, float, float]:
@@ -482,18 +462,6 @@ def method_words(row: dict[str, str]) -> str:
 def element(row: dict[str, str]) -> str:
     """P and the degree; with the meshes that shrink to the ends of contact said."""
     return f"P{value(row, 'order'):g}" + (", `-ends`" if " -ends " in row["flags"] else "")
-
-
-def report_meshes(rows: list[dict]) -> str:
-    """Every run: errors and seconds."""
-    lines = []
-    for row in rows:
-        cells = [problem_words(row), method_words(row), element(row), row["h"], row["ndof"]]
-        cells += [f"{contact_seconds(row):.2f}"]
-        cells += [f"{value(row, name):.1e}" for name in reference.COLUMNS]
-        lines.append(["-" if cell == "nan" else cell for cell in cells] + [row["status"]])
-    header = ["kappa, m", "method", "element", "h", "dofs", "CPU s", *reference.ERRORS.values(), "profile", "status"]
-    return markdown(header, lines)
 
 
 def accuracy(rows: list[dict]) -> list[dict]:
@@ -528,7 +496,7 @@ def orders_table(rows: list[dict]) -> str:
 def hertz_table(rows: list[dict]) -> str:
     lines = []
     for row in rows:
-        flags = dict(zip(row["flags"].split()[::2], row["flags"].split()[1::2], strict=True))
+        flags = flags_of(row)
         away = [f"{100 * value(row, name):+.2f} %".replace("-", "−") for name in ("radius", "pressure")]
         counts = f"{row['newton']} / {row['backsolves']}"
         cells = [f"`{row['scene']}`", f"{value(row, 'h'):g}, {flags['-layers']}", row["ndof"], *away, counts]
@@ -650,7 +618,7 @@ def report_growth(rows: list[dict]) -> str:
 def variant_of(row: dict[str, str]) -> str:
     """The exchanged ingredients of a run, in words; empty for the default."""
     names = ("start", "preconditioner", "inner", "threshold", "T0")
-    flags = dict(zip(row["flags"].split()[::2], row["flags"].split()[1::2], strict=True))
+    flags = flags_of(row)
     return ", ".join(f"{name} {flags['-' + name]}" for name in names if "-" + name in flags)
 
 
@@ -684,22 +652,12 @@ def law_of(row: dict[str, str]) -> str:
 # part: (its cases, further columns, what fills them, its summary)
 PARTS = {
     "work_precision": (work_precision, ("forceError", "pressureError"), iteration_error, report_work_precision),
-    "meshes": (
-        meshes,
-        reference.COLUMNS,
-        reference.errors,
-        lambda rows: f"{report_meshes(rows)}\n\n{meshes_table(rows)}",
-    ),
+    "meshes": (meshes, reference.COLUMNS, reference.errors, meshes_table),
     "growth": (growth, (), None, report_growth),
     "ingredients": (ingredients, (), None, report_ingredients),
     "hertz": (hertz, ("radius", "pressure"), hertz_differences, hertz_table),
     "large": (large, ("iterations", "oneSolve", "ranks"), solves, large_table),
-    "accuracy": (
-        accuracy_cases,
-        ("forceError", "said", "asked", "meshes", "seconds"),
-        accuracy_errors,
-        accuracy_runs,
-    ),
+    "accuracy": (accuracy_cases, ("forceError", "said", "asked", "meshes", "seconds"), accuracy_errors, accuracy_runs),
 }
 OPT_IN = ("large",)
 FILES = {"accuracy": accuracy_files, "large": large_files}  # what a part adds to the sources: name to text
@@ -713,7 +671,6 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1: they are timed)")
     parser.add_argument("--repeats", type=int, default=REPEATS, help=f"of a timed run at most (default {REPEATS})")
     parser.add_argument("--out", type=Path, default=FOLDER, help="folder of the CSV files")
-    parser.add_argument("--root", type=Path, default=campaign.ROOT, help="the package whose scenes are run")
     arguments = parser.parse_args(argv)
     unknown = set(arguments.parts) - set(PARTS)
     if unknown:
@@ -721,11 +678,11 @@ def main(argv: list[str] | None = None) -> int:
     for name in arguments.parts or [name for name in PARTS if name not in OPT_IN]:
         cases, columns, measure, report = PARTS[name]
         path = arguments.out / f"{name}.csv"
-        chosen = cases(arguments.root)
+        chosen = cases(campaign.ROOT)
         chosen = [dataclasses.replace(item, repeats=min(item.repeats, arguments.repeats)) for item in chosen]
         try:
-            files = FILES[name](arguments.root) if name in FILES else None
-            rows = campaign.run(chosen, path, arguments.jobs, columns, measure, arguments.root, files, title=name)
+            files = FILES[name](campaign.ROOT) if name in FILES else None
+            rows = campaign.run(chosen, path, arguments.jobs, columns, measure, campaign.ROOT, files, title=name)
         except KeyboardInterrupt:
             print("\ninterrupted; started again, it goes on from here", file=sys.stderr)
             return 130

@@ -102,60 +102,35 @@ def mesh_of(path: Path, kind: int = 8) -> tuple[np.ndarray, dict, dict]:
     return place, {k: np.array(v) for k, v in sides.items()}, {k: np.array(v) for k, v in triangles.items()}
 
 
-def deck(path: Path, place, sides, triangles, stiffness: float, stick: float) -> None:
+def deck(path: Path, place, sides, bodies, stiffness: float, stick: float, space: bool) -> None:
     """CalculiX's input: penalty `stiffness` for the pressure, `stick` for the shear, both pressure/length."""
-    elements = np.concatenate(list(triangles.values()))
-    lines = ["*NODE"] + [f"{k + 1},{x:.11g},{y:.11g},0" for k, (x, y, _) in enumerate(place)]
-    lines += ["*ELEMENT,TYPE=CPE6,ELSET=ALL"]
-    lines += [f"{k + 1}," + ",".join(str(n + 1) for n in nodes) for k, nodes in enumerate(elements)]
-    for group in ("clamped", "pushed", "flat", "round"):
-        lines += [f"*NSET,NSET={group}"] + [f"{n + 1}," for n in np.unique(sides[group])]
-    faces = {
-        frozenset(nodes[[a, b]]): (k + 1, a + 1)
-        for k, nodes in enumerate(elements)
-        for a, b in ((0, 1), (1, 2), (2, 0))
-    }
-    for group in ("flat", "round"):
-        lines += [f"*SURFACE,NAME=S{group},TYPE=ELEMENT"]
-        lines += ["{},S{}".format(*faces[frozenset(side[:2])]) for side in sides[group]]
-    lines += ["*MATERIAL,NAME=M", "*ELASTIC", f"{YOUNG},{POISSON}", "*SOLID SECTION,ELSET=ALL,MATERIAL=M", "1."]
-    lines += ["*SURFACE INTERACTION,NAME=I", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:g}"]
-    lines += [
-        "*FRICTION",
-        f"{FRICTION},{stick:g}",
-        "*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE",
-        "Sflat,Sround",
-    ]
-    output = ["*NODE PRINT,NSET=pushed,TOTALS=ONLY", "RF", "*CONTACT FILE", "CDIS,CSTR", "*NODE FILE,NSET=flat", "U"]
-    for step, (x, start) in enumerate(((0, 1.0), (DRAG, 0.25))):
-        lines += ["*STEP,INC=1000", "*STATIC", f"{start:g},1."]
-        if step == 0:
-            lines += ["*BOUNDARY", "clamped,1,2", "pushed,1,1"]
-        lines += ["*BOUNDARY", f"pushed,1,1,{x:g}", f"pushed,2,2,{-PRESS:g}", *output, "*END STEP"]
-    path.write_text("\n".join(lines) + "\n")
-
-
-def deck_in_space(path: Path, place, sides, tetrahedra, stiffness: float) -> None:
-    """CalculiX's input: penalty `stiffness`, pressure/length; gmsh's last two nodes are the other way round there."""
-    elements = np.concatenate(list(tetrahedra.values()))[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
+    elements, kind = np.concatenate(list(bodies.values())), "CPE6"
+    corners = ((0, 1), (1, 2), (2, 0))
+    if space:  # gmsh's last two nodes are the other way round there
+        elements, kind = elements[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]], "C3D10"
+        corners = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
     lines = ["*NODE"] + [f"{k + 1},{x:.11g},{y:.11g},{z:.11g}" for k, (x, y, z) in enumerate(place)]
-    lines += ["*ELEMENT,TYPE=C3D10,ELSET=ALL"]
+    lines += [f"*ELEMENT,TYPE={kind},ELSET=ALL"]
     lines += [f"{k + 1}," + ",".join(str(n + 1) for n in nodes) for k, nodes in enumerate(elements)]
     for group, nodes in sides.items():
         lines += [f"*NSET,NSET={group}"] + [f"{n + 1}," for n in np.unique(nodes)]
-    corners = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
-    faces = {
-        frozenset(e[list(three)]): (k + 1, f + 1) for k, e in enumerate(elements) for f, three in enumerate(corners)
-    }
+    faces = {frozenset(e[list(few)]): (k + 1, f + 1) for k, e in enumerate(elements) for f, few in enumerate(corners)}
     for group in ("flat", "round"):
         lines += [f"*SURFACE,NAME=S{group},TYPE=ELEMENT"]
-        lines += ["{},S{}".format(*faces[frozenset(side[:3])]) for side in sides[group]]
+        lines += ["{},S{}".format(*faces[frozenset(side[: len(corners[0])])]) for side in sides[group]]
     lines += ["*MATERIAL,NAME=M", "*ELASTIC", f"{YOUNG},{POISSON}", "*SOLID SECTION,ELSET=ALL,MATERIAL=M"]
+    lines += [] if space else ["1."]
     lines += ["*SURFACE INTERACTION,NAME=I", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:g}"]
+    lines += [] if space else ["*FRICTION", f"{FRICTION},{stick:g}"]
     lines += ["*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE", "Sflat,Sround"]
-    lines += ["*STEP,INC=1000", "*STATIC", "1.,1.", "*BOUNDARY", "clamped,1,3", "xs,1,1", "ys,2,2"]
-    lines += ["pushed,1,2", f"pushed,3,3,{-PRESS:g}"]
-    lines += ["*NODE PRINT,NSET=pushed,TOTALS=ONLY", "RF", "*CONTACT FILE", "CDIS,CSTR", "*END STEP"]
+    output = ["*NODE PRINT,NSET=pushed,TOTALS=ONLY", "RF", "*CONTACT FILE", "CDIS,CSTR"]
+    if space:
+        lines += ["*STEP,INC=1000", "*STATIC", "1.,1.", "*BOUNDARY", "clamped,1,3", "xs,1,1", "ys,2,2"]
+        lines += ["pushed,1,2", f"pushed,3,3,{-PRESS:g}", *output, "*END STEP"]
+    for x, start in () if space else ((0, 1.0), (DRAG, 0.25)):
+        lines += ["*STEP,INC=1000", "*STATIC", f"{start:g},1.", "*BOUNDARY"]
+        lines += [] if x else ["clamped,1,2", "pushed,1,1", "*BOUNDARY"]
+        lines += [f"pushed,1,1,{x:g}", f"pushed,2,2,{-PRESS:g}", *output, "*NODE FILE,NSET=flat", "U", "*END STEP"]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -233,10 +208,7 @@ def package(folder: Path, mesh: Path, space: bool) -> dict:
 
 def calculix(folder: Path, mesh: Path, stiffness: float, stick: float, space: bool) -> dict:
     place, sides, elements = mesh_of(mesh, 9 if space else 8)
-    if space:
-        deck_in_space(folder / "a.inp", place, sides, elements, stiffness)
-    else:
-        deck(folder / "a.inp", place, sides, elements, stiffness, stick)
+    deck(folder / "a.inp", place, sides, elements, stiffness, stick, space)
     seconds, code, said = timed(["ccx", "-i", "a"], folder)
     count = len(re.findall(r"^ iteration +\d+", said, re.M))
     if code or "Job finished" not in said:

@@ -96,9 +96,10 @@ def script_of(scene: str, method: str | None = None) -> str:
     return "edp/main.edp" if scene == "disc-on-block" else f"edp/scenes/{scene}.edp"
 
 
-def has_ipopt(root: Path = ROOT) -> bool:
-    """Whether this version of the package has the method ipopt."""
-    return (root / script_of("disc-on-block", "ipopt")).exists()
+def flags_of(row: dict[str, str]) -> dict[str, str]:
+    """The flags of a row's run, as they were given."""
+    texts = row["flags"].split()
+    return dict(zip(texts[::2], texts[1::2], strict=True))
 
 
 def flag_text(value: object) -> str:
@@ -121,19 +122,10 @@ def sources_digest(root: Path) -> str:
 
 
 def source_files(root: Path) -> list[Path]:
-    found = [
-        *root.glob("edp/**/*.edp"),
-        *root.glob("edp/**/*.idp"),
-        *root.glob("edp/**/*.sh"),
-        *root.glob("edp/**/*.awk"),
-        *root.glob("meshes/*.awk"),
-        *root.glob("edp/**/*.txt"),
-        *root.glob("edp/**/*.cpp"),
-        *root.glob("edp/examples/**/*.geo"),
-        *root.glob("edp/examples/**/*.case"),
-        *root.glob("meshes/*.geo"),
-        *(path for kind in ("py", "geo", "case") for path in root.glob(f"*.{kind}")),  # of a copy: what is added
-    ]
+    below = [f"edp/**/*.{kind}" for kind in "edp idp sh awk txt cpp".split()]
+    below += ["edp/examples/**/*.geo", "edp/examples/**/*.case", "meshes/*.geo", "meshes/*.awk"]
+    below += ["*.py", "*.geo", "*.case"]  # of a copy: what is added
+    found = {path for pattern in below for path in root.glob(pattern)}
     return sorted(path for path in found if path.is_file())
 
 
@@ -228,15 +220,8 @@ class Processes:
             with self.lock:
                 if self.stopping:
                     raise Interrupted
-                process = subprocess.Popen(
-                    command,
-                    cwd=cwd,
-                    env=environment,
-                    stdin=subprocess.DEVNULL,
-                    stdout=printed,
-                    stderr=subprocess.STDOUT,
-                    start_new_session=True,
-                )
+                to = {"stdin": subprocess.DEVNULL, "stdout": printed, "stderr": subprocess.STDOUT}
+                process = subprocess.Popen(command, cwd=cwd, env=environment, start_new_session=True, **to)
                 self.active.add(process.pid)
 
             def end():
@@ -284,11 +269,7 @@ Measure = Callable[[Case, dict, Path], dict]  # further columns of a run that ha
 
 
 def run_case(
-    item: Case,
-    sources: Path,
-    processes: Processes,
-    measure: Measure | None = None,
-    freefem: Iterable[str] = FREEFEM,
+    item: Case, sources: Path, processes: Processes, measure: Measure | None = None, freefem: Iterable[str] = FREEFEM
 ) -> dict:
     """The case's row, without the columns that are those of the whole campaign."""
     outcomes: list[Outcome] = []
@@ -414,44 +395,26 @@ def key_of(row: dict) -> tuple[str, str, str]:
 
 
 class Progress:
-    """A bar with the time left on a terminal; elsewhere a line now and then."""
+    """Now and then a line with the time left."""
 
-    WIDTH = 28
-    PAUSE = 20.0  # seconds between two lines where there is no terminal
+    PAUSE = 20.0  # seconds between two lines
 
-    def __init__(self, title: str, total: float, count: int, stream=None):
+    def __init__(self, title: str, total: float, count: int):
         self.title, self.total, self.count = title, max(total, 1e-9), count
-        self.stream = stream or sys.stderr
-        self.begin = time.monotonic()
-        self.last = self.begin
-        self.spent = 0.0
-        self.runs = 0
-        self.failures = 0
+        self.begin = self.last = time.monotonic()
+        self.spent, self.runs, self.failures = 0.0, 0, 0
 
     def step(self, weight: float, good: bool) -> None:
         self.spent += weight
         self.runs += 1
         self.failures += not good
         now = time.monotonic()
-        if self.stream.isatty():
-            self.stream.write(f"\r{self.line(now)}\x1b[K")
-        elif now - self.last > self.PAUSE or self.runs == self.count:
-            self.stream.write(f"{self.line(now)}\n")
+        if now - self.last > self.PAUSE or self.runs == self.count:
+            share = min(self.spent / self.total, 1.0)
+            left = clock((now - self.begin) * (1 - share) / max(share, 1e-9))
+            lost = f", {self.failures} not converged" if self.failures else ""
+            print(f"{self.title} {self.runs}/{self.count}, {left} left{lost}", file=sys.stderr, flush=True)
             self.last = now
-        self.stream.flush()
-
-    def line(self, now: float) -> str:
-        share = min(self.spent / self.total, 1.0)
-        filled = round(share * self.WIDTH)
-        bar = "#" * filled + "." * (self.WIDTH - filled)
-        left = (now - self.begin) * (1 - share) / max(share, 1e-9)
-        text = f"{self.title} [{bar}] {self.runs}/{self.count}, {clock(left)} left"
-        return text + (f", {self.failures} not converged" if self.failures else "")
-
-    def close(self) -> None:
-        if self.stream.isatty():
-            self.stream.write("\n")
-            self.stream.flush()
 
 
 def clock(seconds: float) -> str:
@@ -489,7 +452,7 @@ def run(
             common = {"sources": digest, **machine()}
             progress = Progress(title or path.stem, sum(weight_of(item) for item in todo), len(todo))
             gauge = measure(sources, processes) if measure else None
-            with working(jobs, processes, progress) as pool:
+            with working(jobs, processes) as pool:
                 waiting = {pool.submit(run_case, item, sources, processes, gauge, freefem): item for item in todo}
                 while waiting:
                     ended, _ = wait(waiting, return_when=FIRST_COMPLETED)
@@ -507,7 +470,7 @@ def weight_of(item: Case) -> float:
 
 
 @contextlib.contextmanager
-def working(jobs, processes, progress):
+def working(jobs, processes, *_):
     """A pool of so many workers; what interrupts it ends their processes and what waits too."""
     with terminable(), ThreadPoolExecutor(jobs) as pool:
         try:
@@ -516,8 +479,6 @@ def working(jobs, processes, progress):
             processes.stop()
             pool.shutdown(cancel_futures=True)
             raise
-        finally:
-            progress.close()
 
 
 @contextlib.contextmanager

@@ -19,7 +19,7 @@ import campaign
 import numpy as np
 import reference
 from bench import FOLDER, cheapest, contact_seconds, element, ends
-from campaign import case, decade, markdown, value
+from campaign import case, decade, flags_of, markdown, value
 
 PEER, BODIES = "ngsolve_contact.py", "ngsolve_bodies.py"  # the other code: rigid obstacles, two bodies
 PYTHON = (campaign.CACHE / "venv-peers" if campaign.CACHE else campaign.ROOT / ".venv-peers") / "bin" / "python"
@@ -255,7 +255,7 @@ def seconds(row: dict[str, str]) -> float:
 
 def problem_of(row: dict[str, str]) -> tuple[str, float, float]:
     """Scene, kappa and m of a run; also of one that has failed."""
-    found = dict(zip(row["flags"].split()[::2], row["flags"].split()[1::2], strict=True))
+    found = flags_of(row)
     if "-case" in found:
         kappa, m = found["-case"][4:-5].split("-")
         return PIN, float(kappa), float(m)
@@ -331,8 +331,7 @@ def failed_table(rows: list[dict[str, str]]) -> str:
 
 def value_of(row: dict[str, str], flag: str) -> str:
     """A flag of a run, as it was given; of the pin's size the number in its file's name."""
-    words = row["flags"].split()
-    found = dict(zip(words[::2], words[1::2], strict=True))
+    found = flags_of(row)
     return found["-mesh"][4:-4] if flag == "h" and "-case" in found else found[f"-{flag}"]
 
 
@@ -344,17 +343,8 @@ def fate(row: dict[str, str]) -> str:
 
 
 def report(rows: list[dict[str, str]]) -> str:
-    """The cheapest run of each code to each error in force, problem by problem; then what failed."""
-    short = table(rows)
-    failed = failed_table(rows)
-    lines = []
-    for which, group in by_problem(medians(rows)):
-        for error in ERRORS:
-            pair = [best(group, error, peer) for peer in (False, True)]
-            if any(pair):
-                lines.append([problem_words(which), decade(error), *map(words, pair)])
-    header = ["kappa, m", "error in force", "package: s (mesh s), dofs, linearisations", "NGSolve: the same"]
-    return "\n\n".join([markdown(header, lines), short, other_tables(rows), failed])
+    """The cheapest runs of each code to each error, problem by problem; then what failed."""
+    return "\n\n".join([table(rows), other_tables(rows), failed_table(rows)])
 
 
 def failure(row: dict) -> bool:
@@ -364,14 +354,6 @@ def failure(row: dict) -> bool:
 def best(rows: list[dict], error: float, peer: bool, column: str = "forceError") -> dict | None:
     """The cheapest run of one code to this error."""
     return cheapest([row for row in rows if theirs(row) == peer], error, lambda row: row["seconds"], column)
-
-
-def words(row: dict | None) -> str:
-    """A run's seconds, size and linearisations, its element and mesh; "-" where there is none."""
-    if row is None:
-        return "-"
-    steps = int(row["newton"]) + (int(row["kernelNewton"] or 0) if theirs(row) else 0)
-    return f"{row['seconds']:.3f} ({row['mesh']:.2f}), {row['ndof']}, {steps}: {element(row)}, h = {row['h']}"
 
 
 def main(argv: list[str] | None = None) -> int:

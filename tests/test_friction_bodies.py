@@ -1,0 +1,203 @@
+"""Friction between own parts, where few loads or slender bodies decide: press fits, parts on mirrors, belts."""
+
+from math import pi
+
+import pytest
+from freefem import ROOT, run_in, table
+from test_friction import case
+from test_paraview import Grid
+
+FIT = """
+SetFactory("OpenCASCADE");
+radius() = {3, 8, 8, 12};
+For k In {0 : 3}
+  Circle(k + 1) = {0, 0, 0, radius(k)};
+  Curve Loop(k + 1) = {k + 1};
+EndFor
+Plane Surface(1) = {2, 1};
+Plane Surface(2) = {4, 3};
+Physical Surface("shaft") = {1};
+Physical Surface("hub") = {2};
+Physical Curve("bore") = {1};
+Physical Curve("seat") = {2};
+Physical Curve("hole") = {3};
+Physical Curve("rim") = {4};
+MeshSize{:} = 2;
+MeshSize{3} = 1.4;
+"""
+FITTED = """state stress
+body shaft E 200e3 nu 0.3
+body hub E 100e3 nu 0.3
+contact hole seat interference 0.01 friction 0.2
+clamp bore
+"""
+SLEEVE = """
+For k In {0 : 1}
+  inner = k ? 4 : 1;
+  outer = k ? 6 : 4;
+  Point(4 * k + 1) = {inner, k, 0, 0.8};
+  Point(4 * k + 2) = {outer, k, 0, 0.8};
+  Point(4 * k + 3) = {outer, 6 - k, 0, 0.6};
+  Point(4 * k + 4) = {inner, 6 - k, 0, 0.6};
+  For l In {1 : 4}
+    Line(4 * k + l) = {4 * k + l, 4 * k + l % 4 + 1};
+  EndFor
+  Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
+  Plane Surface(k + 1) = {k + 1};
+EndFor
+Physical Surface("shaft") = {1};
+Physical Surface("hub") = {2};
+Physical Curve("foot") = {1};
+Physical Curve("seat") = {2};
+Physical Curve("hole") = {8};
+Physical Curve("rim") = {6};
+"""
+SLEEVED = """state axisymmetric
+body shaft E 200e3 nu 0.3
+body hub E 100e3 nu 0.3
+contact hole seat interference 0.01 friction 0.2
+clamp foot
+"""
+SPACE_FIT = """
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 6, 4};
+Cylinder(2) = {0, 0, 1, 0, 0, 4, 6};
+Cylinder(3) = {0, 0, 1, 0, 0, 4, 4};
+BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+Physical Volume("shaft") = {1};
+Physical Volume("hub") = {4};
+Mesh.MeshSizeMax = 3;
+"""
+SPACE_FITTED = """group hole between hub shaft
+group seat between shaft hub
+group foot plane 0 0 0 0 0 1
+body shaft E 200e3 nu 0.3
+body hub E 100e3 nu 0.3
+contact hole seat interference 0.01 friction 0.2
+clamp foot
+"""
+
+
+def test_press_fit_without_other_loads(tmp_path):
+    """Lamé's pressure of two rings, the inner one's bore held; nothing but friction holds the outer one's rotation."""
+    fit = case(tmp_path, FIT, FITTED)
+    inner, seat, outer = 3, 8, 12
+    ring = 1.3 + 0.7 * (inner / seat) ** 2
+    soft = seat * 0.91 * (1 - (inner / seat) ** 2) / ring / 200e3
+    soft += seat * ((outer**2 + seat**2) / (outer**2 - seat**2) + 0.3) / 100e3
+    assert fit.summary["contacts"][0]["normalForce"] == pytest.approx(2 * pi * seat * 0.01 / soft, rel=1e-4)
+    assert fit.summary["newton"] <= 6
+
+
+def test_light_load_on_a_tight_fit(tmp_path):
+    """A load of 4e-7 of the normal force is borne to -tol of itself."""
+    fit = case(tmp_path, FIT, FITTED + "traction rim 1e-5 0\n")
+    pulled = 1e-5 * 2 * pi * 12
+    assert fit.summary["supports"][0]["force"] == pytest.approx([-pulled, 0], abs=1e-5 * pulled)
+
+
+def test_press_fit_in_space(tmp_path):
+    fit = case(tmp_path, SPACE_FIT, SPACE_FITTED, "-order", 1, space=True)
+    assert fit.summary["newton"] <= 12 and fit.summary["contacts"][0]["stickShare"] > 0.5
+
+
+def test_steps_that_run_out_are_no_lack_of_equilibrium(tmp_path):
+    fit = case(tmp_path, FIT, FITTED, "-maxNewton", 1, expect=20)
+    assert "stands at residual" in fit.message
+
+
+@pytest.mark.parametrize("pull, code", [(8, 0), (11, 20)])
+def test_sleeve_pulled_off(tmp_path, pull, code):
+    """Along its axis: up to the friction of the fit it holds; beyond, the reason names the load."""
+    fit = case(tmp_path, SLEEVE, SLEEVED + f"traction rim 0 {pull}\n", expect=code)
+    assert code == 0 or "no equilibrium: friction and contact bear 9" in fit.message
+    assert code == 0 or "(traction rim)" in fit.message
+
+
+# ---------------------------------------------------------------- symmetry planes
+
+QUARTER = """
+Point(1) = {0, -20, 0, 8};
+Point(2) = {20, -20, 0, 8};
+Point(3) = {20, 0, 0, 4};
+Point(4) = {0, 0, 0, 0.3};
+Point(5) = {0, 10, 0, 4};
+Point(6) = {10, 10, 0, 4};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Point(7) = {0, 0, 0, 0.22};
+Circle(5) = {7, 5, 6};
+Line(6) = {6, 5};
+Line(7) = {5, 7};
+Curve Loop(2) = {5 : 7};
+Plane Surface(2) = {2};
+Physical Surface("block") = {1};
+Physical Surface("disc") = {2};
+Physical Curve("base") = {1};
+Physical Curve("top") = {3};
+Physical Curve("middle") = {4, 7};
+Physical Curve("round") = {5};
+Physical Curve("load") = {6};
+"""
+PRESSED = """body block E 70e3 nu 0.3
+body disc E 210e3 nu 0.3
+contact top round friction 0.1
+symmetry middle
+clamp base
+force load 0 -1000
+"""
+
+
+def test_mirrored_point_has_no_friction(tmp_path):
+    """Half of a cylinder on half of a block, meshes that do not match: where the plane cuts them nothing slides."""
+    half = case(tmp_path, QUARTER, PRESSED, "-estimate", 1)
+    contact = half.summary["contacts"][0]
+    assert contact["mesh"]["shearForce"]["error"] < 0.05 * abs(contact["shearForce"][0])
+    rows = table(half.folder / "contact.csv")
+    first = abs(rows["x"]).argmin()
+    assert abs(rows["x"][first]) < 1e-9 and rows["shear"][first] == 0 and rows["slip"][first] == 0
+
+
+def test_greatest_pressures_of_two_meshes(tmp_path):
+    """Neither's error excludes the other: a load's way moves pressures by what a unit of the load does."""
+    found = []
+    for k, share in enumerate((6, 12)):
+        (tmp_path / str(k)).mkdir()
+        mesh = QUARTER.replace("0.3}", f"{0.3 / share}}}").replace("0.22}", f"{0.22 / share}}}")
+        summary = case(tmp_path / str(k), mesh, PRESSED, "-estimate", 1).summary
+        found.append((summary["pressureMax"], summary["estimates"]["pressureMax"]["error"]))
+    (one, first), (other, second) = found
+    assert abs(one - other) < first + second < 0.02 * one
+
+
+# ---------------------------------------------------------------- the files of P3 in space
+
+BOX = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Volume("box") = {1};
+"""
+RUBBED = """group foot plane 0 0 0 0 0 1
+group head plane 0 0 1 0 0 1
+size box 1
+body box E 1000 nu 0.3
+obstacle foot plane 0 0 0 0 0 1 friction 0.3
+move head 0.004 0.002 -0.01
+"""
+
+
+def test_all_fields_of_a_contact(tmp_path):
+    """P3 in space with friction and estimates: contact.vtu has what each of them adds, under its own name."""
+    (tmp_path / "box.geo").write_text(BOX)
+    (tmp_path / "box.case").write_text(RUBBED)
+    words = "-mesh", tmp_path / "box.geo", "-case", tmp_path / "box.case", "-order", 3
+    rubbed = run_in(ROOT, "edp/parts-3d.edp", *words, out=tmp_path / "out")
+    found, rows = Grid(rubbed.folder / "contact.vtu").at_points, table(rubbed.folder / "contact.csv")
+    for name in ("shearX", "shearY", "shearZ", "slipX", "slipY", "slipZ", "slide", "status", "pressure"):
+        (field,) = [field for field in found if field.lower().startswith(("contact" + name, name.lower()))]
+        assert found[field][: len(rows[name])] == pytest.approx(rows[name], rel=1e-8, abs=1e-12), name
+    assert abs(rows["slide"]).max() == 2 and found["recoveredPressure[pressure]"].max() > 0
