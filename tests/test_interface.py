@@ -6,6 +6,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import time
 
 import pytest
 from freefem import FREEFEM, ROOT, being_written, environment, execute, files, listing, run_in, script, tree
@@ -274,6 +275,48 @@ def test_same_shape_same_mesh(package):
 # ---------------------------------------------------------------- whole or not at all
 
 
+def no_room_beyond(limit):
+    """A preexec_fn: a limit on a file's size stands for a full disk: writing beyond it fails."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+
+@pytest.mark.parametrize("words", [["-mesh", "{0}.geo", "-case", "{0}.case"], ["-mesh", "{0}.geo"], None])
+def test_no_room_for_a_mesh(words, tmp_path):
+    """Where there is no room for a mesh or its copy a run shall say so, with code 30, and blame no mesh."""
+    folder = tmp_path / "tmp"
+    folder.mkdir()
+    start = ["edp/parts.edp", *words] if words else ["edp/main.edp", "-h", "0.5"]
+    start += ["-check", "1"] if words else []
+    env = environment(TMPDIR=str(folder), **({} if words else {"CONTACT_CACHE": str(folder)}))
+    done = subprocess.run(
+        [*FREEFEM, *(word.format("edp/examples/punch/punch") for word in start), "-out", str(tmp_path / "out")],
+        cwd=tree(tmp_path / "package"),
+        env=env,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: no_room_beyond(500),
+        timeout=100,
+    )
+    assert done.returncode == 30, done.stdout
+    assert done.stdout.splitlines()[-1].startswith("out of disk: "), done.stdout
+    assert "tmp" in done.stdout.splitlines()[-1] and "-mesh" not in done.stdout
+    assert not (tmp_path / "out").exists() and list(folder.rglob("*.msh")) == []
+
+
+@pytest.mark.parametrize("flags", [[], ["-history", "1", "-steps", "2"]])
+def test_folder_moved_during_a_run(flags, tmp_path):
+    """A run whose results' folder is taken away shall end with one line and code 30."""
+    command = [*FREEFEM, script(DISC), "-order", "2", "-h", "0.1", *flags, "-out", tmp_path / "out"]
+    with subprocess.Popen(command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, text=True) as running:
+        while not (tmp_path / "out/.run/.written").exists() and running.poll() is None:
+            time.sleep(0.01)
+        (tmp_path / "out").rename(tmp_path / "other")
+        said = running.communicate(timeout=100)[0]
+    assert running.returncode == 30 and "could not be written whole" in said.splitlines()[-1], said
+    assert files(tmp_path / "other") == [] and not (tmp_path / "out").exists()
+
+
 @pytest.mark.parametrize(
     "limit, flags",
     [
@@ -288,15 +331,7 @@ def test_same_shape_same_mesh(package):
     ],
 )
 def test_disk_full(tmp_path, limit, flags):
-    """When files cannot be written to their end, the run shall fail, say so, and keep none of them.
-
-    The limit on a file's size stands for a full disk: writing beyond it fails.
-    """
-
-    def no_room():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-
+    """When files cannot be written to their end, the run shall fail, say so, and keep none of them."""
     out = tmp_path / "out"
     done = subprocess.run(
         [*FREEFEM, script(BLOCK), "-method", "newton", "-h", "1", "-estimate", "0", "-out", str(out), *flags],
@@ -305,7 +340,7 @@ def test_disk_full(tmp_path, limit, flags):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        preexec_fn=no_room,
+        preexec_fn=lambda: no_room_beyond(limit),
         timeout=100,
     )
     assert done.returncode not in (0, 10, 20), done.stdout

@@ -71,9 +71,7 @@ def rings(order=1, sides=8):
     hub, outside = sketch.oval(0, 0, 20, 20, 2, 64), sketch.oval(0, 0, 30, 30, 24, sides)
     sketch.body("inner", shaft, bore)
     sketch.body("outer", outside, hub)
-    sketch.group("shaft", shaft)
-    sketch.group("hub", hub)
-    return sketch.text()
+    return sketch.named(shaft=shaft, hub=hub)
 
 
 @pytest.fixture(scope="module")
@@ -106,8 +104,7 @@ def disc():
     sketch = Sketch(Draw())
     rim = sketch.oval(0, 0, 1, 1, 0.5, bottom=0.12)
     sketch.body("disc", rim)
-    sketch.group("rim", [rim[0], rim[3]])
-    return sketch.text()
+    return sketch.named(rim=[rim[0], rim[3]])
 
 
 def test_weight(go):
@@ -256,9 +253,7 @@ def cam(a, b, angle):
     rim = [sketch.curve("Ellipse", ends[k], centre, ends[0], ends[(k + 1) % 4]) for k in range(4)]
     shaft = sketch.oval(0, 0, 2, 2, 0.6)
     sketch.body("cam", rim, shaft)
-    sketch.group("rim", rim)
-    sketch.group("shaft", shaft)
-    return sketch.text()
+    return sketch.named(rim=rim, shaft=shaft)
 
 
 @pytest.mark.parametrize(
@@ -303,9 +298,7 @@ def hip(size=0.5):
     low, side = sketch.curve("Line", ends[2][0], ends[1][0]), sketch.curve("Line", ends[1][1], ends[2][1])
     sketch.body("head", [axis, arcs[0], top])
     sketch.body("cup", [low, arcs[1], side, -arcs[2]])
-    for name, curve in (("head-surface", arcs[0]), ("grip", top), ("cup-bore", arcs[1]), ("shell", arcs[2])):
-        sketch.group(name, [curve])
-    return sketch.text()
+    return sketch.named(head_surface=[arcs[0]], grip=[top], cup_bore=[arcs[1]], shell=[arcs[2]])
 
 
 @pytest.fixture(scope="module")
@@ -332,9 +325,7 @@ def nose(slave, master, load=0.08):
     head = sketch.curve("Line", knots[4], knots[0])
     sketch.body("low", low)
     sketch.body("up", [*arcs, head])
-    for name, curves in (("base", [low[0]]), ("floor", [low[2], low[3]]), ("nose", arcs), ("head", [head])):
-        sketch.group(name, curves)
-    return sketch.text()
+    return sketch.named(base=[low[0]], floor=[low[2], low[3]], nose=arcs, head=[head])
 
 
 def nose_case(pair, stiff=1.0):
@@ -635,9 +626,7 @@ def blocks(size):
     up, _ = sketch.outline([(-1, 0, size), (1, 0, size), (1, 1, size), (-1, 1, size)])
     sketch.body("low", low)
     sketch.body("up", up)
-    for name, curve in (("base", low[0]), ("floor", low[2]), ("sole", up[0]), ("head", up[2])):
-        sketch.group(name, [curve])
-    return sketch.text()
+    return sketch.named(base=[low[0]], floor=[low[2]], sole=[up[0]], head=[up[2]])
 
 
 def test_nearly_incompressible(go):
