@@ -2,8 +2,8 @@
 
 Statements that the short runs of SCENES and PARTS execute are drawn by a seed, and one thing in each is changed: a
 sign, a factor, a term left out, an index, a comparison, an earlier stop. It is no mutant if FreeFEM does not read it,
-or if no result of these runs differs by more than TOLERANCE of its scale; what moves counts alone is kept apart. On the
-others the default tests run that execute the statement, quick ones first, until one fails. Which those are is found
+or if no result of these runs differs by more than TOLERANCE of its scale; what moves only counts or words is kept apart. On
+the others the default tests run that execute the statement, quick ones first, until one fails. Which those are is found
 once, in a copy with marks (executed.py); a test that fails in it falls on any change of a source, and is left out.
 A row each in results/mutants/mutants.csv, where the campaign goes on; `again` repeats those that survived; FOLDER/:
 only statements below edp/FOLDER/. Not drawn: programs in sh and awk, labs, plugins. JOBS: how many at a time, 2.
@@ -31,8 +31,9 @@ COLUMNS = "number file line kind old new state by seconds sources".split()
 JOBS = int(os.environ.get("JOBS", "2"))
 SEED = 37
 TOLERANCE = 1e-7
-COUNTS = re.compile(
-    r"\.(adaptations|newton\w*|factorisations|backsolves|iterations|kernelNewton|estimates\.backsolves|used|rounds)\b"
+NO_RESULT = re.compile(  # counts, and words
+    r"\.(adaptations|newton\w*|factorisations|backsolves|iterations|kernelNewton|estimates\.backsolves|used|rounds|"
+    r"warnings|message|notEstimated|estimates\.(refine|wasted|worst))\b"
 )
 AT_ONCE = 6  # test files whose statements are found in one go
 TEST_SECONDS = 1500  # of a mutant's tests: what takes longer stays open
@@ -310,10 +311,10 @@ def judge(tree: Tree, number: int, pool: list, runs: dict[str, list[str]], known
         if re.search("Compile error|Error line number", text):
             state, by = "unread", ""
             break
-        if any(not COUNTS.match(one) for one in moved):
+        if any(not NO_RESULT.match(one) for one in moved):
             state, by = "survived", name
             break
-        state = "counts" if moved else state
+        state = "no result" if moved else state
     if state == "survived":
         tests = [test for test, (_, numbers) in of_tests.items() if marks & set(numbers)]
         outcomes = tree.test(tests, sorted({test.split("::")[0] for test in tests})) if tests else []
