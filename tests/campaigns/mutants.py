@@ -2,11 +2,12 @@
 
 Statements that the short runs of SCENES and PARTS execute are drawn by a seed, and one thing in each is changed: a
 sign, a factor, a term left out, an index, a comparison, an earlier stop. It is no mutant if FreeFEM does not read it,
-or if no result of these runs differs by more than TOLERANCE of its scale; what moves only counts or words is kept apart. On
-the others the default tests run that execute the statement, quick ones first, until one fails. Which those are is found
-once, in a copy with marks (executed.py); a test that fails in it falls on any change of a source, and is left out.
-A row each in results/mutants/mutants.csv, where the campaign goes on; `again` repeats those that survived; FOLDER/:
-only statements below edp/FOLDER/. Not drawn: programs in sh and awk, labs, plugins. JOBS: how many at a time, 2.
+or if no result of these runs differs by more than TOLERANCE of its scale; what moves only counts or words is kept
+apart. On the others the default tests run that execute the statement, quick ones first, until one fails. Which those
+are is found once, in a copy with marks (executed.py); a test that fails in it falls on any change of a source: left out.
+A row each in results/mutants/, in a file for these sources, where the campaign goes on; `again` repeats those that
+survived; FOLDER/: only statements below edp/FOLDER/, in a file of its own. Not drawn: programs in sh and awk, labs,
+plugins. JOBS: how many at a time, 2.
 """
 
 import csv
@@ -27,7 +28,7 @@ from campaign import FREEFEM, RESULTS_FOLDER, ROOT, script_of, sources_digest
 from executed import STRING, copy_tree, instrument, marking, programs, take_marks
 
 FOLDER = RESULTS_FOLDER / "mutants"
-COLUMNS = "number file line kind old new state by seconds sources".split()
+COLUMNS = "number file line kind old new state by seconds".split()
 JOBS = int(os.environ.get("JOBS", "2"))
 SEED = 37
 TOLERANCE = 1e-7
@@ -323,7 +324,7 @@ def judge(tree: Tree, number: int, pool: list, runs: dict[str, list[str]], known
         by = failed[0] if failed else by
     path.write_text("\n".join(lines))
     row = {"number": number, "file": file, "line": line, "kind": kind, "old": old.strip(), "new": new.strip()}
-    return row | {"state": state, "by": by, "seconds": round(time.time() - began), "sources": sources_digest(ROOT)}
+    return row | {"state": state, "by": by, "seconds": round(time.time() - began)}
 
 
 def main(words: list[str]) -> int:
@@ -334,7 +335,7 @@ def main(words: list[str]) -> int:
     known = executed(runs)
     pool = [known[0][k] for k in sorted(set().union(*known[1].values()))]
     pool = [one for one in pool if one[0].startswith(below)]
-    path = FOLDER / "mutants.csv"
+    path = FOLDER / f"{'-'.join([sources_digest(ROOT), *below]).replace('/', '-').strip('-')}.csv"
     rows = list(csv.DictReader(path.open())) if path.exists() else []
     rows = [row for row in rows if "again" not in words or row["state"] not in ("survived", "open")]
     taken = {int(row["number"]) for row in rows}
@@ -354,7 +355,10 @@ def main(words: list[str]) -> int:
                 writer = csv.DictWriter(file, COLUMNS)
                 writer.writeheader()
                 writer.writerows(rows)
-    print(", ".join(f"{count} {state}" for state, count in sorted(Counter(row["state"] for row in rows).items())))
+    print(
+        f"{path}:",
+        ", ".join(f"{count} {state}" for state, count in sorted(Counter(row["state"] for row in rows).items())),
+    )
     for row in rows:
         if row["state"] in ("survived", "open"):
             print("{state}: edp/{file}:{line} ({kind})\n  - {old}\n  + {new}".format(**row))
