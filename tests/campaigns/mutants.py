@@ -4,7 +4,7 @@ Statements that the short runs of SCENES and PARTS execute are drawn by a seed, 
 sign, a factor, a term left out, an index, a comparison, an earlier stop. It is no mutant if FreeFEM does not read it,
 or if no result of these runs differs by more than TOLERANCE of its scale; what moves only counts or words is kept
 apart. On the others the default tests run that execute the statement, quick ones first, until one fails. Which those
-are is found once, in a copy with marks (executed.py); a test that fails in it falls on any change of a source: left out.
+are is found once, in a copy with marks (executed.py): a test that fails in it falls on any change of a source.
 A row each in results/mutants/, in a file for these sources, where the campaign goes on; `again` repeats those that
 survived; FOLDER/: only statements below edp/FOLDER/, in a file of its own. Not drawn: programs in sh and awk, labs,
 plugins. JOBS: how many at a time, 2.
@@ -109,7 +109,7 @@ CHANGES = [  # kind, pattern, what stands in its place
     ("sign", r"(?<=[=,?:] )-(?=\w)|(?<=[(\[])-(?=\w)|(?<=return )-", lambda m: ""),
     ("factor", r" ([*/]) (?=[\w(])", lambda m: f" {m[1]} 2 {m[1]} "),
     ("factor", r"(?<![=!<>]) ([+-]?=) (?!0\b)([^=;{}]+);", lambda m: f" {m[1]} 2 * ({m[2]});"),
-    ("factor", r"\breturn ([^;?{}]+);", lambda m: f"return 2 * ({m[1]});"),
+    ("factor", r"\breturn (?!0;)([^;?{}]+);", lambda m: f"return 2 * ({m[1]});"),
     ("term", rf" [+-] {WORD}(?:(?: [*/] |\^){WORD})*", lambda m: ""),
     ("term", rf" \* {WORD}", lambda m: ""),
     ("term", rf"(?:^|(?<=\) ))[ ]*{WORD} [+*-]= [^;=]+;", lambda m: ";"),
