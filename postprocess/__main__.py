@@ -8,7 +8,7 @@ import os
 import sys
 
 from postprocess import commands
-from postprocess.results import ResultsError
+from postprocess.results import ResultsError, brief
 
 
 def parser() -> argparse.ArgumentParser:
@@ -39,13 +39,19 @@ def main(argv: list[str] | None = None) -> int:
         arguments.run(arguments)
         sys.stdout.flush()
     except ResultsError as error:
-        print(f"postprocess: {error}", file=sys.stderr)
+        print(f"postprocess: {brief(str(error), 2000)}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # the reader of the output has had enough: `show RUN | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
     except KeyboardInterrupt:
         return 130
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, OSError) as error:
+        if sys.flags.dev_mode:  # python -X dev -m postprocess: where it was
+            raise
+        what = f"{type(error).__name__}: {brief(str(error), 200)}"
+        print(f"postprocess: a file does not fit the others, or is not this version's ({what})", file=sys.stderr)
+        return 2
     return 0
 
 

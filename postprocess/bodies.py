@@ -16,7 +16,7 @@ from matplotlib.tri import Triangulation
 
 from postprocess import style
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, brief, read_run, read_table
+from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
 from postprocess.vtu import Grid, Surface, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
@@ -123,8 +123,7 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     """The bodies of a run with its files for ParaView; older runs, whose tables say less, have one contact, upwards."""
     path = run.path / "contact.csv"
     grid, surface = read_grid(run.path / "solution.vtu"), read_surface(run.path / "contact.vtu")
-    with path.open(encoding="utf-8") as file:
-        names = file.readline().strip().split(",")
+    names = column_names(path)
     optional = "z normalX normalY normalZ contact along chain shear shearX shearY shearZ slide".split()
     optional = [name for name in optional if name in names]
     table = read_table(path, ["x", "y", "weight", "overlap", "pressure", *optional])

@@ -364,11 +364,20 @@ def check_file(path: Path, hint: str = "") -> None:
         raise ResultsError(path, f"is too large: {size / 1e6:.0f} MB, at most {SIZE_LIMIT / 1e6:.0f} MB are read")
 
 
+def column_names(path: Path) -> list[str]:
+    """The words of a table's first line."""
+    check_file(path)
+    try:
+        with path.open(encoding="utf-8", errors="replace") as file:
+            return file.readline().strip().split(",")
+    except OSError as error:
+        raise ResultsError(path, reason(error)) from None
+
+
 def refuse_space(path: Path) -> None:
     """Refuses a table whose points have a third coordinate; for a file that read_table has taken."""
-    with path.open(encoding="utf-8") as file:
-        if "z" in file.readline().strip().split(","):
-            raise ResultsError(path, "is of a run in space, which is not drawn here; open states.pvd in ParaView")
+    if "z" in column_names(path):
+        raise ResultsError(path, "is of a run in space, which is not drawn here; open states.pvd in ParaView")
 
 
 def check_count(path: Path, what: str, found: int, expected: int) -> None:

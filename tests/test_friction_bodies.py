@@ -1,10 +1,13 @@
 """Friction between own parts, where few loads or slender bodies decide: press fits, parts on mirrors, belts."""
 
-from math import pi
+import re
+import sys
+from math import exp, pi
 
+import numpy as np
 import pytest
-from freefem import part, table
-from test_friction import case
+from freefem import execute, part, table
+from test_friction import case, series
 from test_paraview import Grid
 
 FIT = """
@@ -198,3 +201,59 @@ def test_all_fields_of_a_contact(tmp_path):
         (field,) = [field for field in found if field.lower().startswith(("contact" + name, name.lower()))]
         assert found[field][: len(rows[name])] == pytest.approx(rows[name], rel=1e-8, abs=1e-12), name
     assert abs(rows["slide"]).max() == 2 and found["recoveredPressure[pressure]"].max() > 0
+
+
+# ---------------------------------------------------------------- slender bodies
+
+BELT = """
+Point(1) = {0, 0, 0};
+For k In {0 : 1}
+  r = 10 + 0.2 * k;
+  Point(10 * k + 2) = {r, -2, 0};
+  Point(10 * k + 3) = {r, 0, 0};
+  Point(10 * k + 4) = {0, r, 0};
+  Point(10 * k + 5) = {-r, 0, 0};
+  Point(10 * k + 6) = {-r, -2, 0};
+  Line(10 * k + 2) = {10 * k + 2, 10 * k + 3};
+  Circle(10 * k + 3) = {10 * k + 3, 1, 10 * k + 4};
+  Circle(10 * k + 4) = {10 * k + 4, 1, 10 * k + 5};
+  Line(10 * k + 5) = {10 * k + 5, 10 * k + 6};
+EndFor
+Line(6) = {6, 16};
+Line(7) = {12, 2};
+Curve Loop(1) = {2 : 5, 6, -15, -14, -13, -12, 7};
+Plane Surface(1) = {1};
+Physical Surface("belt") = {1};
+Physical Curve("inner") = {3, 4};
+Physical Curve("slack") = {7};
+Physical Curve("tight") = {6};
+Mesh.MeshSizeMax = 0.9;
+"""
+BELTED = """body belt E 2000 nu 0.3
+obstacle inner circle 0 0 R 10 friction MU
+leg 1
+traction slack 0 -1
+move tight 0 -0.02
+leg 4
+move tight 0 -DOWN
+"""
+
+
+@pytest.mark.parametrize("friction, down", [(0.3, 0.3), pytest.param(0.1, 0.1, marks=pytest.mark.long)])
+def test_belt_over_half_a_turn(tmp_path, friction, down):
+    """It slips: the tensions' ratio is e^(mu pi), of a belt that is pulled in its middle and rubs at its inner side."""
+    text = BELTED.replace("MU", str(friction)).replace("DOWN", str(down))
+    belt = case(tmp_path, BELT, text)
+    assert np.diff(series(belt)["newton"], prepend=0).max() <= 15 and belt.summary["backsolves"] < 600
+    assert belt.summary["contacts"][0]["stickShare"] == 0
+    tight = -belt.summary["supports"][0]["force"][1]
+    assert tight == pytest.approx(0.2 * exp(friction * pi * 10 / 10.1), rel=0.01)
+
+
+def test_sample_of_the_campaign(tmp_path):
+    """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
+    kinds = "fit", "block", "wedge", "belt"
+    command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]
+    code, stdout = execute(command)
+    assert code == 0 and stdout.count(" 0 failed") == len(kinds), stdout
+    assert max(map(int, re.findall(r"newton: .*most (\d+)", stdout))) <= 12

@@ -275,6 +275,17 @@ def test_same_shape_same_mesh(package):
 # ---------------------------------------------------------------- whole or not at all
 
 
+@pytest.mark.parametrize("word", ["\033[31mbody", "a" * 30000], ids=["escape", "long"])
+def test_what_is_echoed(word, tmp_path):
+    """Codes that a terminal would obey shall not come back, and a word of any length be refused at once."""
+    (tmp_path / "a.case").write_text(f"{word} x\n")
+    punch = ["edp/parts.edp", "-mesh", "edp/examples/punch/punch.geo", "-case", str(tmp_path / "a.case")]
+    for words in (punch, [script(DISC), "-h", word[:3000]], [script(DISC), f"-{word[:3000]}", "1"]):
+        done = subprocess.run([*FREEFEM, *words], cwd=ROOT, stdout=subprocess.PIPE, timeout=20)
+        assert done.returncode == 10 and done.stdout.count(b"\n") == 1, done.stdout
+        assert b"\033" not in done.stdout and len(done.stdout) < 7000
+
+
 def no_room_beyond(limit):
     """A preexec_fn: a limit on a file's size stands for a full disk: writing beyond it fails."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

@@ -88,7 +88,7 @@ macro grown(field) field.resize(points);
 field = 0; //
 points = side * side;
 grown(pointX) grown(pointY) grown(pointZ) grown(normalX) grown(normalY) grown(normalZ)
-grown(weight) grown(overlapBefore) grown(immobile) grown(paired)
+grown(weight) grown(overlapBefore) grown(immobile) grown(paired) grown(contactOf)
 paired = 1; normalZ = 1; verticalGaps = true; mirrorX = true; mirrorY = true; copies = 4; patch = 6;
 contactLength = patch; weight = 4 * (patch / (side - 1.))^2;
 for (int i = 0; i < points; i++)

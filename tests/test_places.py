@@ -220,8 +220,8 @@ def test_python_of_the_system(tmp_path, version, code):
             (folder / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {number}\n")
     base = Path(sys.base_prefix) / "bin" / "python3"
     env = {**BARE, "PYTHONPATH": str(tmp_path)}
-    assert execute([base, "postprocess/doctor.py", "--can", "own"], env=env)[0] == code
-    assert execute([base, "postprocess/doctor.py", "--can", "none"], env=env)[0] == 1
+    assert execute([base, "-S", "postprocess/doctor.py", "--can", "own"], env=env)[0] == code
+    assert execute([base, "-S", "postprocess/doctor.py", "--can", "none"], env=env)[0] == 1
 
 
 def test_cleaning_leaves_what_is_not_ours(tmp_path):

@@ -11,6 +11,8 @@
 # The grammar is the table of usages below; words that stand for a number are looked at in number().
 function no(what) {
   if (!finishing) what = "line " (ahead ? ahead : FNR) ": " what
+  gsub(/[[:cntrl:]]/, " ", what)
+  if (length(what) > 3000) what = substr(what, 1, 100) " ... " substr(what, length(what) - 2800)
   print "-case " ENVIRON["CASE"] ", " what
   failed = 1
   exit 1
@@ -33,6 +35,7 @@ function distance(a, b,   i, j, d, cost) {
 }
 # of the words between "|", the one that was meant, if that can be guessed
 function meant(word, words,   list, n, k, off, least, found) {
+  if (length(word) > 40) return ""
   n = split(words, list, "|")
   least = 2 + int(length(word) / 4)
   for (k = 1; k <= n; k++) {

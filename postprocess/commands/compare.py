@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from postprocess import style
 from postprocess.commands.show import cell
 from postprocess.output import write_figure
-from postprocess.results import Run, is_number, read_run
+from postprocess.results import Run, column_names, is_number, read_run
 
 VALUES = (
     "force approach pressureMax overlapMax halfWidth energy residual modelError adaptations newton kernelNewton "
@@ -102,8 +102,7 @@ def profiles(first: Run, second: Run) -> list[list[str]]:
 
 def header(run: Run) -> list[str]:
     """The column names of contact.csv: with a z the points lie in a plane, not on a line."""
-    with (run.path / "contact.csv").open(encoding="utf-8") as file:
-        return file.readline(1000).strip().split(",")
+    return column_names(run.path / "contact.csv")
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:

@@ -6,14 +6,13 @@ beside it.
 """
 
 import argparse
-import csv
 
 from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.bodies import units_of
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, read_run, read_table
+from postprocess.results import ResultsError, Run, column_names, read_run, read_table
 
 BASIC = "step fraction".split()
 SIZE = (style.PAGE, 0.42 * style.PAGE)
@@ -37,9 +36,7 @@ def series(chosen: Run) -> dict:
     """All columns of series.csv; ResultsError where it has none of a case."""
     path = chosen.path / "series.csv"
     read_table(path, BASIC, "; run the case with -history 1")
-    with path.open(encoding="utf-8") as file:
-        names = next(csv.reader(file))
-    return read_table(path, names)
+    return read_table(path, column_names(path))
 
 
 def drawn(chosen: Run, length: str) -> Figure:

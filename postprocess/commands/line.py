@@ -5,7 +5,6 @@ left out where it is not known, and the principal stresses; right: the displacem
 """
 
 import argparse
-import csv
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,7 +12,7 @@ from matplotlib.figure import Figure
 from postprocess import style
 from postprocess.bodies import units_of
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, read_run, read_table
+from postprocess.results import ResultsError, Run, column_names, read_run, read_table
 
 SIZE = (style.PAGE, 0.42 * style.PAGE)
 COLUMNS = "distance x y ux uy stress1 stress2 stress3 vonMises vonMisesError displacementError".split()
@@ -45,8 +44,7 @@ def table_of(chosen: Run, name: str | None):
 
 def read_line(path) -> dict:
     """The columns that are drawn; an error that is not known is inf."""
-    with path.open(encoding="utf-8") if path.is_file() else open("/dev/null") as file:
-        space = "uz" in next(csv.reader(file), [])
+    space = path.is_file() and "uz" in column_names(path)
     return read_table(path, [*COLUMNS, *(["uz"] if space else [])], "; name it in the case: line NAME ...")
 
 

@@ -92,6 +92,8 @@ def numbers(words: list[str]) -> list[float]:
 
 
 def text_of(path: Path) -> str:
+    if path.exists() and not path.is_file():
+        raise ResultsError(path, "is not a file")
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -99,6 +101,8 @@ def text_of(path: Path) -> str:
 
 
 def checksum(path: Path) -> str:
+    if path.exists() and not path.is_file():
+        raise ResultsError(path, "is not a file")
     try:
         return hashlib.sha256(path.read_bytes()).hexdigest()
     except OSError as error:
@@ -139,7 +143,11 @@ def same(folder: Path, what: dict) -> None:
     """A folder belongs to one sweep: its mesh, case, number and flags; values may be added."""
     path = folder / "sweep.json"
     if path.exists():
-        if json.loads(text_of(path)) != what:
+        try:
+            former = json.loads(text_of(path))
+        except (ValueError, RecursionError):
+            raise ResultsError(path, "is not what a sweep writes; allowed: another --out") from None
+        if former != what:
             raise ResultsError(folder, "has another sweep (mesh, case, number or flags); allowed: another --out")
     else:
         if folder.exists() and any(folder.iterdir()):

@@ -2,11 +2,12 @@
 
 Statements that the short runs of SCENES and PARTS execute are drawn by a seed, and one thing in each is changed: a
 sign, a factor, a term left out, an index, a comparison, an earlier stop. It is no mutant if FreeFEM does not read it,
-or if no result of these runs differs by more than TOLERANCE of its scale; what moves counts alone is kept apart. On the
-others the default tests run that execute the statement, quick ones first, until one fails. Which those are is found
-once, in a copy with marks (executed.py); a test that fails in it falls on any change of a source, and is left out.
-A row each in results/mutants/mutants.csv, where the campaign goes on; `again` repeats those that survived; FOLDER/:
-only statements below edp/FOLDER/. Not drawn: programs in sh and awk, labs, plugins. JOBS: how many at a time, 2.
+or if no result of these runs differs by more than TOLERANCE of its scale; what moves only counts or words is kept
+apart. On the others the default tests run that execute the statement, quick ones first, until one fails. Which those
+are is found once, in a copy with marks (executed.py): a test that fails in it falls on any change of a source.
+A row each in results/mutants/, in a file for these sources, where the campaign goes on; `again` repeats those that
+survived; FOLDER/: only statements below edp/FOLDER/, in a file of its own. Not drawn: programs in sh and awk, labs,
+plugins. JOBS: how many at a time, 2.
 """
 
 import csv
@@ -27,12 +28,13 @@ from campaign import FREEFEM, RESULTS_FOLDER, ROOT, script_of, sources_digest
 from executed import STRING, copy_tree, instrument, marking, programs, take_marks
 
 FOLDER = RESULTS_FOLDER / "mutants"
-COLUMNS = "number file line kind old new state by seconds sources".split()
+COLUMNS = "number file line kind old new state by seconds".split()
 JOBS = int(os.environ.get("JOBS", "2"))
 SEED = 37
 TOLERANCE = 1e-7
-COUNTS = re.compile(
-    r"\.(adaptations|newton\w*|factorisations|backsolves|iterations|kernelNewton|estimates\.backsolves|used|rounds)\b"
+NO_RESULT = re.compile(  # counts, and words
+    r"\.(adaptations|newton\w*|factorisations|backsolves|iterations|kernelNewton|estimates\.backsolves|used|rounds|"
+    r"warnings|message|notEstimated|estimates\.(refine|wasted|worst))\b"
 )
 AT_ONCE = 6  # test files whose statements are found in one go
 TEST_SECONDS = 1500  # of a mutant's tests: what takes longer stays open
@@ -107,7 +109,7 @@ CHANGES = [  # kind, pattern, what stands in its place
     ("sign", r"(?<=[=,?:] )-(?=\w)|(?<=[(\[])-(?=\w)|(?<=return )-", lambda m: ""),
     ("factor", r" ([*/]) (?=[\w(])", lambda m: f" {m[1]} 2 {m[1]} "),
     ("factor", r"(?<![=!<>]) ([+-]?=) (?!0\b)([^=;{}]+);", lambda m: f" {m[1]} 2 * ({m[2]});"),
-    ("factor", r"\breturn ([^;?{}]+);", lambda m: f"return 2 * ({m[1]});"),
+    ("factor", r"\breturn (?!0;)([^;?{}]+);", lambda m: f"return 2 * ({m[1]});"),
     ("term", rf" [+-] {WORD}(?:(?: [*/] |\^){WORD})*", lambda m: ""),
     ("term", rf" \* {WORD}", lambda m: ""),
     ("term", rf"(?:^|(?<=\) ))[ ]*{WORD} [+*-]= [^;=]+;", lambda m: ";"),
@@ -310,10 +312,10 @@ def judge(tree: Tree, number: int, pool: list, runs: dict[str, list[str]], known
         if re.search("Compile error|Error line number", text):
             state, by = "unread", ""
             break
-        if any(not COUNTS.match(one) for one in moved):
+        if any(not NO_RESULT.match(one) for one in moved):
             state, by = "survived", name
             break
-        state = "counts" if moved else state
+        state = "no result" if moved else state
     if state == "survived":
         tests = [test for test, (_, numbers) in of_tests.items() if marks & set(numbers)]
         outcomes = tree.test(tests, sorted({test.split("::")[0] for test in tests})) if tests else []
@@ -322,7 +324,7 @@ def judge(tree: Tree, number: int, pool: list, runs: dict[str, list[str]], known
         by = failed[0] if failed else by
     path.write_text("\n".join(lines))
     row = {"number": number, "file": file, "line": line, "kind": kind, "old": old.strip(), "new": new.strip()}
-    return row | {"state": state, "by": by, "seconds": round(time.time() - began), "sources": sources_digest(ROOT)}
+    return row | {"state": state, "by": by, "seconds": round(time.time() - began)}
 
 
 def main(words: list[str]) -> int:
@@ -333,7 +335,7 @@ def main(words: list[str]) -> int:
     known = executed(runs)
     pool = [known[0][k] for k in sorted(set().union(*known[1].values()))]
     pool = [one for one in pool if one[0].startswith(below)]
-    path = FOLDER / "mutants.csv"
+    path = FOLDER / f"{'-'.join([sources_digest(ROOT), *below]).replace('/', '-').strip('-')}.csv"
     rows = list(csv.DictReader(path.open())) if path.exists() else []
     rows = [row for row in rows if "again" not in words or row["state"] not in ("survived", "open")]
     taken = {int(row["number"]) for row in rows}
@@ -353,7 +355,10 @@ def main(words: list[str]) -> int:
                 writer = csv.DictWriter(file, COLUMNS)
                 writer.writeheader()
                 writer.writerows(rows)
-    print(", ".join(f"{count} {state}" for state, count in sorted(Counter(row["state"] for row in rows).items())))
+    print(
+        f"{path}:",
+        ", ".join(f"{count} {state}" for state, count in sorted(Counter(row["state"] for row in rows).items())),
+    )
     for row in rows:
         if row["state"] in ("survived", "open"):
             print("{state}: edp/{file}:{line} ({kind})\n  - {old}\n  + {new}".format(**row))
