@@ -44,8 +44,7 @@ def stack(aside=0.0, above=1.0):
 GLUED = "body low E 100 nu 0.3\nbody up E 100 nu 0.3\ntie foot head\n"
 BOXES = """
 SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 0.5};
-Box(2) = {0, 0, 0.5, 1, 1, 0.5};
+Box(1) = {0, 0, 0, 1, 1, 0.5}; Box(2) = {0, 0, 0.5, 1, 1, 0.5};
 Mesh.MeshSizeMax = 0.34;
 MeshSize{ PointsOf{ Volume{2}; } } = 0.24;
 Physical Volume("low") = {1}; Physical Volume("up") = {2};
