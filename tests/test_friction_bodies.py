@@ -6,7 +6,7 @@ from math import exp, pi
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, run_in, table
+from freefem import execute, part, table
 from test_friction import case, series
 from test_paraview import Grid
 
@@ -196,10 +196,7 @@ move head 0.004 0.002 -0.01
 
 def test_all_fields_of_a_contact(tmp_path):
     """P3 in space with friction and estimates: contact.vtu has what each of them adds, under its own name."""
-    (tmp_path / "box.geo").write_text(BOX)
-    (tmp_path / "box.case").write_text(RUBBED)
-    words = "-mesh", tmp_path / "box.geo", "-case", tmp_path / "box.case", "-order", 3
-    rubbed = run_in(ROOT, "edp/parts-3d.edp", *words, out=tmp_path / "out")
+    rubbed = part(tmp_path, BOX, RUBBED, "-order", 3, "-vtu", 1, script="edp/parts-3d.edp")
     found, rows = Grid(rubbed.folder / "contact.vtu").at_points, table(rubbed.folder / "contact.csv")
     for name in ("shearX", "shearY", "shearZ", "slipX", "slipY", "slipZ", "slide", "status", "pressure"):
         (field,) = [field for field in found if field.lower().startswith(("contact" + name, name.lower()))]

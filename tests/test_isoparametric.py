@@ -1,11 +1,10 @@
 """P2's elements in space that follow curved surfaces: linear fields, volumes, what stays straight, closed forms."""
 
-import json
 import re
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, snippet, told
+from freefem import ROOT, execute, part, snippet, told
 from test_meshes import read
 
 BALL = """SetFactory("OpenCASCADE"); Sphere(1) = {{0, 0, 0, 1}};
@@ -48,9 +47,7 @@ def volume_and_area(faces):
 
 
 FIELDS = """
-real[int] u(ndof);
-real[int] f(ndof);
-real[int] sums(4);
+real[int] u(ndof); real[int] f(ndof); real[int] sums(4);
 macro field(name, first, second, third)
 u = 0;
 for (int i = 0; i < nodes; i++) u[nodeDof(i, 0)] = first;
@@ -66,8 +63,7 @@ tell("patch", f.linfty);
 sums = 0;
 for (int c = 0; c < 3; c++) for (int i = 0; i < nodes; i++) sums[c] += wholeLoad[nodeDof(i, c)];
 sums[3] = bentElements;
-tell("sums", sums);
-tell("weight", weight.sum);
+tell("sums", sums); tell("weight", weight.sum);
 """
 
 
@@ -112,13 +108,8 @@ def test_volume_and_area(tmp_path, ball):
 
 def run(folder, mesh, case, *flags):
     """summary.json, and what was printed."""
-    name = folder / ("a.msh" if mesh.startswith("$") else "part.geo")
-    name.write_text(mesh)
-    (folder / "a.case").write_text(case)
-    command = [*FREEFEM, "edp/parts-3d.edp", "-mesh", name, "-case", folder / "a.case", "-out", folder / "out"]
-    code, stdout = execute([*command, "-vtu", "0", *flags], ROOT)
-    assert code == 0, stdout[-2000:]
-    return json.loads((folder / "out/summary.json").read_text()), stdout
+    done = part(folder, mesh, case, *flags, space=True)
+    return done.summary, done.stdout
 
 
 def within(summary, number, truth, most):

@@ -3,13 +3,12 @@
 The truth is a body that is turned in its mesh, statics, or the true distance.
 """
 
-import json
 import re
 from itertools import count
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, flag_text, parts_script, short_of
+from freefem import ROOT, part, short_of
 
 # an ellipse, finer near (0, 5), turned by `turn` about its centre
 CAM = """
@@ -122,16 +121,10 @@ def said(tmp_path):
     numbers = count()
 
     def go(geo, case, *flags, space=False, **constants):
-        folder = tmp_path / str(next(numbers))
-        folder.mkdir()
         for name, value in constants.items():
             geo = re.sub(rf"\b{name} = {{[^}}]*}}", f"{name} = {{{value}}}", geo)
-        (folder / "a.geo").write_text(geo)
-        (folder / "a.case").write_text(case)
-        files = ["-mesh", folder / "a.geo", "-case", folder / "a.case", "-out", folder / "out", "-vtu", 0]
-        code, stdout = execute(list(map(flag_text, [*FREEFEM, parts_script(case, flags, space), *files, *flags])))
-        assert code == 0, stdout[-3000:]
-        return Said(json.loads((folder / "out/summary.json").read_text()), stdout)
+        done = part(tmp_path / str(next(numbers)), geo, case, *flags, space=space)
+        return Said(done.summary, done.stdout)
 
     return go
 

@@ -137,12 +137,9 @@ include "laws/all.idp"
 include "solve/methods/all.idp"
 include "case/scheme.idp"
 include "solve/solver.idp"
-tell("groups", groupsLeft("fake"));
-tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));
+tell("groups", groupsLeft("fake")); tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));
 matrix K = [[2., 0.], [0., 2.]];
-real[int] b = [1., 1.];
-real[int] x = [0.5, 0.5];
-dofsThatFit = 3;
+real[int] b = [1., 1.]; real[int] x = [0.5, 0.5]; dofsThatFit = 3;
 checkSolved(K, b, x);
 x[1] = 7;
 checkSolved(K, b, x);

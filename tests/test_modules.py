@@ -21,8 +21,7 @@ int count = countFlag("-count", 3, "a whole number", 1, 5);
 string word = wordFlag("-word", "one", "a word", "one two");
 string text = textFlag("-text", "any", "a text", "any text");
 flagsDone("What the script is for.");
-tell("alpha", alpha);
-tell("count", count);
+tell("alpha", alpha); tell("count", count);
 cout << "word " << word << endl << "text " << text << endl;
 """
 
@@ -119,12 +118,9 @@ Th = gmshMesh("block", names, values, 40.);
 GROUPS = """
 real area = int2d(Th)(1.);
 tell("area", area);
-int contactLine = group("contact");
-int clampedLine = group("clamped");
-real contactLength = int1d(Th, contactLine)(1.);
-real contactY = int1d(Th, contactLine)(y) / contactLength;
-real clampedLength = int1d(Th, clampedLine)(1.);
-real[int] lines = [contactLength, contactY, clampedLength];
+int contactLine = group("contact"); int clampedLine = group("clamped");
+real contactLength = int1d(Th, contactLine)(1.); real contactY = int1d(Th, contactLine)(y) / contactLength;
+real clampedLength = int1d(Th, clampedLine)(1.); real[int] lines = [contactLength, contactY, clampedLength];
 tell("lines", lines);
 """
 
@@ -182,10 +178,8 @@ macro loads(v1, v2) int2d(Th)(-3. * v2) //
 
 SINKING = """
 set(stiffness, solver = "CHOLMOD", sym = 1, positive = 1);
-real[int] sunk = stiffness^-1 * bodyLoad;
-real[int] top = sunk(pointDof);
-tell("top", top);
-tell("load", bodyLoad.sum);
+real[int] sunk = stiffness^-1 * bodyLoad; real[int] top = sunk(pointDof);
+tell("top", top); tell("load", bodyLoad.sum);
 """
 
 
@@ -213,21 +207,15 @@ halve(halved);
 tell("stored", real(assembled.nnz) - halved.nnz);
 real[int] b(Vh.ndof);
 for (int i = 0; i < b.n; i++) b[i] = cos(2. * i);
-real[int] product = full * b;
-real[int] difference = halved * b;
-difference -= product;
+real[int] product = full * b; real[int] difference = halved * b; difference -= product;
 tell("product", difference.linfty);
-halved += assembled;
-difference = halved * b;
-difference -= product;
-difference -= product;
+halved += assembled; difference = halved * b; difference -= product; difference -= product;
 tell("sum", difference.linfty);
 set(full, solver = "UMFPACK");
 set(halved, solver = "CHOLMOD", sym = 1, positive = 1);
 difference = halved^-1 * b;
 difference *= 2;
-real[int] solved = full^-1 * b;
-difference -= solved;
+real[int] solved = full^-1 * b; difference -= solved;
 tell("solution", difference.linfty / solved.linfty);
 """
 
@@ -241,9 +229,7 @@ def test_half_matrices(tmp_path):
 # ---------------------------------------------------------------- surface/slave.idp
 
 POINTS = """
-tell("x", pointX);
-tell("y", pointY);
-tell("weight", weight);
+tell("x", pointX); tell("y", pointY); tell("weight", weight);
 fespace Uh(Th, ELEMENT);
 Uh [a1, a2] = [100 + x, 10 * x + y];
 real[int] trace(points);
@@ -283,8 +269,7 @@ fespace Uh(Th, ELEMENT);
 real[int] seen(points);
 tell("x", pointX);
 for (int i = 0; i < points; i++) seen[i] = paired[i];
-tell("paired", seen);
-tell("unpaired", pointsUnpaired);
+tell("paired", seen); tell("unpaired", pointsUnpaired);
 Uh [a1, a2] = [7, 3];
 seen = overlapMap * a1[];
 tell("rigid", seen);
@@ -374,22 +359,17 @@ def test_partly_covered(tmp_path, share, order, element):
 # The solver's overlaps are made wrong by a share of the greatest one, and the displacement by a share of itself.
 SPOILT = """
 include "solve/solve.idp"
-real[int] right = Cq;
-real[int] overlaps = shat;
-real[int] u = displacement;
+real[int] right = Cq; real[int] overlaps = shat; real[int] u = displacement;
 func int tellAgain(string name)
 {
     goOn();
     judgeOverlaps();
     tell(name, converged);
-    Cq = right;
-    shat = overlaps;
-    displacement = u;
+    Cq = right; shat = overlaps; displacement = u;
     return 0;
 }
 tellAgain("right");
-real share = 1e-5 * max(right.linfty, approach);
-int most = 0;
+real share = 1e-5 * max(right.linfty, approach); int most = 0;
 for (int i = 0; i < points; i++) if (paired[i] && q[i] > q[most]) most = i;
 Cq[most] += 0.5 * share; shat[most] += 0.5 * share;
 tellAgain("little");
@@ -423,8 +403,7 @@ def test_overlaps_of_the_displacement(flags, tmp_path):
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
 TANGENT = """
 applyLoad(1.);
-walled = false;
-lambda = 0;
+walled = false; lambda = 0;
 func int traceOf(real[int] & u, real[int] & trace)
 {
     if (selection) trace = u(pointDof);
@@ -437,18 +416,13 @@ func int imbalance(real[int] & u, real[int] & G)
     traceOf(u, overlap);
     overlap += sRest;
     lawPressure(overlap, pressure, unused);
-    pressure = pressure .* weight;
-    G = stiffness * u;
-    G -= bodyLoad;
-    real[int] spread(ndof);
-    spread = 0;
+    pressure = pressure .* weight; G = stiffness * u; G -= bodyLoad; real[int] spread(ndof); spread = 0;
     if (selection) spread(pointDof) += pressure;
     else spread = overlapMap' * pressure;
     G += spread;
     return 0;
 }
-real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points);
-displacement = 0;
+real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points); displacement = 0;
 for (int k = 1; k <= 5; k++)
 {
     uBefore = displacement;
@@ -460,16 +434,12 @@ for (int k = 1; k <= 5; k++)
     if (k != 2 && k != 5) continue;
     fullStep = displacement - uBefore;
     imbalance(uBefore, G0);
-    real smallness = 1e-5;
-    real[int] uForward = uBefore + smallness * fullStep;
+    real smallness = 1e-5; real[int] uForward = uBefore + smallness * fullStep;
     real[int] uBackward = uBefore - smallness * fullStep;
     imbalance(uForward, Gplus);
     imbalance(uBackward, Gminus);
-    real[int] JfullStep = Gplus - Gminus;
-    JfullStep /= 2 * smallness;
-    real[int] tangentError = JfullStep + G0;
-    tell("imbalance" + k, G0.l2);
-    tell("error" + k, tangentError.l2);
+    real[int] JfullStep = Gplus - Gminus; JfullStep /= 2 * smallness; real[int] tangentError = JfullStep + G0;
+    tell("imbalance" + k, G0.l2); tell("error" + k, tangentError.l2);
 }
 """
 

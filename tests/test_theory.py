@@ -20,18 +20,12 @@ kernelMatrix(all, kernelCell, half);
 fitKernel();
 real[int,int] fitted(0, 0);
 kernelMatrix(all, kernelCell, fitted);
-tell("x", pointX);
-tell("weight", weight);
-tell("cell", kernelCell);
-tell("k", bodyStiffness);
-tell("alpha", localCompliance);
-tell("scale", kernelLength);
-real[int] unit(points);
-real[int] column(points);
+tell("x", pointX); tell("weight", weight); tell("cell", kernelCell); tell("k", bodyStiffness);
+tell("alpha", localCompliance); tell("scale", kernelLength);
+real[int] unit(points); real[int] column(points);
 for (int i = 0; i < points; i++)
 {
-    unit = 0;
-    unit[i] = 1;
+    unit = 0; unit[i] = 1;
     complianceTimes(unit, column, 0);
     tell("C", column);
     column = half(:, i);
