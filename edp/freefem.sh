@@ -5,6 +5,7 @@
 #        is an installed one, results go to results/ in the present folder; see case/cache.sh for what is made and kept.
 # Exit code: FreeFem++'s or Python's; 10 without a script, without Python's packages, and below a folder with ; in its name.
 # FreeFEM looks for modules and plugins where the file freefem++.pref of the present folder says: elsewhere the environment says it.
+# It begins in edp/, for it reads includes of its folder first; CONTACT_FOLDER tells case/flags.idp where to go back to.
 edp=$(cd "${0%/*}" && pwd)
 root=${edp%/edp}
 cache=$(sh "$edp/case/cache.sh" 0 "$root")
@@ -20,13 +21,14 @@ quoted()
 
 if test "$1" = postprocess; then
     shift
+    # numpy.py in the present folder is not numpy
     for python in "$cache/venv/bin/python" "$root/.venv/bin/python" python3 /usr/bin/python3; do
-        "$python" -c 'from importlib.util import find_spec as f; exit(not (f("numpy") and f("matplotlib")))' 2> /dev/null && break
+        "$python" -c 'import sys; sys.path = [p for p in sys.path if p]; from importlib.util import find_spec as f; exit(not (f("numpy") and f("matplotlib")))' 2> /dev/null && break
         python=
     done
     test -n "$python" || { echo "postprocess: no Python with numpy and matplotlib; allowed: one of the system's, or \
 python3 -m venv VENV and VENV/bin/pip install -r $root/requirements.txt, with VENV/bin first on the PATH"; exit 10; }
-    PYTHONPATH=$root${PYTHONPATH:+:$PYTHONPATH} exec "$python" -m postprocess "$@"
+    PYTHONSAFEPATH=1 PYTHONPATH=$root${PYTHONPATH:+:$PYTHONPATH} exec "$python" -m postprocess "$@"
 fi
 
 for script in "$1" "$edp/$1" "$edp/$1.edp" "$edp/scenes/$1.edp" none; do test ! -f "$script" || break; done
@@ -51,5 +53,14 @@ starter="sh $(quoted "$edp/freefem.sh")"
 test -z "$CONTACT_STARTER" || starter=$(quoted "$CONTACT_STARTER")
 test -e "$root/.venv/bin/python" || export CONTACT_POSTPROCESS="${CONTACT_POSTPROCESS:-$starter postprocess}"
 test ! -e "$cache/build/.freefem++.pref" || export HOME="$cache/build"      # names the plugin there: see the Makefile
+here=$PWD
+uses='^[^/]*include *"((case|scenes|labs|blocks)/|(main|parts|parts-3d)\.edp)'
+unset CONTACT_FOLDER
+if ! test "$root" -ef . && grep -qE "$uses" "$script"; then
+    case $script in /*) ;; *) script=$here/$script;; esac
+    case $here in *\;*) ;; *) FF_INCLUDEPATH="$FF_INCLUDEPATH;$here" FF_LOADPATH="$FF_LOADPATH;$here";; esac
+    export CONTACT_FOLDER="$here"
+    cd "$edp" || exit
+fi
 case " $* " in *' -plot 1 '*) window=;; *) window=-nw;; esac
 exec FreeFem++ $window -v 0 "$script" "$@"

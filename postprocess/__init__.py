@@ -17,3 +17,12 @@ The package reads what a run wrote into its folder and nothing else: it computes
 
 A new figure or subcommand is one new file in its folder; nothing else has to know of it.
 """
+
+import os
+import sys
+
+if sys.argv[0] == "-m":  # python -m postprocess: the present folder, which Python put first, is no place of modules
+    if not getattr(sys.flags, "safe_path", False):
+        del sys.path[0]
+    _root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    sys.path[:] = [*(path for path in sys.path if os.path.abspath(path) != _root), _root]

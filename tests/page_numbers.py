@@ -8,6 +8,7 @@ Comments that no reader sees name the run and the value of each number; tests/te
     <!-- let: STATEMENT -->    Python, for the expressions of this run
     <!-- columns: E | E; E --> the expressions of a row's cells after the first, `_` for a number of no run. Without
                                this comment the head has them: `key`, or words that the run prints before a number.
+    <!-- long run: COMMAND --> one of above half a minute: the long tests hold it, `make numbers` leaves it
     NUMBER<!--= E -->          a single number; after "< " its bound
 
 An expression is Python with the keys of summary.json, the run's tables (contact, series, ...), `code`, GIVEN,
@@ -39,8 +40,8 @@ NUMBER = r"[−+-]?(?:\d{1,3}(?: \d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?(?: %)?"
 IN_CELL = re.compile(rf"`[^`]*`|(?<![\w.])({NUMBER})")
 MARK = re.compile(rf"(?P<below>< )?(?P<number>{NUMBER})<!--= (?P<value>.*?) -->")
 TOKEN = re.compile(
-    r"^```sh\n(?P<block>.*?)^```|^<!-- (?P<kind>run|let|columns): (?P<words>.*?) -->$|(?P<table>(?:^\|[^\n]*\n)+)|"
-    + MARK.pattern,
+    r"^```sh\n(?P<block>.*?)^```|^<!-- (?P<kind>run|long run|let|columns): (?P<words>.*?) -->$|"
+    r"(?P<table>(?:^\|[^\n]*\n)+)|" + MARK.pattern,
     re.M | re.S,
 )
 GIVEN = {"np": np, "forms": forms, "reference": reference, "STEEL": forms.plane_modulus(210e3, 0.3)}
@@ -52,6 +53,7 @@ class Unit:
 
     command: str
     lets: list[str] = field(default_factory=list)
+    long: bool = False
     marks: list[tuple[int, int, str, bool]] = field(default_factory=list)  # from, to, expression, whether a bound
 
 
@@ -102,8 +104,8 @@ def units(text):
             typed = [line for line in token["block"].splitlines() if line.startswith(TYPED) and "$" not in line]
             found += [Unit(line.removeprefix(TYPED)) for line in typed[-1:]]
             rows = False
-        elif token["kind"] == "run":
-            found.append(Unit(token["words"]))
+        elif token["kind"] in ("run", "long run"):
+            found.append(Unit(token["words"], long=token["kind"] == "long run"))
             columns, rows = "", "{" in token["words"]
         elif token["kind"] == "let":
             found[-1].lets.append(token["words"])
@@ -130,7 +132,7 @@ def of_rows(text, begin, unit, columns):
     for line in lines:
         cells = line.rstrip()[1:-1].split("|")
         c = [quoted[0] if (quoted := re.findall("`(.*?)`", cell)) else cell.strip() for cell in cells]
-        row = Unit(eval(f"f{unit.command!r}", {**GIVEN, "c": c, "loop": loop}), [f"c = {c!r}", *unit.lets])
+        row = Unit(eval(f"f{unit.command!r}", {**GIVEN, "c": c, "loop": loop}), [f"c = {c!r}", *unit.lets], unit.long)
         at = begin + 2 + len(cells[0])
         for cell, column in zip(cells[1:], values, strict=True):
             places = [match.span(1) for match in IN_CELL.finditer(cell) if match[1]]
@@ -199,7 +201,8 @@ def differing(text, unit):
 def renewed(text, workers=2):
     """The page with the numbers of its runs."""
     with ThreadPoolExecutor(workers) as pool:
-        found = sorted(each for some in pool.map(functools.partial(differing, text), units(text)) for each in some)
+        short = [unit for unit in units(text) if not unit.long]
+        found = sorted(each for some in pool.map(functools.partial(differing, text), short) for each in some)
     for start, end, _, new in reversed(found):
         text = text[:start] + new + text[end:]
     return text

@@ -242,6 +242,7 @@ def test_fold():
     np.testing.assert_array_equal(rows["stability"][after - 1], 0)
 
 
+@pytest.mark.long
 def test_dissipation_whatever_the_steps():
     """What a loop dissipates shall not depend on its increments, and be the work done along it."""
     runs = [run(SPHERE, "-path", "-0.0031 0.0011 -0.0031", "-steps", steps) for steps in (5, 20)]

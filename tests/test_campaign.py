@@ -116,7 +116,6 @@ def campaigns(tmp_path_factory):
     lists["bench/peers"] = peers.cases(), peers.COLUMNS
     lists["coverage/coverage"] = coverage.cases(), coverage.COLUMNS
     lists["coverage/space"] = coverage.cases_in_space(), coverage.COLUMNS
-    lists["coverage/pins"] = coverage.cases_of_pins(), coverage.COLUMNS
     lists["stability/stability"] = stability.cases(), stability.COLUMNS
     for name, (cases, further) in lists.items():
         columns = [*campaign.COLUMNS, *further]

@@ -66,14 +66,6 @@ def test_methods_between_nodes(method, steps):
     assert done.force == pytest.approx(run("disc-on-block", "-order", 3).force, rel=1e-5)
 
 
-def test_force_is_the_derivative():
-    """dE/du0 is the force, of P3 too."""
-    forces = [run("disc-on-block", "-order", 3, "-u0", u0, "-tol", 1e-10) for u0 in (2.49, 2.5, 2.51)]
-    slope = (forces[2].summary["energy"] - forces[0].summary["energy"]) / 0.02
-    third = forces[2].force - 2 * forces[1].force + forces[0].force
-    assert slope == pytest.approx(forces[1].force + third / 6, rel=1e-7)
-
-
 def test_space():
     """P2 in space: ten times closer than P1 with as many degrees of freedom; equilibrium; few iterations."""
     done = run("sphere-on-block", "-order", 2, "-h", 1.25, "-layers", 1, "-patch", 6)

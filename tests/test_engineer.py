@@ -274,6 +274,7 @@ def test_tension_of_a_heated_shank_in_space(tmp_path):
     assert found["contacts"][0]["normalForce"] - found["preloads"][0]["force"] == pytest.approx(5 * np.pi / 4, rel=4e-3)
 
 
+@pytest.mark.long
 def test_bolt_in_space(tmp_path):
     """The same joint in space."""
     case = JOINT.replace("state stress\n", "").replace("symmetry axis\n", "symmetry axis\nsymmetry side\n")
@@ -406,6 +407,7 @@ Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("f
 """
 
 
+@pytest.mark.long
 def test_stresses_below_a_contact(tmp_path):
     """Hertz's line contact, down its axis: von Mises' stress, its greatest and the depth of that."""
     case = "body block E 1000 nu 0.3\nobstacle face circle 0 10 R 10 force 0 -1\nclamp base\nline axis 0 0 0 -0.4\n"

@@ -89,6 +89,7 @@ def test_no_compiler_no_word(package, tmp_path):
     assert not list((package / "build").glob("*.idp"))
 
 
+@pytest.mark.long
 def test_same_numbers(package, tmp_path):
     """With the plugin, where there is a compiler, all shall have the same counts and, but for rounding, results."""
     plain = results(package, tmp_path / "plain")

@@ -495,7 +495,7 @@ def test_mindlin(tmp_path):
     assert rows["dissipated"][3] - rows["dissipated"][1] == pytest.approx(loop, rel=0.01)
 
 
-@pytest.mark.parametrize(("pull", "h"), [(0.6, 0.0125), pytest.param(0.3, 0.01, marks=pytest.mark.long)])
+@pytest.mark.parametrize(("pull", "h"), [(0.6, 0.0125), pytest.param(0.3, 0.005, marks=pytest.mark.long)])
 def test_carter(tmp_path, pull, h):
     """Rolling: creepage, tractions, what sticks at the side where the surfaces come in, what is dissipated."""
     force, friction = 0.08631, 0.3
@@ -511,9 +511,9 @@ def test_carter(tmp_path, pull, h):
     assert np.sqrt((weight * (rows["shear"] - exact) ** 2).sum() / (weight * exact**2).sum()) < 0.06
     stick = x[rows["slide"] == 1]
     assert abs(stick.min() - half + 2 * inner) <= 0.01 and abs(stick.max() - half) <= 0.01
-    steps = series(run)
-    lost = steps["dissipated"][-1] - steps["dissipated"][-2]
-    assert lost == pytest.approx(steps["shearForce"][-1] * (steps["drag"][-1] - steps["drag"][-2]), rel=5e-3)
+    steps = series(run)  # one step's loss ripples as points come in: the mean of twenty
+    lost = steps["dissipated"][-1] - steps["dissipated"][-21]
+    assert lost == pytest.approx(steps["shearForce"][-1] * (steps["drag"][-1] - steps["drag"][-21]), rel=5e-3)
 
 
 @pytest.mark.parametrize("share", [0.99, 1.01])

@@ -491,34 +491,6 @@ Mesh.MeshSizeMax = 0.5;
 """
 
 
-FORMATS = {"text22": (2.2, 0), "text41": (4.1, 0), "binary41": (4.1, 1), "text40": (4.0, 0), "binary22": (2.2, 1)}
-
-
-def test_converted(tmp_path):
-    """Other formats of gmsh and a .geo file itself shall be converted, to the same mesh and the same force."""
-    source = tmp_path / "bodies.geo"
-    source.write_text(GEO)
-    files = {name: tmp_path / f"{name}.msh" for name in FORMATS}
-    saved = (
-        f'Mesh.MshFileVersion = {version}; Mesh.Binary = {binary}; Save "{files[name]}";\n'
-        for name, (version, binary) in FORMATS.items()
-    )
-    (tmp_path / "save.geo").write_text(GEO + "Mesh 2;\n" + "".join(saved))
-    subprocess.run(["gmsh", "-v", "0", tmp_path / "save.geo", "-"], check=True, stdin=subprocess.DEVNULL)
-    as_it_is = numbers(checked(files["text22"], tmp_path)[0])
-    for file in (files["text41"], files["binary41"], files["text40"]):
-        copy, why = checked(file, tmp_path)
-        assert copy, f"{file}: {why}"
-        assert numbers(copy) == pytest.approx(as_it_is, rel=1e-12), file
-    # of these gmsh orders the nodes anew
-    forces = [attempt(file, tmp_path).force for file in (files["text22"], files["binary22"], source)]
-    assert forces[1:] == pytest.approx(2 * forces[:1], rel=1e-9)
-
-
-def numbers(text):
-    return [float(word) for word in text.split() if word[0] in "-0123456789"]
-
-
 @pytest.mark.parametrize(
     "text, words",
     [

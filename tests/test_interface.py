@@ -3,8 +3,10 @@
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
+import time
 
 import pytest
 from freefem import FREEFEM, ROOT, being_written, environment, execute, files, listing, run_in, script, tree
@@ -143,6 +145,67 @@ def test_from_any_folder(name, package, tmp_path):
     assert code == 10 and stdout.startswith("nowhere.edp: no such script")
 
 
+def test_modules_are_the_package_s(package, tmp_path):
+    """The starter shall read no module, script or Python module of the present folder in place of the package's."""
+    for name in (
+        "case/flags.idp",
+        "case/scene.idp",
+        "laws/power.idp",
+        "case/laws/power.idp",
+        "main.edp",
+        "scenes/wavy.edp",
+    ):
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).write_text('cout << "not the package" << endl; exit(3);\n')
+    for name in ("numpy", "argparse", "csv", "matplotlib"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit(3)\n")
+    for name in (".venv", "postprocess"):
+        if not (package / name).exists():
+            (package / name).symlink_to(ROOT / name)
+    start = ["sh", package / "edp/freefem.sh"]
+    quick = ["-h", 5, "-order", 1, "-vtu", 0, "-out"]
+    # of these the first is handed over to a script that includes main.edp
+    runs = [
+        ("disc-on-block", ["-accuracy", 0.25]),
+        ("confined-block", ["-estimate", 0]),
+        ("labs/1-law/law.edp", ["-estimate", 0]),
+    ]
+    for script_, flags in runs:
+        code, said = execute([*start, script_, *flags, *quick, "out"], tmp_path, BARE)
+        assert code in (0, 21) and (tmp_path / "out" / "summary.json").exists(), said
+    code, said = execute([*start, "postprocess", "show", "out"], tmp_path, BARE)
+    assert code == 0 and "converged" in said, said
+    python = [ROOT / ".venv/bin/python", "-m", "postprocess", "show", "out"]
+    code, said = execute(python, tmp_path, {**BARE, "PYTHONPATH": str(ROOT)})
+    assert code == 0 and "converged" in said, said
+
+
+def test_module_in_the_present_folder(tmp_path):
+    """Without the starter a file that FreeFEM would read in a module's place is refused; one of another name is not."""
+    package = tree(tmp_path / "package")
+    quick = ["-h", 5, "-order", 1, "-estimate", 0, "-vtu", 0]
+    (package / "laws").mkdir()
+    (package / "laws/own.idp").write_text("")
+    assert run_in(package, script(DISC), *quick, out=tmp_path / "out").code == 0
+    shutil.copytree(package / "edp/laws", package / "case/laws")
+    for flags in (quick, [*quick[:4], "-accuracy", 0.25]):
+        said = run_in(package, script(DISC), *flags, out=tmp_path / "never", expect=10).stdout
+        assert said.count("\n") == 1 and "case/laws" in said and "in place of the package's laws/" in said
+    shutil.rmtree(package / "case")
+    here = tmp_path / "here"
+    here.mkdir()
+    shutil.copy(package / "freefem++.pref", here)
+    shutil.copytree(package / "edp", here / "edp")
+    said = run_in(here, package / script(DISC), *quick, out=tmp_path / "never", expect=10).stdout
+    assert "another copy of the package" in said and not (tmp_path / "never").exists()
+    shutil.rmtree(here / "edp")
+    for name in ("edp", "meshes"):  # as make new does: own modules are there on purpose
+        (here / name).symlink_to(package / name)
+    (here / "laws").mkdir()
+    shutil.copy(package / "edp/laws/power.idp", here / "laws")
+    run_in(here, "edp/main.edp", *quick, out=tmp_path / "own")
+
+
 @pytest.mark.parametrize("out", ["it's; touch F", '-1 "$(touch F)"'])
 def test_picture_can_be_pasted(out, tmp_path):
     """The command that a run prints shall be that when it is pasted, whatever the names of its folders."""
@@ -212,6 +275,48 @@ def test_same_shape_same_mesh(package):
 # ---------------------------------------------------------------- whole or not at all
 
 
+def no_room_beyond(limit):
+    """A preexec_fn: a limit on a file's size stands for a full disk: writing beyond it fails."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+
+@pytest.mark.parametrize("words", [["-mesh", "{0}.geo", "-case", "{0}.case"], ["-mesh", "{0}.geo"], None])
+def test_no_room_for_a_mesh(words, tmp_path):
+    """Where there is no room for a mesh or its copy a run shall say so, with code 30, and blame no mesh."""
+    folder = tmp_path / "tmp"
+    folder.mkdir()
+    start = ["edp/parts.edp", *words] if words else ["edp/main.edp", "-h", "0.5"]
+    start += ["-check", "1"] if words else []
+    env = environment(TMPDIR=str(folder), **({} if words else {"CONTACT_CACHE": str(folder)}))
+    done = subprocess.run(
+        [*FREEFEM, *(word.format("edp/examples/punch/punch") for word in start), "-out", str(tmp_path / "out")],
+        cwd=tree(tmp_path / "package"),
+        env=env,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: no_room_beyond(500),
+        timeout=100,
+    )
+    assert done.returncode == 30, done.stdout
+    assert done.stdout.splitlines()[-1].startswith("out of disk: "), done.stdout
+    assert "tmp" in done.stdout.splitlines()[-1] and "-mesh" not in done.stdout
+    assert not (tmp_path / "out").exists() and list(folder.rglob("*.msh")) == []
+
+
+@pytest.mark.parametrize("flags", [[], ["-history", "1", "-steps", "2"]])
+def test_folder_moved_during_a_run(flags, tmp_path):
+    """A run whose results' folder is taken away shall end with one line and code 30."""
+    command = [*FREEFEM, script(DISC), "-order", "2", "-h", "0.1", *flags, "-out", tmp_path / "out"]
+    with subprocess.Popen(command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, text=True) as running:
+        while not (tmp_path / "out/.run/.written").exists() and running.poll() is None:
+            time.sleep(0.01)
+        (tmp_path / "out").rename(tmp_path / "other")
+        said = running.communicate(timeout=100)[0]
+    assert running.returncode == 30 and "could not be written whole" in said.splitlines()[-1], said
+    assert files(tmp_path / "other") == [] and not (tmp_path / "out").exists()
+
+
 @pytest.mark.parametrize(
     "limit, flags",
     [
@@ -226,15 +331,7 @@ def test_same_shape_same_mesh(package):
     ],
 )
 def test_disk_full(tmp_path, limit, flags):
-    """When files cannot be written to their end, the run shall fail, say so, and keep none of them.
-
-    The limit on a file's size stands for a full disk: writing beyond it fails.
-    """
-
-    def no_room():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-
+    """When files cannot be written to their end, the run shall fail, say so, and keep none of them."""
     out = tmp_path / "out"
     done = subprocess.run(
         [*FREEFEM, script(BLOCK), "-method", "newton", "-h", "1", "-estimate", "0", "-out", str(out), *flags],
@@ -243,7 +340,7 @@ def test_disk_full(tmp_path, limit, flags):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        preexec_fn=no_room,
+        preexec_fn=lambda: no_room_beyond(limit),
         timeout=100,
     )
     assert done.returncode not in (0, 10, 20), done.stdout

@@ -75,27 +75,6 @@ def test_counts():
     assert "solve/methods/ipopt" in result.modules
 
 
-@pytest.mark.parametrize("flags, u0", [([], 0.25), ([], -1), (["-law", "signorini"], 0.2)])
-def test_no_contact(flags, u0):
-    """Short of first touch the result shall be zero force, converged, nothing open."""
-    result = run(WITH_IPOPT, *flags, "-u0", u0, "-h", 1)
-    assert result.force == result.contactPoints == result.energy == 0
-
-
-@pytest.mark.parametrize(
-    "law, length, pressure", [([], 1e3, 1e-6), (["-law", "signorini"], 1 / 7e7, 3e11), (LAWS["barrier"], 1e3, 1e-6)]
-)
-def test_invariance(law, length, pressure):
-    """A change of units shall scale the force, and change no iteration (but for rounding near the barrier)."""
-    lengths = {"width": 40.0, "depth": 20.0, "R": 10.0, "gap": 0.5, "u0": 2.5, "d0": -0.25, "h": 0.5}
-    flags = {name: value * length for name, value in lengths.items()}
-    flags.update(E=100 * pressure, kappa=1e3 * pressure / length**3, p0=0.02 * pressure)
-    first = run(WITH_IPOPT, *law, "-h", 0.5)
-    other = run(WITH_IPOPT, *law, *(word for name, value in flags.items() for word in ("-" + name, value)))
-    assert abs(other.newton - first.newton) <= (5 if law == LAWS["barrier"] else 0)
-    assert other.force == pytest.approx(first.force * pressure * length, rel=1e-8)
-
-
 @pytest.mark.parametrize("flags", [[], ["-law", "signorini"]])
 def test_not_converged(flags):
     """A run that IPOPT can not finish shall end with code 20, its files written, and name the flag to turn."""
@@ -130,12 +109,6 @@ def test_force_is_refused(tmp_path):
     refused = run_in(ROOT, "edp/scenes/disc-on-block-ipopt.edp", "-force", 100, out=out, expect=10)
     assert "-force" in refused.stdout
     assert not out.exists()
-
-
-def test_other_methods_are_unchanged():
-    """Beside the plugin the other methods shall give what they give without it."""
-    flags = ["-method", "newton", "-h", 0.5]
-    assert run(WITH_IPOPT, *flags).force == run(DISC, *flags).force
 
 
 @pytest.mark.parametrize(

@@ -205,6 +205,7 @@ class TestMovie:
         with Image.open(film / "movie.gif") as picture:
             assert picture.n_frames >= frames
 
+    @pytest.mark.long
     def test_speed_and_single_frames(self, film, tmp_path, capsys):
         """Twice the speed, half the time; a frame alone as SVG, the same bytes again; no such frame is refused."""
         from PIL import Image
@@ -438,6 +439,7 @@ class TestReport:
 
 @pytest.mark.skipif(browser.CHROMIUM is None, reason="no chromium, chromium-browser or google-chrome on the PATH")
 class TestInABrowser:
+    @pytest.mark.long
     def test_the_report(self, results, film, tmp_path):
         """No error, no request, every picture loaded; the player plays."""
         with browser.Browser(tmp_path) as chromium:
@@ -557,6 +559,7 @@ class TestDoctor:
         assert code == 1 and re.search(r"^MISSING +plugin gmsh +cannot be loaded", stdout, re.M)
 
 
+@pytest.mark.long
 def test_pictures_of_a_run(tmp_path, capsys):
     """A run's own pictures shall be shown with it, where they have been drawn; captions lean on no other."""
     folder = tmp_path / "results/disc"

@@ -59,7 +59,7 @@ In all 540.0<!--= twice --> of 270.80<!--= force -->, less than < 1e-9<!--= resi
 <!-- run: edp/scenes/confined-block.edp -h {c[1]} -tol 1e-12 -->
 | flags | h | `newton` | exit code |
 |---|---|---|---|
-| any | `10` 5 | 7 | – |
+| any | `10` 5 | 7 | 0 |
 <!-- run: edp/scenes/confined-block.edp {c[0]} -tol 1e-12 -->
 <!-- columns: force / 10; force / 20; _ | -->
 | flags | a | b |

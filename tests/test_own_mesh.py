@@ -77,14 +77,6 @@ def shrink(lines, size):
 # ---------------------------------------------------------------- pairing along the normals
 
 
-@pytest.mark.parametrize("points", ["nodal", pytest.param("segment", marks=pytest.mark.long)])
-def test_true_distance_to_a_nearly_rigid_disc(points):
-    """In hard contact the meshed disc's true distance shall give the rigid disc's force, up to 1/Eratio."""
-    flags = ["-law", "signorini", "-d0", 0, "-distance", "exact", "-tol", 1e-8, "-order", 2]
-    rigid = run("disc-on-block", *flags, "-h", 0.5).force
-    assert run("meshed-disc", *flags, "-h", 0.5, "-points", points).force == pytest.approx(rigid, rel=2e-6)
-
-
 @pytest.mark.parametrize("kappa", [1e-2, 1e6, 1e30, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 1e3, 1e12))])
 def test_rounds(kappa):
     """The force of two meshed bodies shall stand still within 7 rounds and 25 linearisations, whatever kappa."""
@@ -147,8 +139,7 @@ def opened(folder, mesh, *flags, **given):
 
 
 @pytest.mark.parametrize(
-    "method",
-    ["paper", *(pytest.param(name, marks=pytest.mark.long) for name in ("xnewton", "newton", "incremental"))],
+    "method", ["paper", *(pytest.param(name, marks=pytest.mark.long) for name in ("xnewton", "newton", "incremental"))]
 )
 def test_points_without_a_master_by_every_method(mesh, tmp_path, method):
     """The same, whichever way it is solved."""

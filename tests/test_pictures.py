@@ -131,6 +131,7 @@ def test_pressure_of_a_case(case):
     assert len(run.summary["units"]) == 2
 
 
+@pytest.mark.long
 def test_pull_is_drawn(tmp_path):
     """Attraction shall be drawn as a pull: the curve goes down to the least pressure, on the axes."""
     adhesive = run_in(ROOT, script("adhesive-sphere"), "-order", 1, out=tmp_path / "run")

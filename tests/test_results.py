@@ -7,7 +7,7 @@ import attraction
 import numpy as np
 import pytest
 import shapes
-from freefem import run
+from freefem import ROOT, run, run_in
 from test_adhesion import MODULUS, SPHERE, R, flags
 from test_examples import FOLDER, STEEL, example
 from test_examples import solve as solve_parts
@@ -48,6 +48,46 @@ def within(found, texts):
 def each(head):
     """The rows of a table as parameters."""
     return pytest.mark.parametrize("row", written(head), ids=lambda row: row[0])
+
+
+# ---------------------------------------------------------------- a published benchmark
+
+PUNCH = """
+Point(1) = {0, 0, 0}; Point(2) = {100, 0, 0}; Point(3) = {100, -200, 0}; Point(4) = {0, -200, 0};
+Line(1) = {4, 3}; Line(2) = {3, 2}; Line(3) = {2, 1}; Line(4) = {1, 4};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Point(11) = {0, 0, 0}; Point(12) = {40, 0, 0}; Point(13) = {40, 10, 0}; Point(14) = {50, 10, 0};
+Point(15) = {50, 100, 0}; Point(16) = {0, 100, 0};
+Line(11) = {11, 12}; Circle(12) = {12, 13, 14}; Line(13) = {14, 15}; Line(14) = {15, 16}; Line(15) = {16, 11};
+Curve Loop(2) = {11, 12, 13, 14, 15}; Plane Surface(2) = {2};
+Physical Curve("top") = {3}; Physical Curve("base") = {1}; Physical Curve("sole") = {11, 12};
+Physical Curve("head") = {14}; Physical Surface("foundation") = {1}; Physical Surface("punch") = {2};
+"""
+PUNCHED = """state axisymmetric
+size contact {1}
+size foundation {2}
+size punch {3}
+body foundation E 70e3 nu 0.3
+body punch E 210e3 nu 0.3
+contact top sole
+clamp base
+pressure head 100
+line axis 0 0 0 -200
+"""
+
+
+@pytest.mark.parametrize(
+    "row", [row for row in written("rounded punch") if "package" in row[0]], ids=lambda row: row[0]
+)
+def test_rounded_punch(row, tmp_path):
+    """The axial displacement and stress in the middle of the contact; on a finer mesh than the published ones."""
+    order, *sizes = re.findall(r"[\d.]+\d|\d", row[0])
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    (tmp_path / "punch.case").write_text(PUNCHED.format(order, *sizes))
+    words = ["-mesh", tmp_path / "punch.geo", "-case", tmp_path / "punch.case", "-order", order]
+    run_in(ROOT, "edp/parts.edp", *words, "-estimate", 0, "-vtu", 0, out=tmp_path / "out")
+    line = np.genfromtxt(tmp_path / "out/line-axis.csv", delimiter=",", names=True)[0]
+    same([line["uy"], line["stressYY"]], figures(*row[1:]))
 
 
 # ---------------------------------------------------------------- bodies that float

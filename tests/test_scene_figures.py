@@ -161,6 +161,7 @@ def test_waves():
     assert merging_pressure(read_run(runs[0].folder)) == pytest.approx(np.pi)
 
 
+@pytest.mark.long
 def test_rigid():
     """The differences from the rigid disc shall fall with the ratio of the moduli, slope -1 to 0.01."""
     discs = [run("meshed-disc", *DISC, "-Eratio", ratio) for ratio in (1e2, 1e4, 1e6)]
@@ -172,6 +173,7 @@ def test_rigid():
         assert difference[-1] < 1e-6
 
 
+@pytest.mark.long
 def test_hertz_error():
     """Errors over h, axisymmetric: radius with slope 2 (P1), pressure with 1; P2 smaller than P1 everywhere."""
     runs = [run("disc-on-block", *SPHERE, "-order", order, "-h", h) for order in (1, 2) for h in (0.2, 0.1, 0.05)]
@@ -233,6 +235,7 @@ def test_spoilt_parameters(tmp_path, capsys, name, scene, flags, change, words):
     assert words in error and error.count("\n") == 1
 
 
+@pytest.mark.long
 def test_other_points_are_refused(tmp_path, capsys):
     """A meshed disc on another mesh than the rigid one's shall be refused."""
     runs = [run("disc-on-block", *DISC), *(run("meshed-disc", "-h", h, "-tol", 1e-11) for h in (0.5, 2))]

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from freefem import run
-from test_parts import Mesh, block
-from test_states import E, solve
+from test_parts import UNTURNED, Mesh, block, cube, turn_in_space, vector
+from test_states import PLACES, TENSOR, E, line_of, solve
 
 LAWS = {"power": ("-kappa", 10, "-m", 2), "exponential": ("-beta", 6)}
 
@@ -41,6 +41,32 @@ def test_on_the_contact_line(tmp_path, law, geometry, order):
     parts = found.estimates["parts"]
     assert parts["line"] == pytest.approx(2 * abs(found.force - exact["force"]), rel=0.15)
     assert found.estimates["force"]["error"] == pytest.approx(parts["line"], rel=1e-3)
+
+
+@pytest.mark.parametrize("state", ["stress", "axisymmetric", "space"])
+def test_column(tmp_path, state):
+    """A column under its own weight, of elements that are exact: stresses grow with the depth, along any line."""
+    space, weight, height = state == "space", 0.7, 1 if state == "space" else 2
+    matrix = turn_in_space(5) if space else UNTURNED
+    down, where = np.eye(3)[2 if space else 1], 3 if space else 2
+
+    def v(values):
+        return vector(values, matrix, where)
+
+    case = "" if space else f"state {state}\n"
+    case += f"body block E {E} nu 0\nobstacle bottom plane {v([0, 0, 0])} {v(down)}\nweight block {v(-weight * down)}\n"
+    case += f"line a {v([0.4, 0.1, 0.1])} {v([1.7, 0.9, 0.9])}\n"
+    mesh = cube(Mesh(), cells=(2, 2, 2)) if space else block(Mesh())
+    solve(tmp_path, mesh.text(matrix), case, "-order", 2, "-tol", 1e-10, "-estimate", 0, space=space)
+    rows = line_of(tmp_path)
+    depth = height - np.array([rows[name] for name in "xyz"[:where]]).T @ (matrix @ down)[:where]
+    for name, (a, b) in zip(TENSOR, PLACES, strict=True):
+        if name in rows.dtype.names:
+            stress = -weight * depth * (matrix @ down)[a] * (matrix @ down)[b]
+            assert rows[name] == pytest.approx(stress, abs=1e-6), name
+    assert rows["vonMises"] == pytest.approx(weight * depth, abs=1e-6)
+    assert rows["stress3"] == pytest.approx(-weight * depth, abs=1e-6)
+    assert abs(rows["stress1"]).max() < 1e-6
 
 
 @pytest.mark.parametrize("state", ["strain", "axisymmetric"])
@@ -87,10 +113,15 @@ def test_one_order_more(name):
     assert len(ratios) >= 3 and 0.8 < np.median(ratios) < 5
 
 
-@pytest.mark.parametrize("flags", [(), ("-force", 150)])
-def test_true_distance_to_its_tolerance(flags):
-    """A tighter tolerance moves a run with the true distance by no more than a millionth."""
-    loose, tight = (run("disc-on-block", "-h", 1, "-distance", "exact", *flags, "-tol", tol) for tol in (1e-6, 1e-11))
-    for name in ("force", "pressureMax", "approach", "energy"):
-        assert loose.summary[name] == pytest.approx(tight.summary[name], rel=1e-6), name
+@pytest.mark.parametrize("flags, name", [((), "force"), (("-force", 150), "approach")])
+def test_true_distance_to_its_tolerance(flags, name):
+    """A tighter tolerance moves a run with the true distance by no more than a millionth; what is said has its size."""
+    flags = ("-h", 1, "-distance", "exact", *flags, "-estimate", 1)
+    loose, tight = (run("disc-on-block", *flags, "-tol", tol) for tol in (1e-8, 1e-12))
+    for other in ("force", "pressureMax", "approach", "energy"):
+        assert loose.summary[other] == pytest.approx(tight.summary[other], rel=1e-6), other
     assert loose.rounds < tight.rounds
+    off = abs(loose.summary[name] - tight.summary[name])
+    if name == "approach":  # parts are forces
+        off *= loose.estimates["contactStiffness"]
+    assert off <= loose.estimates["parts"]["algebra"] <= 1e-6 * loose.force

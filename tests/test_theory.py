@@ -184,7 +184,7 @@ def test_remainder_is_smooth(problem):
         pytest.param(DISC, ("-h", 0.25, "-order", 2), 0.75, 1.25, marks=pytest.mark.long),
         (DISC, ("-h", 0.5, "-order", 4), 0.75, 1.25),
         (SPHERE, ("-h", 1, "-layers", 2), 0.25, 1.25),
-        (SPHERE, ("-h", 1.5, "-layers", 2, "-order", 2), 0.5, 1.25),
+        pytest.param(SPHERE, ("-h", 1.5, "-layers", 2, "-order", 2), 0.5, 1.25, marks=pytest.mark.long),
     ],
 )
 def test_preconditioned_spectrum(problem, scene, flags, low, high):
@@ -195,6 +195,7 @@ def test_preconditioned_spectrum(problem, scene, flags, low, high):
     assert low < values[0] and values[-1] < high
 
 
+@pytest.mark.long
 def test_local_stiffness(problem):
     """k shall be 1/(C_ii w_i) within a factor of 4."""
     for scene, flags, high in (

@@ -71,9 +71,7 @@ def rings(order=1, sides=8):
     hub, outside = sketch.oval(0, 0, 20, 20, 2, 64), sketch.oval(0, 0, 30, 30, 24, sides)
     sketch.body("inner", shaft, bore)
     sketch.body("outer", outside, hub)
-    sketch.group("shaft", shaft)
-    sketch.group("hub", hub)
-    return sketch.text()
+    return sketch.named(shaft=shaft, hub=hub)
 
 
 @pytest.fixture(scope="module")
@@ -106,8 +104,7 @@ def disc():
     sketch = Sketch(Draw())
     rim = sketch.oval(0, 0, 1, 1, 0.5, bottom=0.12)
     sketch.body("disc", rim)
-    sketch.group("rim", [rim[0], rim[3]])
-    return sketch.text()
+    return sketch.named(rim=[rim[0], rim[3]])
 
 
 def test_weight(go):
@@ -256,9 +253,7 @@ def cam(a, b, angle):
     rim = [sketch.curve("Ellipse", ends[k], centre, ends[0], ends[(k + 1) % 4]) for k in range(4)]
     shaft = sketch.oval(0, 0, 2, 2, 0.6)
     sketch.body("cam", rim, shaft)
-    sketch.group("rim", rim)
-    sketch.group("shaft", shaft)
-    return sketch.text()
+    return sketch.named(rim=rim, shaft=shaft)
 
 
 @pytest.mark.parametrize(
@@ -303,9 +298,7 @@ def hip(size=0.5):
     low, side = sketch.curve("Line", ends[2][0], ends[1][0]), sketch.curve("Line", ends[1][1], ends[2][1])
     sketch.body("head", [axis, arcs[0], top])
     sketch.body("cup", [low, arcs[1], side, -arcs[2]])
-    for name, curve in (("head-surface", arcs[0]), ("grip", top), ("cup-bore", arcs[1]), ("shell", arcs[2])):
-        sketch.group(name, [curve])
-    return sketch.text()
+    return sketch.named(head_surface=[arcs[0]], grip=[top], cup_bore=[arcs[1]], shell=[arcs[2]])
 
 
 @pytest.fixture(scope="module")
@@ -332,9 +325,7 @@ def nose(slave, master, load=0.08):
     head = sketch.curve("Line", knots[4], knots[0])
     sketch.body("low", low)
     sketch.body("up", [*arcs, head])
-    for name, curves in (("base", [low[0]]), ("floor", [low[2], low[3]]), ("nose", arcs), ("head", [head])):
-        sketch.group(name, curves)
-    return sketch.text()
+    return sketch.named(base=[low[0]], floor=[low[2], low[3]], nose=arcs, head=[head])
 
 
 def nose_case(pair, stiff=1.0):
@@ -401,6 +392,88 @@ def test_edge_in_space(go):
     told = go(geo, case, space=True)
     assert told.numbers["contacts.0.pressureMax"][1] is None
     assert foreign.SINGULAR.search(told.warnings)
+
+
+KINKED = """
+h = SIZE; t = TAN;
+Point(1) = {0, 0, 0, h}; Point(2) = {4, 0, 0, h}; Point(3) = {4, 2, 0, h}; Point(4) = {2, 2 - 2 * t, 0, h};
+Point(5) = {0, 2, 0, h}; Point(6) = {2, 2 - 2 * t + (1 + t * t) / t, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; SIDES Line(5) = {5, 1}; Curve Loop(1) = {1:5}; Plane Surface(1) = {1};
+"""
+NAMED = """
+Physical Surface("plate") = {1}; Physical Curve("left") = {5}; Physical Curve("right") = {2};
+"""
+SOLID = """
+o[] = Extrude {0, 0, 1} { Surface{1}; };
+Physical Volume("plate") = {1}; Physical Surface("left") = {o[6]}; Physical Surface("right") = {o[3]};
+Physical Surface("front") = {1};
+"""
+SIDES = {"lines": "Line(3) = {3, 4}; Line(4) = {4, 5};", "arcs": "Circle(3) = {3, 6, 4}; Circle(4) = {4, 6, 5};"}
+PULLED = "body plate E 1000 nu 0.3\nobstacle right plane AWAY\nclamp left\nstresses\n"
+
+
+@pytest.mark.parametrize("space", (False, True))
+@pytest.mark.parametrize("sides", SIDES)
+def test_kink_without_bound(go, sides, space):
+    """A re-entrant corner of 204 degrees has no bound; a smooth curve of the same depth, of few sides, has one."""
+    depth = 2 - 2 * np.tan(np.radians(12))
+    geo = KINKED.replace("SIZE", "0.4").replace("TAN", f"{np.tan(np.radians(12))}").replace("SIDES", SIDES[sides])
+    case = PULLED.replace("AWAY", "10 0 0 -1 0 0" if space else "10 0 -1 0")
+    case += "symmetry front\ntraction right 1 0 0\n" if space else "traction right 1 0\n"
+    (one,) = go(geo + (SOLID if space else NAMED), case, space=space).summary["stresses"]
+    if sides == "lines":
+        assert one["singular"][:2] == pytest.approx([2, depth], abs=1e-6)
+    else:
+        assert one["singular"] is None
+        assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
+
+
+def test_kink_on_a_mirror(go):
+    """Half of a kink, a line at 102 degrees to a mirror, has no bound; a coarse hole at 90 to it has one."""
+    case = "body plate E 1000 nu 0.3\nobstacle pulled plane 10 0 -1 0\nsymmetry below\nsymmetry side\n"
+    case += "traction pulled 1 0\nstresses\n"
+    geo = (
+        "Point(1) = {X, 0, 0, 0.6}; Point(2) = {4, 0, 0, 0.6}; Point(3) = {4, 4, 0, 0.6}; Point(4) = {0, Y, 0, 0.6};\n"
+    )
+    geo += "Point(5) = {0, X, 0, 0.6}; Point(6) = {0, 0, 0}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4};\n"
+    geo += 'LAST Plane Surface(1) = {1}; Physical Surface("plate") = {1}; Physical Curve("below") = {1};\n'
+    geo += 'Physical Curve("pulled") = {2}; Physical Curve("side") = {4};\n'
+    kink = geo.replace("X", "0").replace("Y", "3.15").replace("LAST", "Line(4) = {4, 1}; Curve Loop(1) = {1:4};")
+    (one,) = go(kink, case).summary["stresses"]
+    assert one["singular"] == pytest.approx([0, 3.15])
+    hole = "Line(4) = {4, 5}; Circle(5) = {5, 6, 1}; Curve Loop(1) = {1:5};"
+    (one,) = go(geo.replace("X", "1").replace("Y", "4").replace("LAST", hole), case).summary["stresses"]
+    assert one["singular"] is None
+    assert one["at"] == pytest.approx([0, 1], abs=0.3)
+
+
+# ---------------------------------------------------------------- surfaces that no contact names
+
+PIN = """
+Point(1) = {0, 0, 0}; Point(2) = {4.98, 0, 0, 0.5}; Point(3) = {0, 4.98, 0, 0.5}; Point(4) = {-4.98, 0, 0, 0.5};
+Point(5) = {0, -4.98, 0, 0.5};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
+Point(12) = {5, 0, 0, 0.5}; Point(13) = {0, 5, 0, 0.5}; Point(14) = {-5, 0, 0, 0.5}; Point(15) = {0, -5, 0, 0.5};
+Circle(11) = {12, 1, 13}; Circle(12) = {13, 1, 14}; Circle(13) = {14, 1, 15}; Circle(14) = {15, 1, 12};
+Point(21) = {12, -12, 0, 3}; Point(22) = {12, 12, 0, 3}; Point(23) = {-12, 12, 0, 3}; Point(24) = {-12, -12, 0, 3};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Curve Loop(2) = {21:24}; Curve Loop(3) = {11:14};
+Plane Surface(2) = {2, 3}; Physical Surface("pin") = {1}; Physical Surface("plate") = {2};
+Physical Curve("hole") = {11:14}; Physical Curve("left") = {23}; Physical Curve("skin") = {NAMED};
+"""
+PINNED = "body pin E 200e3 nu 0.3\nbody plate E 200e3 nu 0.3\ncontact hole skin\nclamp left\n"
+
+
+@pytest.mark.parametrize(
+    "named, weight, code, warned",
+    [("1:4", 1000, 0, False), ("1, 4", 1000, 0, False), ("3, 4", 1000, 0, True), ("3, 4", 5000, 20, True)],
+)
+def test_half_a_pin(go, named, weight, code, warned):
+    """The half that is pressed is enough; a pin that leaves through what is unnamed is said first, or ends the run."""
+    told = go(PIN.replace("NAMED", named), f"{PINNED}weight pin {weight} 0\n", "-estimate", 0, expect=code)
+    says = [line for line in told.stdout.splitlines() if line.startswith("warning: ")]
+    assert [k for k, line in enumerate(says) if "pass through" in line] == [0] * warned
+    assert ("NOT CONVERGED: pin: moved by 3" in told.stdout) == (code == 20)
 
 
 # ---------------------------------------------------------------- about an axis
@@ -553,9 +626,7 @@ def blocks(size):
     up, _ = sketch.outline([(-1, 0, size), (1, 0, size), (1, 1, size), (-1, 1, size)])
     sketch.body("low", low)
     sketch.body("up", up)
-    for name, curve in (("base", low[0]), ("floor", low[2]), ("sole", up[0]), ("head", up[2])):
-        sketch.group(name, [curve])
-    return sketch.text()
+    return sketch.named(base=[low[0]], floor=[low[2]], sole=[up[0]], head=[up[2]])
 
 
 def test_nearly_incompressible(go):

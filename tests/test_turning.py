@@ -161,6 +161,7 @@ def test_see_saw(solve):
         assert abs(value - true) < error < 0.02 * true
 
 
+@pytest.mark.long
 def test_rod_in_a_bowl(solve):
     """It leans on a rim: two points bear it, the next have hardly a lever; where they bear is in the errors."""
     r, half, rim, length, tilt = 5, 0.2, 0.5, 10, 0.5

@@ -67,6 +67,7 @@ def test_waves_that_the_mesh_cannot_carry(tmp_path, scene, flags, allowed):
     assert flags[0] in line and allowed in line.split("allowed", 1)[1]
 
 
+@pytest.mark.long
 def test_waves_that_the_mesh_carries_poorly():
     """Between 4 and 8 points a wave the run shall say so; the force is then off by more than with 16."""
     flags = ["-u0", 0.7, "-kappa", 1e9]
@@ -123,9 +124,6 @@ def test_mean_planes_that_pass_through_each_other():
     assert soft.overlapMax > 0.1 * 0.4  # gap 0.1, approach 0.5
     assert f"{100 * soft.overlapMax / 0.4:.0f} %" in text
     assert not run("two-cylinders", *flags, "-kappa", 1e9).warnings
-    assert run("two-cylinders", "-force", 0).overlapMax < 1e-6
-    exact = run("two-cylinders", *flags, "-distance", "exact")
-    warned(exact, "mean planes", "-kappa")
 
 
 # ---------------------------------------------------------------- resolution
@@ -154,6 +152,7 @@ def test_few_points_in_the_plane():
     assert f"{np.sum(sizes < 6)} of {len(sizes)} places of contact" in text
 
 
+@pytest.mark.long
 def test_jumping_pressure():
     """A fine, stiff slave against a coarse, soft master: the pressure jumps, and the run says so with the cure."""
     done = run("two-cylinders", "-E1", 1e5, "-h", 0.1)

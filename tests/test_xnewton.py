@@ -121,19 +121,6 @@ def test_pressure_does_not_oscillate():
     assert p1.pressureMax == pytest.approx(p2.pressureMax, rel=0.02)
 
 
-def test_steel_bearing_in_si_units():
-    """A steel bearing in metres and pascals shall take the steps of its twin in units of the radius and the modulus."""
-    shape = {"-R": 1, "-width": 4, "-depth": 2, "-gap": 2e-4, "-d0": -2e-4, "-u0": 1.2e-3, "-h": 4e-3, "-reach": 0.06}
-    metres = ["-grading", 80, *(word for flag, value in shape.items() for word in (flag, value * 5e-3))]
-    plain = ["-grading", 80, *(word for flag, value in shape.items() for word in (flag, value))]
-    young, kappa = 2.1e11, 1e7
-    steel = run("disc-on-block", *BASE, *metres, "-E", young, "-kappa", kappa * young / (5e-3) ** 3)
-    twin = run("disc-on-block", *BASE, *plain, "-E", 1, "-kappa", kappa)
-    for name in ("newton", "kernelNewton", "backsolves", "contactPoints"):
-        assert steel.summary[name] == twin.summary[name], name
-    assert steel.force == pytest.approx(twin.force * young * 5e-3, rel=1e-9)
-
-
 @pytest.mark.parametrize(
     "flags",
     [

@@ -2,7 +2,7 @@
 # Needs: RUN, FILE, SPACE, SETS: as bodies/readable.sh; FOLDER, of results; PICTURE, the command that draws. Or FILE, a folder of
 #        bodies/readable.sh's, FOLDER, where a run's files are before they are published, and the word keep.
 # Gives: FOLDER/check-faces.csv, said on standard output; with keep that file is told to case/folder.sh, and FILE removed.
-# Exit codes: 0 done, 10 refused in one line, as a run's.
+# Exit codes: 0 done, 10 refused in one line, 30 no room, as a run's.
 keep() {
     test ! -s "$1/faces" || { cp "$1/faces" "$2/check-faces.csv" && echo "check-faces.csv $(wc -c < "$1/faces")" >> "$2/.ends"; }
     rm -rf "$1"
@@ -14,7 +14,13 @@ if test "$4" = keep; then
 fi
 read=${TMPDIR:-/tmp}/faces-$1-$(date +%s)
 sh "$here/readable.sh" "$1" "$2" "$read" none "$4" check "$5"
-if test $? != 4; then
+code=$?
+if test $code = 5; then
+    echo "out of disk: ${read%/*} is full; allowed: room there, or another folder, named by the variable TMPDIR"
+    rm -rf "$read"
+    exit 30
+fi
+if test $code != 4; then
     echo "-mesh $2: $(cat "$read/why" 2> /dev/null || echo "cannot be read")$(grep -q '; allowed: ' "$read/why" 2> /dev/null \
         || echo "; allowed: a geometry (.geo, .step, .iges, .brep), or a mesh of gmsh's with numbers of faces")"
     rm -rf "$read"

@@ -3,7 +3,7 @@
 #        that is made if it is missing, beside GEO; AFTER, a variable: a file that gmsh reads after GEO, or nothing.
 # Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in its $Comments "Gmsh" and gmsh's version; in a
 #        folder with a file .shared also MESH.of, the geometries' checksum, for there they may be another copy's of the package.
-# Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 130 interrupted.
+# Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 6 no room, 130 interrupted.
 # gmsh's own exit code means little: what it wrote is looked at, then moved into place. It ends with its run, however that ends.
 . "${programs:-${0%/*}/..}/case/process.sh"
 run=$1
@@ -56,7 +56,7 @@ if grep -q '^2.2 0 8' "$work/gmsh.msh" 2> /dev/null && grep -q PhysicalNames "$w
     test $code = 0 || code=4
 else
     code=5
-    dd if=/dev/zero of="$work/room" bs=1024 count=1024 2> /dev/null || code=4
+    dd if=/dev/zero of="$work/room" bs=1024 count=1024 2> /dev/null || code=6
 fi
 rm -rf "$work"
 exit $code

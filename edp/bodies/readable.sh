@@ -8,7 +8,8 @@
 #        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/told, a line each: gmsh's version, if it meshed
 #        FILE; the file that gmsh read after the geometry; what makes smaller elements, in words; bodies that are left out; FOLDER/faces:
 #        the geometry's faces with their numbers (meshes/pick.awk). FOLDER is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.
-# Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused, 4 only FOLDER/faces.
+# Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused, 4 only FOLDER/faces,
+#        5 no room for FOLDER.
 . "${0%/*}/../case/process.sh"
 run=$1
 file=$2
@@ -22,19 +23,27 @@ SETS=${7-}
 surface=${8-}
 flat="-2 -order 2 -setnumber Mesh.SaveAll 1"
 meshes=${0%/*}/../../meshes
-(umask 077 && mkdir "$folder") || exit 2
+(umask 077 && mkdir "$folder") 2> /dev/null || { test -d "${folder%/*}" && test -w "${folder%/*}" && exit 5; exit 2; }
 (
     trap '' HUP INT TERM
     while test -n "$(started "$run")" && test -e "$folder"; do sleep 1; done
     rm -rf "$folder"
 ) < /dev/null > /dev/null 2>&1 &
 
+# a full disk says nothing, or anything: what fails where there is no room for a megabyte has failed for that
+room() {
+    dd if=/dev/zero of="$folder/room" bs=1024 count="$1" 2> /dev/null || exit 5
+    rm -f "$folder/room"
+}
 no() {
-    echo "$1" > "$folder/why"
+    room 1024
+    printf '%s\n' "$1" > "$folder/why"
     exit "${2:-1}"
 }
 
 test -d "$file" && no "a folder, no mesh"
+test -f "$file" || no "no file: a pipe or a device"
+test "$case_" = none || test -f "$case_" || no "-case $case_: a folder, a pipe or a device; allowed: a case file" 3
 test -r "$file" || no "may not be read"
 how=
 order=
@@ -140,6 +149,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     fi
     if test "$case_" = none; then
         pick || no "its faces cannot be listed"
+        room 1
         exit 4
     fi
     : > "$folder/picks"
@@ -216,6 +226,8 @@ if grep -q "of gmsh's type [3567]: " "$folder/why"; then
     check
 fi
 cat "$folder/regions" >> "$folder/case" 2> /dev/null
+test $code = 0 || room 1024
+room 1
 test $code -le 1 || no "cannot be checked: is awk there, and room in ${folder%/*}?"
 test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in ${folder%/*}"
 exit $code

@@ -5,7 +5,8 @@
 #        publish: the files in FOLDER/.run, if each was written to its end, go into FOLDER, summary.json last; if not, none.
 # Exit codes: 0 done, 1 files not whole, 3 a control character in the name, 4 cannot be made or written, 5 another run is using
 #        it, 6 one on another computer has not finished there and cannot be looked after, 7 no room for even a line, 8 under a
-#        name that a run would write stands what none has written, or a link: said in a line, nothing touched.
+#        name that a run would write stands what none has written, or a link, or the script's modules are not the package's
+#        (case/own.sh): said in a line, nothing touched.
 # FOLDER/.run holds what is being written, the list .ends of files and their lengths, the list .written of what a run has put into
 # FOLDER, and the lock .lock-N. The lock with the highest N counts, until it says "done" or the process that it names has ended:
 # nothing needs to take it away after a kill. The next run adds .lock-<N + 1>, which only one can make, and removes the older ones
@@ -91,6 +92,7 @@ look()
 
 case $task in
 check)
+    . "${programs:=${0%/*}/..}/case/own.sh"
     look
     there=$folder
     while ! test -e "$there"; do there=$(dirname "$there"); done

@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
 from postprocess.results import ResultsError, Run
@@ -47,6 +48,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.set_xscale("log")
         axes.grid(axis="x" if axes is right and not alike else "both", color="0.9", linewidth=0.5)
         axes.set_title(style.panel(int(axes is right)), loc="left")
+    left.xaxis.set_major_locator(LogLocator(subs=(1, 3)))  # the seconds of small meshes lie within a decade
+    left.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: f"{seconds:g}"))
+    left.xaxis.set_minor_formatter(NullFormatter())
     left.set_xlabel("CPU seconds")
     left.set_yscale("log")
     left.set_ylabel("relative error of the force")

@@ -456,7 +456,8 @@ def problem_words(row: dict[str, str]) -> str:
 
 
 def method_words(row: dict[str, str]) -> str:
-    return row["method"] + (f", T0 = {row['T0']}" if row["method"] == "paper" else "")
+    more = {"paper": f", T0 = {row['T0']}", "incremental": f", `-steps {row['steps']}`"}
+    return row["method"] + more.get(row["method"], "")
 
 
 def element(row: dict[str, str]) -> str:

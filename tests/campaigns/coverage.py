@@ -79,15 +79,6 @@ IN_SPACE: list[tuple[str, dict]] = [
     ("ball on a plane", {}),
     ("two balls", {}),
 ]
-# a user's own parts: the example's pin in its hole, in a plate of 10 radii, under forces, hard or with a law
-EXAMPLE = campaign.ROOT / "edp/examples/pin-in-hole/pin-in-hole"
-PINS = {
-    "50 N": ("0 -50", ""),
-    "1000 N": ("0 -1000", ""),
-    "20000 N": ("0 -20000", ""),
-    "1000 N and a law": ("0 -1000", " law power kappa 1e6 m 2 d0 -0.005"),
-}
-PIN_SIZE = 3.0  # P4's coarsest
 FINEST = {"hertz-line": 10, "two-cylinders": 10}  # of the reference: P4's coarsest h over its own; 16 elsewhere
 
 
@@ -110,30 +101,6 @@ def cases(root: Path = campaign.ROOT) -> list[campaign.Case]:
     return found
 
 
-def pin_files() -> dict[str, str]:
-    """Meshes and cases of the pins, for the campaign's folder."""
-    geo = EXAMPLE.with_suffix(".geo").read_text().replace("half = {500,", "half = {100,")
-    case_file = EXAMPLE.with_suffix(".case").read_text()
-    sizes = {PIN_SIZE * order / 4 / 2**halved for order in (1, 2, 3, 4) for halved in range(3)} | {PIN_SIZE / 12}
-    files = {f"pin-{size:g}.geo": geo.replace("size = {0.28,", f"size = {{{size:g},") for size in sizes}
-    for name, (force, law) in PINS.items():
-        text = case_file.replace("0 -1000", force).replace("bore pin-surface", "bore pin-surface" + law)
-        files[f"pin-{name.replace(' ', '-')}.case"] = text
-    return files
-
-
-def cases_of_pins(root: Path = campaign.ROOT) -> list[campaign.Case]:
-    found = []
-    for name in PINS:
-        shared = {"case": f"pin-{name.replace(' ', '-')}.case", "tol": 1e-8}
-        for order, size, kind in [(4, PIN_SIZE / 12, ": reference")] + [
-            (order, PIN_SIZE * order / 4 / 2**halved, "") for order in (1, 2, 3, 4) for halved in range(3)
-        ]:
-            flags = {"mesh": f"pin-{size:g}.geo", "order": order, **shared}
-            found.append(case(f"pin in a hole {name}{kind}", "parts", weight=5 if kind else 1, **flags))
-    return found
-
-
 def cases_in_space(root: Path = campaign.ROOT) -> list[campaign.Case]:
     """The same; P2's meshes grow finer by 1.4 each, P1's have half their sizes."""
     found = []
@@ -148,14 +115,6 @@ def cases_in_space(root: Path = campaign.ROOT) -> list[campaign.Case]:
 
 def profile_path(name: str) -> Path:
     return FOLDER / "profiles" / f"{name.replace(' ', '_')}.csv"
-
-
-def measured(folder: Path, round_hole: bool) -> dict:
-    """x of a scene's points, of a pin's the angle."""
-    contact = campaign.read_contact(folder)
-    x = np.arctan2(contact["x"], -contact["y"]) if round_hole else contact["x"]
-    order = np.argsort(x, kind="stable")
-    return {"x": x[order], **{name: contact[name][order] for name in ("pressure", "weight")}}
 
 
 def joined(x: np.ndarray, at: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -185,16 +144,14 @@ def measure(*_) -> campaign.Measure:
     """COLUMNS of a run; a reference leaves its profile behind."""
 
     def gauge(item: campaign.Case, summary: dict, folder: Path) -> dict:
-        contact = measured(folder, "pin" in item.name)
+        contact = campaign.read_contact(folder)
         name, _, is_reference = item.name.partition(": ")
         path = profile_path(name)
         found: dict = {}
-        if "z" in campaign.read_contact(folder):
-            pass  # no profile: a curve in the plane
-        elif is_reference:
+        if is_reference and "z" not in contact:
             path.parent.mkdir(parents=True, exist_ok=True)
             np.savetxt(path, np.column_stack([contact["x"], contact["pressure"]]))
-        else:
+        elif "z" not in contact:  # a profile is a curve in the plane
             found["profileTrue"] = profile_error(contact, np.loadtxt(path))
         told = summary.get("estimates") or {}
         for quantity in QUANTITIES:
@@ -203,14 +160,15 @@ def measure(*_) -> campaign.Measure:
         for way in [load["way"] for load in told.get("loads", []) if load["way"]]:
             found["approachValue"], found["approachSaid"] = way["value"], way["error"]
         found |= {part: told.get("parts", {}).get(part) for part in PARTS}
-        found["contactStiffness"] = told.get("contactStiffness")
-        found["estimateBacksolves"] = told.get("backsolves")
         seconds = summary["seconds"]
-        found["secondsEstimate"] = seconds.get("estimate")
         contact_seconds = seconds["assembly"] + seconds["factorisation"] + seconds["contact"]
-        found["linearSolve"] = contact_seconds / summary["costRatio"]
-        found["warnings"] = len(summary["warnings"])
-        return found
+        return found | {
+            "contactStiffness": told.get("contactStiffness"),
+            "estimateBacksolves": told.get("backsolves"),
+            "secondsEstimate": seconds.get("estimate"),
+            "linearSolve": contact_seconds / summary["costRatio"],
+            "warnings": len(summary["warnings"]),
+        }
 
     return gauge
 
@@ -266,14 +224,10 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("part", nargs="?", default="", help="only problems whose name has this text")
     arguments = parser.parse_args(argv)
-    for name, part, files in (
-        ("coverage", cases, {}),
-        ("pins", cases_of_pins, pin_files()),
-        ("space", cases_in_space, {}),
-    ):
+    for name, part in ("coverage", cases), ("space", cases_in_space):
         wanted = [item for item in part() if arguments.part in item.name]
         if wanted:
-            rows = campaign.run(wanted, FOLDER / f"{name}.csv", columns=COLUMNS, measure=measure, files=files)
+            rows = campaign.run(wanted, FOLDER / f"{name}.csv", columns=COLUMNS, measure=measure)
             print(table(judged(rows)))
     return 0
 

@@ -26,7 +26,7 @@ ofstream executedFile("/dev/fd/9", append);
 func int executed(int k)
 {{
     executedMark[k] = 1;
-    executedFile << k << endl;
+    executedFile << "mark " << k << endl;
     return 0;
 }}
 ENDIFMACRO
@@ -135,7 +135,9 @@ def take_marks(tree: Path) -> list[tuple[str, set[int]]]:
     runs = []
     for log in sorted((tree / ".executed").iterdir()):
         head, *lines = log.read_text().splitlines()
-        runs.append((head[2:], {int(line) for line in lines}))
+        # programs that a run calls may write to the same number of a file
+        numbers = (re.fullmatch(r"mark (\d+)", line) for line in lines)
+        runs.append((head[2:], {int(number[1]) for number in numbers if number}))
         log.unlink()
     return runs
 

@@ -6,6 +6,7 @@ sizes of a finer run), its case file, and what is known of its numbers in closed
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -30,13 +31,16 @@ class Part:
     """truth_case: where the truth is another problem (a body really turned); causes: what it can be false by."""
 
     name: str
-    geo: Callable[[Draw], str]
+    drawn: Callable[["Sketch"], str]
     case: str
     known: Known = field(default_factory=dict)
     causes: tuple[str, ...] = ()
     truth_case: str = ""
     space: bool = False
     fine: float = 0.35  # factor of sizes of the fine run that gives the rest of the truth; 0: none
+
+    def geo(self, draw: Draw) -> str:
+        return self.drawn(Sketch(draw))
 
 
 class Sketch:
@@ -144,6 +148,16 @@ class Sketch:
         self.used -= set(curves)
         self.names.append(f'Physical Curve("{name}") = {{{", ".join(map(str, curves))}}};')
 
+    def named(self, **curves: list[int]) -> str:
+        """The geometry, with these groups of curves; a name's _ is -."""
+        for word, these in curves.items():
+            self.group(word.replace("_", "-"), these)
+        return self.text()
+
+    def rectangle(self, x0: float, y0: float, x1: float, y1: float, size: float) -> list[int]:
+        """Its sides: below, right, above, left."""
+        return self.outline([(x0, y0, size), (x1, y0, size), (x1, y1, size), (x0, y1, size)])[0]
+
     def text(self, further: str = "") -> str:
         lines = [*self.lines, *self.names]
         if self.draw.named and self.used:
@@ -192,8 +206,8 @@ def press_fit(name: str, random: Random) -> Part:
     over, angle = c * 1e-4 * random.uniform(1, 5), random.uniform(0.1, 0.9) * 2 * np.pi / 100
     joint, inside, outside = int(random.integers(24, 80)), few(random), few(random)
 
-    def geo(draw: Draw) -> str:
-        sketch, size = Sketch(draw), 2 * np.pi * c / joint
+    def geo(sketch: Sketch) -> str:
+        size = 2 * np.pi * c / joint
         sketch.turn(angle)
         shaft = sketch.oval(0, 0, c + over, c + over, size, round(1.25 * joint))
         bore = sketch.oval(0, 0, a, a, (c - a) / 2, inside)
@@ -201,9 +215,7 @@ def press_fit(name: str, random: Random) -> Part:
         hub, outer = sketch.oval(0, 0, c, c, size, joint), sketch.oval(0, 0, b, b, (b - c) / 2, outside)
         sketch.body("inner", shaft, bore)
         sketch.body("outer", outer, hub)
-        sketch.group("shaft", shaft)
-        sketch.group("hub", hub)
-        return sketch.text()
+        return sketch.named(shaft=shaft, hub=hub)
 
     e1, e2, n1, n2 = E1, E2, nu1, nu2
     if strain:
@@ -230,14 +242,11 @@ def lined_tube(name: str, random: Random) -> Part:
     E, nu = moduli(random)
     p, inside, outside = 1e-3 * E * random.uniform(0.1, 1), few(random), int(random.integers(20, 60))
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         skin = sketch.oval(0, 0, b, b, (b - a) / 3, outside)
         bore = sketch.oval(0, 0, a, a, (b - a) / 3, inside)
         sketch.body("tube", skin, bore)
-        sketch.group("skin", skin)
-        sketch.group("bore", bore)
-        return sketch.text()
+        return sketch.named(skin=skin, bore=bore)
 
     outer = 2 * (1 - nu) * p / (1 + (1 - 2 * nu) * (b / a) ** 2)
     known = {"normalForce": 2 * np.pi * b * outer, "pressureMax": outer, "contactLength": 2 * np.pi * b}
@@ -252,12 +261,10 @@ def heavy(name: str, random: Random) -> Part:
     E, nu = moduli(random)
     density = 1e-3 * E / b * random.uniform(0.3, 1)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         rim = sketch.oval(0, b, a, b, b / 3, sides, b / 60)
         sketch.body("disc", rim, *([sketch.oval(0, b, hole, hole, b / 5, inside)] if hole else []))
-        sketch.group("foot", [rim[0], rim[3]])
-        return sketch.text()
+        return sketch.named(foot=[rim[0], rim[3]])
 
     case = f"{body('disc', E, nu)}obstacle foot plane 0 0 0 1\nweight disc 0 {-density:.9g}\n"
     weight = density * np.pi * (a * b - hole**2)
@@ -270,12 +277,10 @@ def groove(name: str, random: Random) -> Part:
     E, nu = moduli(random)
     density = 5e-3 * E / r * random.uniform(0.3, 1)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         rim = sketch.oval(0, 0, r, r, r / 8, sides)
         sketch.body("disc", rim)
-        sketch.group("rim", rim)
-        return sketch.text()
+        return sketch.named(rim=rim)
 
     lines = [
         f"obstacle rim plane {-side * r * np.sin(slope):.16g} {-r * np.cos(slope):.16g} "
@@ -294,30 +299,20 @@ def plank(name: str, random: Random) -> Part:
     tail, drop = random.uniform(1, 4), length * random.uniform(0.01, 0.09)
     E, nu, sides = 1e6, 0.3, int(random.integers(8, 30))
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         feet, corners = [], []
         for x in (0.0, length):
             ends = [sketch.point(x + side * r, 0, r / 4) for side in (-1, 0, 1)]
             low = sketch.point(x, -r, r / 60)
-            feet.append(
-                [
-                    sketch.curve("Circle", ends[0], ends[1], low, sides=sides // 2),
-                    sketch.curve("Circle", low, ends[1], ends[2], sides=sides // 2),
-                ]
-            )
+            halves = (ends[0], ends[1], low), (low, ends[1], ends[2])
+            feet.append([sketch.curve("Circle", *half, sides=sides // 2) for half in halves])
             corners.append(ends)
         above = [sketch.point(x, thick, thick / 3) for x in (-r, length + tail)]
         last = sketch.point(length + tail, 0, thick / 3)
         middle = sketch.curve("Line", corners[0][2], corners[1][0])
-        end = sketch.curve("Line", corners[1][2], last)
-        side = sketch.curve("Line", last, above[1])
-        top = sketch.curve("Line", above[1], above[0])
-        left = sketch.curve("Line", above[0], corners[0][0])
-        sketch.body("plank", [*feet[0], middle, *feet[1], end, side, top, left])
-        sketch.group("one", feet[0])
-        sketch.group("other", feet[1])
-        return sketch.text()
+        rest = [sketch.curve("Line", *p) for p in pairwise([corners[1][2], last, *above[::-1], corners[0][0]])]
+        sketch.body("plank", [*feet[0], middle, *feet[1], *rest])
+        return sketch.named(one=feet[0], other=feet[1])
 
     foot, slab = np.pi * r**2 / 2, (length + tail + r) * thick
     area = slab + 2 * foot
@@ -342,27 +337,14 @@ def crack(name: str, random: Random) -> Part:
     E, _ = moduli(random)
     move = random.uniform(1e-3, 1e-2)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         base = [sketch.point(x, -1, h) for x in (0, length)]
         tip, end = sketch.point(a, 0, h / 4), sketch.point(length, 0, h)
         low, high = sketch.point(0, 0, h), sketch.point(0, 0, 1.3 * h)
         head = [sketch.point(x, 1, h) for x in (length, 0)]
-        line = [
-            sketch.curve("Line", *pair)
-            for pair in (
-                (base[0], base[1]),
-                (base[1], end),
-                (end, tip),
-                (tip, low),
-                (low, base[0]),
-                (end, head[0]),
-                (head[0], head[1]),
-                (head[1], high),
-                (high, tip),
-            )
-        ]
-        loops = [line[:5], [-line[2], line[5], line[6], line[7], line[8]]]
+        way = [*base, end, tip, low, base[0]], [end, *head, high, tip]
+        line = [sketch.curve("Line", *pair) for points in way for pair in pairwise(points)]
+        loops = [line[:5], [-line[2], *line[5:]]]
         for loop in loops:
             sketch.curves += 1
             sketch.lines.append(f"Curve Loop({sketch.curves}) = {{{', '.join(map(str, loop))}}};")
@@ -389,28 +371,20 @@ def turned_oval(name: str, random: Random) -> Part:
     shaft, angle = 0.4 * b, random.choice([-1, 1]) * 10 ** random.uniform(-2.5, -1)
     E, nu = moduli(random)
     dent, sides = b * random.uniform(5e-4, 3e-3), int(random.integers(20, 60))
-    top = b
-    if not round_one:
-        top = np.hypot(a * np.sin(angle), b * np.cos(angle))
+    top = b if round_one else np.hypot(a * np.sin(angle), b * np.cos(angle))
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
-        sketch.turn(angle * draw.turned)
+    def geo(sketch: Sketch) -> str:
+        sketch.turn(angle * sketch.draw.turned)
         ends = [
             sketch.point(a * np.cos(t), b * np.sin(t), b / 100 if k == 1 else b / 8)
             for k, t in enumerate(np.arange(4) * np.pi / 2)
         ]
         centre = sketch.point(0, 0, b / 8)
-        kind = ["Circle"] if round_one else ["Ellipse"]
-        rim = [
-            sketch.curve(kind[0], ends[k], centre, *([] if round_one else [ends[0]]), ends[(k + 1) % 4])
-            for k in range(4)
-        ]
+        kind, middle = ("Circle", [centre]) if round_one else ("Ellipse", [centre, ends[0]])
+        rim = [sketch.curve(kind, ends[k], *middle, ends[(k + 1) % 4]) for k in range(4)]
         bore = sketch.oval(0, 0, shaft, shaft, b / 8, sides // 2)
         sketch.body("cam", rim, bore)
-        sketch.group("rim", rim[:2])
-        sketch.group("shaft", bore)
-        return sketch.text()
+        return sketch.named(rim=rim[:2], shaft=bore)
 
     case = f"{body('cam', E, nu)}obstacle rim plane 0 {top - dent:.16g} 0 -1{law(random, E, b)}\n"
     return Part(name, geo, f"{case}rotate shaft 0 0 {angle:.9g}\n", {}, ("rotation", "shape"), f"{case}clamp shaft\n")
@@ -432,9 +406,8 @@ def lobes(name: str, random: Random) -> Part:
     near = np.abs(x) < 0.98 * roller
     top = float(np.max((y[near] + np.sqrt(roller**2 - x[near] ** 2))[y[near] > 0]))
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
-        sketch.turn(angle * draw.turned)
+    def geo(sketch: Sketch) -> str:
+        sketch.turn(angle * sketch.draw.turned)
         points = [
             sketch.point(radius(s) * np.cos(s), radius(s) * np.sin(s), r / 200 if k == 0 else r / 8)
             for k, s in enumerate(t)
@@ -443,9 +416,7 @@ def lobes(name: str, random: Random) -> Part:
         rim = [sketch.curve("Spline", *ends[6 * k : 6 * k + 7]) for k in range(4)]
         bore = sketch.oval(0, 0, 0.4 * r, 0.4 * r, r / 8, 16)
         sketch.body("cam", rim, bore)
-        sketch.group("rim", [rim[0], rim[3]])
-        sketch.group("shaft", bore)
-        return sketch.text()
+        return sketch.named(rim=[rim[0], rim[3]], shaft=bore)
 
     case = f"{body('cam', E, nu)}obstacle rim circle 0 {top - dent:.16g} R {roller:.16g}{law(random, E, r)}\n"
     return Part(name, geo, f"{case}rotate shaft 0 0 {angle:.9g}\n", {}, ("rotation", "shape"), f"{case}clamp shaft\n")
@@ -460,30 +431,16 @@ def bracket(name: str, random: Random) -> Part:
     radius, sides = random.uniform(1, 4), int(random.integers(1, 6))
     E, nu = moduli(random)
     roller, place = random.uniform(2, 8), length * random.uniform(0.7, 0.9)
-    load = (
-        f"move 0 {-random.uniform(0.02, 0.1) * thick:.9g}"
-        if random.random() < 0.5
-        else f"force 0 {-1e-4 * E * thick:.9g}"
-    )
+    pushed = random.random() < 0.5
+    load = f"move 0 {-random.uniform(0.02, 0.1) * thick:.9g}" if pushed else f"force 0 {-1e-4 * E * thick:.9g}"
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
-        coarse, near = thick / 3, thick / 150
-        y = thick
-        corners = [
-            (0, 0, coarse),
-            (length, 0, coarse),
-            (length, y, coarse),
-            (place, y, near),
-            (wall, y, coarse, radius, sides),
-            (wall, y + 12, coarse),
-            (0, y + 12, coarse),
-        ]
+    def geo(sketch: Sketch) -> str:
+        coarse, near, y = thick / 3, thick / 150, thick
+        corners = [(0, 0, coarse), (length, 0, coarse), (length, y, coarse), (place, y, near)]
+        corners += [(wall, y, coarse, radius, sides), (wall, y + 12, coarse), (0, y + 12, coarse)]
         straight, arcs = sketch.outline(corners)
         sketch.body("bracket", [*straight, *arcs])
-        sketch.group("foot", [straight[2], straight[3]])
-        sketch.group("wall", [straight[5]])
-        return sketch.text()
+        return sketch.named(foot=[straight[2], straight[3]], wall=[straight[5]])
 
     case = f"state {random.choice(['strain', 'stress'])}\n{body('bracket', E, nu)}clamp wall\n"
     case += f"obstacle foot circle {place:.16g} {thick + roller:.16g} R {roller:.16g} {load}\n"
@@ -504,25 +461,15 @@ def hook(name: str, random: Random) -> Part:
     centre = touch + catch * normal
     lift = thick * random.uniform(0.02, 0.15)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         far = np.array([x0, y0]) + ramp * along
         coarse = thick / 4
-        corners = [
-            (0, 0, coarse),
-            (length, 0, coarse / 2, round_off, sides),
-            (length, -deep, coarse),
-            (x0, y0, coarse / 2, round_off, sides),
-            (*touch, thick / 150),
-            (*far, coarse),
-            (far[0], thick, coarse),
-            (0, thick, coarse),
-        ]
+        corners = [(0, 0, coarse), (length, 0, coarse / 2, round_off, sides), (length, -deep, coarse)]
+        corners += [(x0, y0, coarse / 2, round_off, sides), (*touch, thick / 150), (*far, coarse)]
+        corners += [(far[0], thick, coarse), (0, thick, coarse)]
         straight, arcs = sketch.outline(corners)
         sketch.body("hook", [*straight, *arcs])
-        sketch.group("ramp", [straight[3], straight[4]])
-        sketch.group("root", [straight[7]])
-        return sketch.text()
+        return sketch.named(ramp=[straight[3], straight[4]], root=[straight[7]])
 
     case = f"state stress\n{body('hook', E, nu)}clamp root\nobstacle ramp circle {centre[0]:.16g} {centre[1]:.16g} "
     case += f"R {catch:.16g} move {-lift * random.uniform(0, 0.5):.9g} {lift:.9g}\n"
@@ -539,24 +486,13 @@ def hole(name: str, random: Random) -> Part:
     density = load / (np.pi * r**2)
     width = r * random.uniform(2, 4)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
-        straight, _ = sketch.outline(
-            [
-                (-width, -width, width / 4),
-                (width, -width, width / 4),
-                (width, width, width / 4),
-                (-width, width, width / 4),
-            ]
-        )
+    def geo(sketch: Sketch) -> str:
+        straight = sketch.rectangle(-width, -width, width, width, width / 4)
         bore = sketch.oval(0, 0, r, r, 1, int(sides[0]))
         pin = sketch.oval(0, -clearance, r - clearance, r - clearance, 1, int(sides[1]))
         sketch.body("plate", straight, bore)
         sketch.body("pin", pin)
-        sketch.group("base", [straight[0]])
-        sketch.group("bore", bore)
-        sketch.group("pin-skin", pin)
-        return sketch.text()
+        return sketch.named(base=[straight[0]], bore=bore, pin_skin=pin)
 
     pair = "bore pin-skin" if E1 < E2 else "pin-skin bore"
     case = f"{body('plate', E1, nu1)}{body('pin', E2, nu2)}clamp base\ncontact {pair}{law(random, min(E1, E2), r)}\n"
@@ -573,24 +509,14 @@ def two_bodies(name: str, random: Random) -> Part:
     wavy = name.startswith("wavy")
     heights = random.uniform(0, 0.15, 9) * (np.abs(np.arange(9) - 4) > 0)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         sizes = near * max(1, 1 / ratio), near * max(1, ratio)
         low = [sketch.point(x, -deep, wide / 6) for x in (-wide, wide)]
-        if wavy:
-            knots = [
-                sketch.point(wide * (4 - k) / 4, -heights[k], sizes[0] if k == 4 else max(sizes[0], 0.3))
-                for k in range(9)
-            ]
-        else:
-            knots = [sketch.point(x, 0, sizes[0] if x == 0 else max(sizes[0], 0.5)) for x in (wide, 0, -wide)]
+        places = [(wide * (4 - k) / 4, -heights[k]) for k in range(9)] if wavy else [(wide, 0), (0, 0), (-wide, 0)]
+        knots = [sketch.point(x, y, max(sizes[0], (0.3 if wavy else 0.5) * (x != 0))) for x, y in places]
         loops = [knots] if wavy else [knots[:2], knots[1:]]
         floor = [sketch.curve("Spline" if wavy else "Line", *loop) for loop in loops]
-        rest = [
-            sketch.curve("Line", low[0], low[1]),
-            sketch.curve("Line", low[1], knots[0]),
-            sketch.curve("Line", knots[-1], low[0]),
-        ]
+        rest = [sketch.curve("Line", *pair) for pair in (low, (low[1], knots[0]), (knots[-1], low[0]))]
         sketch.body("block", [rest[0], rest[1], *floor, rest[2]])
         tip, centre = sketch.point(0, 0, sizes[1]), sketch.point(0, b, 1)
         ends = [sketch.point(side * a, b, max(a / 5, sizes[1])) for side in (1, -1)]
@@ -598,11 +524,7 @@ def two_bodies(name: str, random: Random) -> Part:
         nose = [sketch.curve(kind, tip, centre, *extra, ends[0]), sketch.curve(kind, ends[1], centre, *extra, tip)]
         head = sketch.curve("Line", ends[0], ends[1])
         sketch.body("head", [nose[0], head, nose[1]])
-        sketch.group("base", [rest[0]])
-        sketch.group("floor", floor)
-        sketch.group("nose", nose)
-        sketch.group("grip", [head])
-        return sketch.text()
+        return sketch.named(base=[rest[0]], floor=floor, nose=nose, grip=[head])
 
     pair = random.permutation(["floor", "nose"])
     load = 10 ** random.uniform(-3, -1.7)
@@ -610,13 +532,8 @@ def two_bodies(name: str, random: Random) -> Part:
         pair, ratio, load, E2 = ["nose", "floor"], 1 / random.uniform(4, 12), 0.01 * random.uniform(0.3, 1), E1
     grip = f"move grip 0 {-load * b:.9g}" if random.random() < 0.5 else f"force grip 0 {-load * min(E1, E2) * b:.9g}"
     case = f"{body('block', E1, nu1)}{body('head', E2, nu2)}clamp base\n"
-    return Part(
-        name,
-        geo,
-        f"{case}contact {pair[0]} {pair[1]}{law(random, min(E1, E2), b)}\n{grip}\n",
-        {},
-        ("gap", "master", "shape"),
-    )
+    case += f"contact {pair[0]} {pair[1]}{law(random, min(E1, E2), b)}\n{grip}\n"
+    return Part(name, geo, case, {}, ("gap", "master", "shape"))
 
 
 def squeezed(name: str, random: Random) -> Part:
@@ -629,12 +546,10 @@ def squeezed(name: str, random: Random) -> Part:
     E, nu = moduli(random)
     move = b * 10 ** random.uniform(-2.5, -1)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         rim = sketch.oval(x, 0, a, b, b / 5, sides)
         sketch.body("ring", rim)
-        sketch.group("skin", rim)
-        return sketch.text()
+        return sketch.named(skin=rim)
 
     soft = law(random, E, b)
     case = f"state {'axisymmetric' if about else random.choice(['strain', 'stress'])}\n{body('ring', E, nu)}"
@@ -653,12 +568,9 @@ def polygon(name: str, random: Random) -> Part:
     load = 1e-3 * E1 * r * random.uniform(0.5, 3)
     t = -np.pi / 2 - np.pi / corners + 2 * np.pi * np.arange(corners) / corners
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         width = 3 * r
-        block, _ = sketch.outline(
-            [(-width, -width, r / 2), (width, -width, r / 2), (width, 0, r / 2), (-width, 0, r / 2)]
-        )
+        block = sketch.rectangle(-width, -width, width, 0, r / 2)
         straight, arcs = sketch.outline(
             [(r * np.cos(s), inner + r * np.sin(s), r / 30 if k < 2 else r / 6, rounded, 3) for k, s in enumerate(t)]
         )
@@ -669,7 +581,7 @@ def polygon(name: str, random: Random) -> Part:
         sketch.group("sole", [straight[0], *arcs[:2]])
         return sketch.text(
             "Field[1] = MathEval; Field[1].F = "
-            f'"{draw.factor:.6g} * ({r / 30:.6g} + 0.25 * Sqrt(x*x/4 + y*y))"; Background Field = 1;'
+            f'"{sketch.draw.factor:.6g} * ({r / 30:.6g} + 0.25 * Sqrt(x*x/4 + y*y))"; Background Field = 1;'
             "Mesh.MeshSizeExtendFromBoundary = 0;"
         )
 
@@ -687,32 +599,20 @@ def hip(name: str, random: Random) -> Part:
     E, nu = moduli(random)
     force = 2e-2 * E * r * r * random.uniform(0.3, 1.5) * clearance / r + 1e-3 * E * r * r
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
-
-        def quarter(radius, y, size, count=0):
-            ends = [sketch.point(0, y - radius, size), sketch.point(radius, y, size)]
-            return ends, (size, count, radius, y)
+    def geo(sketch: Sketch) -> str:
 
         centre = [sketch.point(0, y, r / 5) for y in (0, clearance)]
         found = []
-        for radius, c, size, count in (
-            (r, 0, 1, int(sides[0])),
-            (r + clearance, 1, 1, int(sides[1])),
-            (r + clearance + wall, 1, wall / 3, 0),
-        ):
-            size = np.pi * radius / 2 / count if count else size
-            y = clearance * c
+        for radius, c, count in (r, 0, sides[0]), (r + clearance, 1, sides[1]), (r + clearance + wall, 1, 0):
+            size, y = np.pi * radius / 2 / count if count else wall / 3, clearance * c
             low, side = sketch.point(0, y - radius, size), sketch.point(radius, y, size)
-            found.append((low, side, sketch.curve("Circle", low, centre[c], side, sides=count)))
+            found.append((low, side, sketch.curve("Circle", low, centre[c], side, sides=int(count))))
         ball, cup, shell = found
         axis, top = sketch.curve("Line", centre[0], ball[0]), sketch.curve("Line", ball[1], centre[0])
         sketch.body("ball", [axis, ball[2], top])
         ends = [sketch.curve("Line", shell[0], cup[0]), sketch.curve("Line", cup[1], shell[1])]
         sketch.body("cup", [ends[0], cup[2], ends[1], -shell[2]])
-        for word, curve in (("skin", ball[2]), ("grip", top), ("bore", cup[2]), ("shell", shell[2])):
-            sketch.group(word, [curve])
-        return sketch.text()
+        return sketch.named(skin=[ball[2]], grip=[top], bore=[cup[2]], shell=[shell[2]])
 
     case = f"state axisymmetric\n{body('ball', 100 * E, 0.3)}{body('cup', E, nu)}contact bore skin{law(random, E, r)}\n"
     return Part(name, geo, f"{case}clamp shell\nforce grip 0 {-force:.9g}\n", {}, ("gap", "shape"))
@@ -725,33 +625,21 @@ def seat(name: str, random: Random) -> Part:
     density = E * 10 ** random.uniform(-4.5, -3) / r
     near = r / 120
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         centre = sketch.point(0, 0, r / 6)
-        angles = (
-            [-np.pi / 2, -np.pi / 2 + slope, 0, np.pi / 2] if slope else [-np.pi / 2, -np.pi / 2 + 0.15, 0, np.pi / 2]
-        )
+        angles = [-np.pi / 2, -np.pi / 2 + (slope or 0.15), 0, np.pi / 2]
         sizes = [r / 6 if slope else near, near, r / 6, r / 6]
-        points = [
-            sketch.point(r * np.cos(s) * (abs(s) < 1.57), r * np.sin(s), size)
-            for s, size in zip(angles, sizes, strict=True)
-        ]
+        at = zip(angles, sizes, strict=True)
+        points = [sketch.point(r * np.cos(s) * (abs(s) < 1.57), r * np.sin(s), size) for s, size in at]
         arcs = [sketch.curve("Circle", points[k], centre, points[k + 1]) for k in range(3)]
         axis = [sketch.curve("Line", points[3], centre), sketch.curve("Line", centre, points[0])]
         sketch.body("ball", [*arcs, *axis])
-        sketch.group("skin", arcs[:2])
-        return sketch.text()
+        return sketch.named(skin=arcs[:2])
 
-    normal = -np.sin(slope), np.cos(slope)
     case = f"state axisymmetric\n{body('ball', E, nu)}"
     case += f"obstacle skin plane {r * np.sin(slope):.16g} {-r * np.cos(slope):.16g} "
-    return Part(
-        name,
-        geo,
-        f"{case}{normal[0]:.16g} {normal[1]:.16g}\nweight ball 0 {-density:.9g}\n",
-        {},
-        ("gap", "shape", "axis"),
-    )
+    case += f"{-np.sin(slope):.16g} {np.cos(slope):.16g}\nweight ball 0 {-density:.9g}\n"
+    return Part(name, geo, case, {}, ("gap", "shape", "axis"))
 
 
 def punch(name: str, random: Random) -> Part:
@@ -762,22 +650,19 @@ def punch(name: str, random: Random) -> Part:
     force = 1e-3 * E1 * a * random.uniform(0.3, 3)
     state = random.choice(["axisymmetric", "strain"])
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         block, _ = sketch.outline([(0, -wide, 3), (wide, -wide, 3), (wide, 0, 3), (a, 0, a / 60), (0, 0, a / 12)])
         tool, _ = sketch.outline([(0, 0, a / 12), (a, 0, a / 45), (a, 2 * a, a / 4), (0, 2 * a, a / 4)])
         sketch.body("block", block)
         sketch.body("tool", tool)
-        for word, curves in (
-            ("base", [block[0]]),
-            ("top", [block[2], block[3]]),
-            ("axis", [block[4]]),
-            ("end", [tool[0]]),
-            ("cap", [tool[2]]),
-            ("tool-axis", [tool[3]]),
-        ):
-            sketch.group(word, curves)
-        return sketch.text()
+        return sketch.named(
+            base=[block[0]],
+            top=[block[2], block[3]],
+            axis=[block[4]],
+            end=[tool[0]],
+            cap=[tool[2]],
+            tool_axis=[tool[3]],
+        )
 
     mirror = "" if state == "axisymmetric" else "symmetry axis\nsymmetry tool-axis\n"
     case = f"state {state}\n{body('block', E1, nu1)}{body('tool', E2, nu2)}clamp base\n{mirror}contact top end\n"
@@ -796,8 +681,7 @@ def prism(name: str, random: Random) -> Part:
     E, _ = moduli(random)
     strain = 10 ** random.uniform(-3, -2)
 
-    def geo(draw: Draw) -> str:
-        sketch = Sketch(draw)
+    def geo(sketch: Sketch) -> str:
         rim = sketch.oval(0, 0, r, r, r / 2, sides)
         bore = sketch.oval(0, 0, hole, hole, r / 2, inner) if hole else []
         loops = [loop for loop in (rim, bore) if loop]
@@ -821,7 +705,7 @@ def press_fit_in_space(name: str, random: Random) -> Part:
     over, height = c * 1e-4 * random.uniform(1, 5), random.uniform(2, 5)
     joint, inside, outside = int(random.integers(8, 16)), max(2, few(random) // 4), max(2, few(random) // 4)
 
-    def geo(draw: Draw) -> str:
+    def geo(sketch: Sketch) -> str:
         lines = [
             "Point(1) = {0, 0, 0}; Macro Sector\nq = newl; p = newp;",
             "Point(p) = {r1, 0, 0}; Point(p+1) = {r2, 0, 0}; Point(p+2) = {0, r2, 0}; Point(p+3) = {0, r1, 0};",
@@ -838,7 +722,7 @@ def press_fit_in_space(name: str, random: Random) -> Part:
             for side, tag in (("bottom", "q"), ("top", "e[0]"), ("y", "e[2]"), ("x", "e[4]")):
                 lines.append(f'Physical Surface("{side}{k}") = {{{tag}}};')
             lines.append(f'Physical Surface("{("shaft", "hub")[k]}") = {{e[{(3, 5)[k]}]}};')
-        return "\n".join(lines + options(draw)) + "\n"
+        return "\n".join(lines + options(sketch.draw)) + "\n"
 
     e, n = 1 / (1 - nu**2), nu / (1 - nu)
     r = c + over
@@ -856,23 +740,17 @@ def ball_in_space(name: str, random: Random) -> Part:
     density, size = 1.5e-3 * E / axes[2] * random.uniform(0.5, 2), random.uniform(0.8, 1.2)
     a, b, c = axes
 
-    def geo(draw: Draw) -> str:
-        return (
-            "\n".join(
-                [
-                    'SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1};',
-                    f"Dilate {{{{0, 0, 0}}, {{{a:.16g}, {b:.16g}, {c:.16g}}}}} {{ Volume{{1}}; }}",
-                    f"Translate {{0, 0, {c:.16g}}} {{ Volume{{1}}; }}",
-                    'Physical Volume("ball") = {1}; skin() = Abs(Boundary{ Volume{1}; });'
-                    ' Physical Surface("skin") = skin();',
-                    "Field[1] = MathEval; "
-                    f'Field[1].F = "{size * draw.factor:.6g} * (0.08 + 0.35 * Sqrt(x*x + y*y + z*z))";',
-                    "Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0;",
-                    *options(draw),
-                ]
-            )
-            + "\n"
-        )
+    def geo(sketch: Sketch) -> str:
+        lines = [
+            'SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1};',
+            f"Dilate {{{{0, 0, 0}}, {{{a:.16g}, {b:.16g}, {c:.16g}}}}} {{ Volume{{1}}; }}",
+            f"Translate {{0, 0, {c:.16g}}} {{ Volume{{1}}; }}",
+            'Physical Volume("ball") = {1}; skin() = Abs(Boundary{ Volume{1}; }); Physical Surface("skin") = skin();',
+            "Field[1] = MathEval; "
+            f'Field[1].F = "{size * sketch.draw.factor:.6g} * (0.08 + 0.35 * Sqrt(x*x + y*y + z*z))";',
+            "Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0;",
+        ]
+        return "\n".join(lines + options(sketch.draw)) + "\n"
 
     case = f"{body('ball', E, nu)}obstacle skin plane 0 0 0 0 0 1\nweight ball 0 0 {-density:.9g}\n"
     weight = density * 4 / 3 * np.pi * a * b * c
@@ -888,8 +766,8 @@ def wheel(name: str, random: Random) -> Part:
     force = 4 * E / (1 - nu**2) / 2 * radius**3 / (3 * mean) / 4
     wide, deep = 3.5 * radius, 4 * radius
 
-    def geo(draw: Draw) -> str:
-        near = radius / 4 * draw.factor
+    def geo(sketch: Sketch) -> str:
+        near = radius / 4 * sketch.draw.factor
         lines = ['SetFactory("OpenCASCADE");']
         for k, (r, axis, sign) in enumerate(((r1, "1, 0, 0", -1), (r2, "0, 1, 0", 1))):
             start = f"{-2 * wide if k == 0 else 0}, {-2 * wide if k == 1 else 0}, {sign * r:.16g}"
@@ -900,13 +778,10 @@ def wheel(name: str, random: Random) -> Part:
                 f"Box({21 + k}) = {{0, 0, {z:.16g}, {wide:.16g}, {wide:.16g}, {deep:.16g}}};",
                 f"BooleanIntersection({1 + k}) = {{ Volume{{{11 + k}}}; Delete; }}{{ Volume{{{21 + k}}}; Delete; }};",
             ]
-        e = 1e-3 * radius
-        far = 2 * wide
 
         def near_plane(axis: int, at: float) -> str:
-            low = [-far] * 3
-            high = [far] * 3
-            low[axis], high[axis] = at - e, at + e
+            low, high = [-2 * wide] * 3, [2 * wide] * 3
+            low[axis], high[axis] = at - 1e-3 * radius, at + 1e-3 * radius
             return "Surface In BoundingBox {" + ", ".join(f"{v:.9g}" for v in (*low, *high)) + "}"
 
         lines += [
@@ -916,18 +791,15 @@ def wheel(name: str, random: Random) -> Part:
             f"ox() = {near_plane(0, wide)}; oy() = {near_plane(1, wide)};",
             "head() = Abs(Boundary{ Volume{1}; }); tread() = Abs(Boundary{ Volume{2}; });",
         ]
-        lines += [
-            f"{skin}() -= {other}();"
-            for skin in ("head", "tread")
-            for other in ("mx", "my", "base", "grip", "ox", "oy")
-        ]
+        others = "mx my base grip ox oy".split()
+        lines += [f"{skin}() -= {other}();" for skin in ("head", "tread") for other in others]
         lines += [f'Physical Surface("{word}") = {word}();' for word in ("mx", "my", "base", "grip", "head", "tread")]
         lines += [
             f'Field[1] = MathEval; Field[1].F = "Max({near:.6g}, '
-            f'{draw.factor:.6g} * 0.45 * (Sqrt(x*x + y*y + z*z) - {0.8 * radius:.6g}))";',
+            f'{sketch.draw.factor:.6g} * 0.45 * (Sqrt(x*x + y*y + z*z) - {0.8 * radius:.6g}))";',
             "Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0;",
         ]
-        return "\n".join(lines + options(draw)) + "\n"
+        return "\n".join(lines + options(sketch.draw)) + "\n"
 
     case = (
         f"{body('rail', E, nu)}{body('wheel', E * ratio, nu)}contact head tread\nsymmetry mx\nsymmetry my\nclamp base\n"
@@ -938,31 +810,13 @@ def wheel(name: str, random: Random) -> Part:
 
 
 FAMILIES: dict[str, tuple[Callable[[str, Random], Part], int]] = {
-    "press fit": (press_fit, 5),
-    "lined tube": (lined_tube, 3),
-    "heavy": (heavy, 4),
-    "groove": (groove, 2),
-    "plank": (plank, 2),
-    "crack": (crack, 2),
-    "disc turned": (turned_oval, 2),
-    "cam turned": (turned_oval, 3),
-    "lobes turned": (lobes, 2),
-    "bracket": (bracket, 3),
-    "hook": (hook, 3),
-    "hole": (hole, 3),
-    "head": (two_bodies, 4),
-    "wavy": (two_bodies, 2),
-    "coarse master": (two_bodies, 2),
-    "squeezed": (squeezed, 2),
-    "o-ring": (squeezed, 2),
-    "polygon": (polygon, 3),
-    "hip": (hip, 2),
-    "seat": (seat, 3),
-    "punch": (punch, 2),
-    "prism": (prism, 4),
-    "press fit in space": (press_fit_in_space, 2),
-    "ball in space": (ball_in_space, 2),
-    "wheel": (wheel, 2),
+    **{"press fit": (press_fit, 5), "lined tube": (lined_tube, 3), "heavy": (heavy, 4), "groove": (groove, 2)},
+    **{"plank": (plank, 2), "crack": (crack, 2), "disc turned": (turned_oval, 2), "cam turned": (turned_oval, 3)},
+    **{"lobes turned": (lobes, 2), "bracket": (bracket, 3), "hook": (hook, 3), "hole": (hole, 3)},
+    **{"head": (two_bodies, 4), "wavy": (two_bodies, 2), "coarse master": (two_bodies, 2), "squeezed": (squeezed, 2)},
+    **{"o-ring": (squeezed, 2), "polygon": (polygon, 3), "hip": (hip, 2), "seat": (seat, 3), "punch": (punch, 2)},
+    **{"prism": (prism, 4), "press fit in space": (press_fit_in_space, 2), "ball in space": (ball_in_space, 2)},
+    **{"wheel": (wheel, 2)},
 }
 
 

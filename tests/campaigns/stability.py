@@ -604,7 +604,8 @@ def laws_table(rows: list[dict]) -> str:
             (row, *_) = select(group, **law) or [None]
             good = row and row["status"] == "converged"
             cells.append(f"{row['adaptations']} / {row['newton']}" if good else row["status"] if row else "")
-        lines.append([f"`{method}`" + (f", T0 = {start}" if start else ""), *cells])
+        more = f", T0 = {start}" if start else ", `-steps 5`" if method == "incremental" else ""
+        lines.append([f"`{method}`{more}", *cells])
     words = [f"κ={decade(law['kappa'])}, m={law['m']}" if law["law"] == "power" else law["law"] for law in CHOSEN]
     return markdown(["method", *words], lines)
 

@@ -27,7 +27,7 @@ LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
     f"bench/{name}": part[0] for name, part in bench.PARTS.items()
 }
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
-LISTS |= {"coverage/space": coverage.cases_in_space, "coverage/pins": coverage.cases_of_pins}
+LISTS |= {"coverage/space": coverage.cases_in_space}
 # name: (CSV below results/, its rows to the table)
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "work-precision": ("bench/work_precision", bench.report_work_precision),
@@ -50,7 +50,6 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),
     "coverage": ("coverage/coverage", lambda rows: coverage.table(coverage.judged(rows))),
-    "coverage-pins": ("coverage/pins", lambda rows: coverage.table(coverage.judged(rows))),
     "coverage-space": ("coverage/space", lambda rows: coverage.table(coverage.judged(rows))),
     "laws": ("stability/stability", stability.laws_table),
     "paper": ("stability/stability", stability.paper_table),
