@@ -509,11 +509,13 @@ def test_spoilt_results(name, tmp_path, monkeypatch, capsys):
     if name == "sweep.json":
         whole.mkdir()
         (whole / name).write_text('{"mesh": 1}')
+        (tmp_path / "a.geo").write_text("")
+        (tmp_path / "a.case").write_text(case)
     else:
         part(tmp_path, RING.replace("SIZE", "6"), case, "-estimate", 0, "-vtu", 1)
     content = (whole / name).read_bytes()
     monkeypatch.chdir(tmp_path)
-    sweep = ["sweep", "part.geo", "part.case", "--number", "body ring E *", "--values", "1", "--out"]
+    sweep = ["sweep", "a.geo", "a.case", "--number", "body ring E *", "--values", "1", "--out"]
     commands = [sweep] if name == "sweep.json" else [["state"], ["stress"], ["show"], ["compare", whole]]
     for spoil in SPOILS[name]:
         shutil.rmtree(tmp_path / "run", ignore_errors=True)
