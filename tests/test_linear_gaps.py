@@ -96,6 +96,7 @@ class Said:
     def __init__(self, summary, stdout):
         self.summary, self.stdout = summary, stdout
         self.linear = summary["linearised"]
+        self.listed = self.linear and list(self.linear["changes"])
         if self.linear:
             both = {"normal force": " normal force"}  # the others are the names' only ones
             changes = self.linear["changes"]
@@ -265,3 +266,59 @@ def test_turned_in_space(said):
     # points that face nothing are no example for their neighbours
     exact = said(WHEEL, case.format("clamp shaft"), "-distance", "exact", space=True)
     assert exact.holds("force", true) and exact.known("force")[1] < 0.05 * true
+
+
+# ---------------------------------------------------------------- with friction
+
+BALL = """
+SetFactory("OpenCASCADE");
+Sphere(1) = {0, 0, 1, 1, -Pi/2, 0, 2*Pi};
+Physical Volume("ball") = {1}; cut() = Surface In BoundingBox {-2, -2, 0.999, 2, 2, 1.001};
+skin() = Abs(Boundary{ Volume{1}; }); skin() -= cut();
+Physical Surface("cut") = cut(); Physical Surface("skin") = skin();
+Field[1] = MathEval; Field[1].F = "0.09 + 0.4 * Sqrt(x * x + y * y + z * z)";
+Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0;
+"""
+
+
+def rubbed(found):
+    """Forces, what is lost and what is needed, by the names that `linearised` has."""
+    contact = found.summary["contacts"][0]
+    name = contact["name"]
+    numbers = {f"{name} force": np.linalg.norm(contact["force"]), f"{name} normal force": contact["normalForce"]}
+    numbers |= {f"{name} dissipated": contact["dissipated"]}
+    numbers[f"{name} shear force"] = np.linalg.norm(contact["shearForce"])
+    return numbers | {f"{x['name']} needed": x["force"] for x in found.summary["prescribed"]}
+
+
+BOTH = "body low E 1000 nu 0.3\nbody up E 1000 nu 0.3\ncontact {} friction 0.3\nmove head {}\n"
+ON_BALL = "body ball E 1000 nu 0.3\nobstacle skin sphere 0 0 -2 R 2 friction 0.3{}\nmove cut {}\n"
+
+
+@pytest.mark.parametrize(
+    "geo, case",
+    [
+        (NOSE, BOTH.format("nose floor", "0.05 -0.1") + "clamp base\n"),
+        (BALL, ON_BALL.format("", "0.06 0.02 -0.05")),
+        (BALL, ON_BALL.format(" move 0 0 0.05", "0.05 0 0")),
+    ],
+    ids=["dragged", "ball", "pushed obstacle"],
+)
+def test_friction_with_the_true_distance(said, geo, case):
+    """What the true distance changes of a run that rubs shall be foreseen, number by number, and be in the errors."""
+    space = geo == BALL
+    linear, exact = said(geo, case, space=space), said(geo, case, "-distance", "exact", space=space)
+    told, truth = rubbed(linear), rubbed(exact)
+    seen = 0
+    for number in linear.listed:
+        name = f"{number['name']} {number['kind']}"
+        happens = truth[name] - told[name]
+        size = linear.summary["contacts"][0]["normalForce"]
+        if "dissipated" in name:  # what sticks and slips changes with it: inside its ± alone
+            assert abs(happens) <= 2 * abs(number["change"])
+            continue
+        assert number["change"] == pytest.approx(happens, rel=0.35, abs=4e-3 * size), name
+        seen += abs(happens) > 1e-3 * size
+    assert seen > 0 and exact.linear is None
+    assert linear.holds("normalForce", exact.known("normalForce")[0])
+    assert "gaps at rest" not in linear.stdout
