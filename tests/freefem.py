@@ -137,6 +137,11 @@ def short_of(short, every):
     return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in others)]
 
 
+def flag_lists(text):
+    """The flags of each run of "-a 1 -b 2 | -c 3"."""
+    return [part.split() for part in text.split("|")]
+
+
 RUBS = re.compile(r"^\s*(leg\s|tie\s|(contact|obstacle)\s.*\sfriction(\s|$))", re.M)
 ASKS = re.compile(r"^\s*(rotate|stresses|line|body\s.*\syield|expand|preload)(\s|$)", re.M)
 

@@ -25,12 +25,9 @@ def test_stiffness_and_points(tmp_path, symmetry, points):
     fespace Uh(Th, [P1, P1, P1]);
     Uh [ax, ay, az] = [0, 0, z];
     Uh [bx, by, bz] = [0, z, 0];
-    real[int] K = stiffness * ax[];
-    tell("stretch", K' * ax[]);
-    K = stiffness * bx[];
-    tell("shear", K' * bx[]); tell("area", weight.sum);
-    real[int] off = pointX .* weight;
-    tell("middle", off.sum); tell("top", pointZ);
+    real[int] K = stiffness * ax[]; tell("stretch", K' * ax[]);
+    K = stiffness * bx[]; tell("shear", K' * bx[]); tell("area", weight.sum);
+    real[int] off = pointX .* weight; tell("middle", off.sum); tell("top", pointZ);
     Uh [cx, cy, cz] = [0, 0, x + 3 * y + z];
     real[int] trace = cx[](pointDof); trace -= pointX; trace -= pointZ; trace -= 3 * pointY;
     tell("trace", trace.linfty);

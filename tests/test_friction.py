@@ -44,8 +44,7 @@ def stack(aside=0.0, above=1.0):
 GLUED = "body low E 100 nu 0.3\nbody up E 100 nu 0.3\ntie foot head\n"
 BOXES = """
 SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 0.5};
-Box(2) = {0, 0, 0.5, 1, 1, 0.5};
+Box(1) = {0, 0, 0, 1, 1, 0.5}; Box(2) = {0, 0, 0.5, 1, 1, 0.5};
 Mesh.MeshSizeMax = 0.34;
 MeshSize{ PointsOf{ Volume{2}; } } = 0.24;
 Physical Volume("low") = {1}; Physical Volume("up") = {2};
@@ -178,6 +177,19 @@ def test_spence(tmp_path, friction, inner):
     rows = rub(tmp_path, "tests/data/friction/flat-punch.edp", flags).contact
     last = np.flatnonzero(rows["slide"] == 1)[-1]
     assert rows["x"][last] - 0.0125 <= inner <= rows["x"][last + 1] + 0.0125
+
+
+@pytest.mark.long
+def test_work_is_stored_and_dissipated(tmp_path):
+    """By ever smaller steps: within 1e-4 of what is dissipated."""
+    off = []
+    for steps in (16, 64):
+        flags = {"-h": 0.4, "-legs": "1 0, 1 1, 1 -1", "-history": 1, "-steps": steps}
+        rows = series(rub(tmp_path / str(steps), "edp/scenes/fretting-bodies.edp", flags))
+        first, last = steps - 1, len(rows) - 1
+        done = {name: rows[name][last] - rows[name][first] for name in ("work", "stored", "dissipated")}
+        off.append(abs(done["work"] - done["stored"] - done["dissipated"]) / done["dissipated"])
+    assert off[1] < off[0] / 10 and off[1] < 1e-4
 
 
 ROTATION = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])

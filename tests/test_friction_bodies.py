@@ -17,14 +17,9 @@ For k In {0 : 3}
   Circle(k + 1) = {0, 0, 0, radius(k)};
   Curve Loop(k + 1) = {k + 1};
 EndFor
-Plane Surface(1) = {2, 1};
-Plane Surface(2) = {4, 3};
-Physical Surface("shaft") = {1};
-Physical Surface("hub") = {2};
-Physical Curve("bore") = {1};
-Physical Curve("seat") = {2};
-Physical Curve("hole") = {3};
-Physical Curve("rim") = {4};
+Plane Surface(1) = {2, 1}; Plane Surface(2) = {4, 3};
+Physical Surface("shaft") = {1}; Physical Surface("hub") = {2}; Physical Curve("bore") = {1};
+Physical Curve("seat") = {2}; Physical Curve("hole") = {3}; Physical Curve("rim") = {4};
 MeshSize{:} = 2;
 MeshSize{3} = 1.4;
 """
@@ -38,22 +33,16 @@ SLEEVE = """
 For k In {0 : 1}
   inner = k ? 4 : 1;
   outer = k ? 6 : 4;
-  Point(4 * k + 1) = {inner, k, 0, 0.8};
-  Point(4 * k + 2) = {outer, k, 0, 0.8};
-  Point(4 * k + 3) = {outer, 6 - k, 0, 0.6};
-  Point(4 * k + 4) = {inner, 6 - k, 0, 0.6};
+  Point(4 * k + 1) = {inner, k, 0, 0.8}; Point(4 * k + 2) = {outer, k, 0, 0.8};
+  Point(4 * k + 3) = {outer, 6 - k, 0, 0.6}; Point(4 * k + 4) = {inner, 6 - k, 0, 0.6};
   For l In {1 : 4}
     Line(4 * k + l) = {4 * k + l, 4 * k + l % 4 + 1};
   EndFor
   Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
   Plane Surface(k + 1) = {k + 1};
 EndFor
-Physical Surface("shaft") = {1};
-Physical Surface("hub") = {2};
-Physical Curve("foot") = {1};
-Physical Curve("seat") = {2};
-Physical Curve("hole") = {8};
-Physical Curve("rim") = {6};
+Physical Surface("shaft") = {1}; Physical Surface("hub") = {2}; Physical Curve("foot") = {1};
+Physical Curve("seat") = {2}; Physical Curve("hole") = {8}; Physical Curve("rim") = {6};
 """
 SLEEVED = """state axisymmetric
 body shaft E 200e3 nu 0.3
@@ -63,12 +52,9 @@ clamp foot
 """
 SPACE_FIT = """
 SetFactory("OpenCASCADE");
-Cylinder(1) = {0, 0, 0, 0, 0, 6, 4};
-Cylinder(2) = {0, 0, 1, 0, 0, 4, 6};
-Cylinder(3) = {0, 0, 1, 0, 0, 4, 4};
+Cylinder(1) = {0, 0, 0, 0, 0, 6, 4}; Cylinder(2) = {0, 0, 1, 0, 0, 4, 6}; Cylinder(3) = {0, 0, 1, 0, 0, 4, 4};
 BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
-Physical Volume("shaft") = {1};
-Physical Volume("hub") = {4};
+Physical Volume("shaft") = {1}; Physical Volume("hub") = {4};
 Mesh.MeshSizeMax = 3;
 """
 SPACE_FITTED = """group hole between hub shaft
@@ -121,30 +107,18 @@ def test_sleeve_pulled_off(tmp_path, pull, code):
 # ---------------------------------------------------------------- symmetry planes
 
 QUARTER = """
-Point(1) = {0, -20, 0, 8};
-Point(2) = {20, -20, 0, 8};
-Point(3) = {20, 0, 0, 4};
-Point(4) = {0, 0, 0, 0.3};
-Point(5) = {0, 10, 0, 4};
-Point(6) = {10, 10, 0, 4};
-Line(1) = {1, 2};
-Line(2) = {2, 3};
-Line(3) = {3, 4};
-Line(4) = {4, 1};
+Point(1) = {0, -20, 0, 8}; Point(2) = {20, -20, 0, 8}; Point(3) = {20, 0, 0, 4}; Point(4) = {0, 0, 0, 0.3};
+Point(5) = {0, 10, 0, 4}; Point(6) = {10, 10, 0, 4};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1 : 4};
 Plane Surface(1) = {1};
 Point(7) = {0, 0, 0, 0.22};
 Circle(5) = {7, 5, 6};
-Line(6) = {6, 5};
-Line(7) = {5, 7};
+Line(6) = {6, 5}; Line(7) = {5, 7};
 Curve Loop(2) = {5 : 7};
 Plane Surface(2) = {2};
-Physical Surface("block") = {1};
-Physical Surface("disc") = {2};
-Physical Curve("base") = {1};
-Physical Curve("top") = {3};
-Physical Curve("middle") = {4, 7};
-Physical Curve("round") = {5};
+Physical Surface("block") = {1}; Physical Surface("disc") = {2}; Physical Curve("base") = {1};
+Physical Curve("top") = {3}; Physical Curve("middle") = {4, 7}; Physical Curve("round") = {5};
 Physical Curve("load") = {6};
 """
 PRESSED = """body block E 70e3 nu 0.3
@@ -210,23 +184,16 @@ BELT = """
 Point(1) = {0, 0, 0};
 For k In {0 : 1}
   r = 10 + 0.2 * k;
-  Point(10 * k + 2) = {r, -2, 0};
-  Point(10 * k + 3) = {r, 0, 0};
-  Point(10 * k + 4) = {0, r, 0};
-  Point(10 * k + 5) = {-r, 0, 0};
-  Point(10 * k + 6) = {-r, -2, 0};
+  Point(10 * k + 2) = {r, -2, 0}; Point(10 * k + 3) = {r, 0, 0}; Point(10 * k + 4) = {0, r, 0};
+  Point(10 * k + 5) = {-r, 0, 0}; Point(10 * k + 6) = {-r, -2, 0};
   Line(10 * k + 2) = {10 * k + 2, 10 * k + 3};
-  Circle(10 * k + 3) = {10 * k + 3, 1, 10 * k + 4};
-  Circle(10 * k + 4) = {10 * k + 4, 1, 10 * k + 5};
+  Circle(10 * k + 3) = {10 * k + 3, 1, 10 * k + 4}; Circle(10 * k + 4) = {10 * k + 4, 1, 10 * k + 5};
   Line(10 * k + 5) = {10 * k + 5, 10 * k + 6};
 EndFor
-Line(6) = {6, 16};
-Line(7) = {12, 2};
+Line(6) = {6, 16}; Line(7) = {12, 2};
 Curve Loop(1) = {2 : 5, 6, -15, -14, -13, -12, 7};
 Plane Surface(1) = {1};
-Physical Surface("belt") = {1};
-Physical Curve("inner") = {3, 4};
-Physical Curve("slack") = {7};
+Physical Surface("belt") = {1}; Physical Curve("inner") = {3, 4}; Physical Curve("slack") = {7};
 Physical Curve("tight") = {6};
 Mesh.MeshSizeMax = 0.9;
 """

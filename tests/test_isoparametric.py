@@ -58,12 +58,10 @@ tell(name, f.linfty); //
 field("moved", 1, 2, 3)
 field("turned", -2 * nodeAt(i, 1) + nodeAt(i, 2), 2 * nodeAt(i, 0), -nodeAt(i, 0))
 field("swollen", nodeAt(i, 0), nodeAt(i, 1), nodeAt(i, 2))
-f -= wholeLoad;
-tell("patch", f.linfty);
+f -= wholeLoad; tell("patch", f.linfty);
 sums = 0;
 for (int c = 0; c < 3; c++) for (int i = 0; i < nodes; i++) sums[c] += wholeLoad[nodeDof(i, c)];
-sums[3] = bentElements;
-tell("sums", sums); tell("weight", weight.sum);
+sums[3] = bentElements; tell("sums", sums); tell("weight", weight.sum);
 """
 
 

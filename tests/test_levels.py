@@ -22,8 +22,7 @@ setUpContact();
             kernelColumn(all, kernelCell, j, column);
             slow += v[j] * column;
         }
-        fast -= slow;
-        tell("off" + test, fast.l2 / slow.l2);
+        fast -= slow; tell("off" + test, fast.l2 / slow.l2);
     }
     tell("levels", levels);
 }
@@ -116,8 +115,7 @@ solveOnFine();
 modelInPlace = true;
 productsOf(q, Cq, 0, true);
 presentOverlaps();
-real[int] forces = q;
-tell("residual", residualNow()); tell("force", forces.sum);
+real[int] forces = q; tell("residual", residualNow()); tell("force", forces.sum);
 """
 
 

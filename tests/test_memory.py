@@ -141,8 +141,7 @@ tell("groups", groupsLeft("fake")); tell("none", numberAfter("fake/nothing", "",
 matrix K = [[2., 0.], [0., 2.]];
 real[int] b = [1., 1.]; real[int] x = [0.5, 0.5]; dofsThatFit = 3;
 checkSolved(K, b, x);
-x[1] = 7;
-checkSolved(K, b, x);
+x[1] = 7; checkSolved(K, b, x);
 """
 
 

@@ -116,8 +116,7 @@ Th = gmshMesh("block", names, values, 40.);
 """
 
 GROUPS = """
-real area = int2d(Th)(1.);
-tell("area", area);
+real area = int2d(Th)(1.); tell("area", area);
 int contactLine = group("contact"); int clampedLine = group("clamped");
 real contactLength = int1d(Th, contactLine)(1.); real contactY = int1d(Th, contactLine)(y) / contactLength;
 real clampedLength = int1d(Th, clampedLine)(1.); real[int] lines = [contactLength, contactY, clampedLength];
@@ -151,10 +150,8 @@ func real energyOf(real[int] & v)
     return 0.5 * (v' * product);
 }
 fespace Uh(Th, ELEMENT);
-Uh [a1, a2] = [0, -0.01 * y];
-tell("pressed", energyOf(a1[]));
-Uh [b1, b2] = [0, 0.01 * x * y];
-tell("sheared", energyOf(b1[]));
+Uh [a1, a2] = [0, -0.01 * y]; tell("pressed", energyOf(a1[]));
+Uh [b1, b2] = [0, 0.01 * x * y]; tell("sheared", energyOf(b1[]));
 """
 
 
@@ -213,10 +210,8 @@ halved += assembled; difference = halved * b; difference -= product; difference 
 tell("sum", difference.linfty);
 set(full, solver = "UMFPACK");
 set(halved, solver = "CHOLMOD", sym = 1, positive = 1);
-difference = halved^-1 * b;
-difference *= 2;
-real[int] solved = full^-1 * b; difference -= solved;
-tell("solution", difference.linfty / solved.linfty);
+difference = halved^-1 * b; difference *= 2;
+real[int] solved = full^-1 * b; difference -= solved; tell("solution", difference.linfty / solved.linfty);
 """
 
 
@@ -270,22 +265,14 @@ real[int] seen(points);
 tell("x", pointX);
 for (int i = 0; i < points; i++) seen[i] = paired[i];
 tell("paired", seen); tell("unpaired", pointsUnpaired);
-Uh [a1, a2] = [7, 3];
-seen = overlapMap * a1[];
-tell("rigid", seen);
-Uh [b1, b2] = [x * y, 0];
-seen = overlapMap * b1[];
-tell("sideways", seen);
+Uh [a1, a2] = [7, 3]; seen = overlapMap * a1[]; tell("rigid", seen);
+Uh [b1, b2] = [x * y, 0]; seen = overlapMap * b1[]; tell("sideways", seen);
 Uh [s1, s2] = [0, 0];
 for (int n = 0; n < nodes; n++) s1[][nodeDof(n, 0)] = nodeAt(n, 0);
-Uh [c1, c2] = [0, (region == disc) * (2 - 3 * s1)];
-seen = overlapMap * c1[];
-tell("linear", seen);
-Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)];
-seen = overlapMap * d1[];
+Uh [c1, c2] = [0, (region == disc) * (2 - 3 * s1)]; seen = overlapMap * c1[]; tell("linear", seen);
+Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)]; seen = overlapMap * d1[];
 tell("quadratic", seen);
-Uh [e1, e2] = [0, (region == block) * (2 - 3 * x + 0.5 * x^2)];
-seen = overlapMap * e1[];
+Uh [e1, e2] = [0, (region == block) * (2 - 3 * x + 0.5 * x^2)]; seen = overlapMap * e1[];
 tell("slave", seen);
 """
 
@@ -323,9 +310,7 @@ tell("weight", weight);
 real[int] seen(points);
 for (int i = 0; i < points; i++) seen[i] = paired[i];
 tell("paired", seen);
-Uh [c1, c2] = [0, (region == upper) * (2 - 3 * x)];
-seen = overlapMap * c1[];
-tell("linear", seen);
+Uh [c1, c2] = [0, (region == upper) * (2 - 3 * x)]; seen = overlapMap * c1[]; tell("linear", seen);
 """
 
 
@@ -414,8 +399,7 @@ func int imbalance(real[int] & u, real[int] & G)
 {
     real[int] overlap(points), pressure(points), unused(points);
     traceOf(u, overlap);
-    overlap += sRest;
-    lawPressure(overlap, pressure, unused);
+    overlap += sRest; lawPressure(overlap, pressure, unused);
     pressure = pressure .* weight; G = stiffness * u; G -= bodyLoad; real[int] spread(ndof); spread = 0;
     if (selection) spread(pointDof) += pressure;
     else spread = overlapMap' * pressure;
@@ -425,10 +409,8 @@ func int imbalance(real[int] & u, real[int] & G)
 real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points); displacement = 0;
 for (int k = 1; k <= 5; k++)
 {
-    uBefore = displacement;
-    traceOf(uBefore, trace);
-    s = sRest + trace;
-    lawPressure(s, p, slope);
+    uBefore = displacement; traceOf(uBefore, trace);
+    s = sRest + trace; lawPressure(s, p, slope);
     for (int i = 0; i < points; i++) state[i] = slope[i] > 0 ? compliant : open;
     solveLinearised();
     if (k != 2 && k != 5) continue;

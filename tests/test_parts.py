@@ -270,8 +270,7 @@ BODIES = """
 include "options/parts/case-file.idp"
 include "discretisation/discretise.idp"
 elasticSolve(bodyLoad, displacement);
-real[int] none(ndof); real[int] R(ndof); none = 0;
-tell("balance", supportForces(none, R));
+real[int] none(ndof); real[int] R(ndof); none = 0; tell("balance", supportForces(none, R));
 internalForces(displacement, none);
 real[int] energy(parts + 1); energy = 0;
 for (int i = 0; i < nodes; i++)

@@ -172,8 +172,7 @@ real[int] px(edges); real[int] py(edges);
 int[int] e(edges);
 real[int] r(edges);
 for (int k = 0; k < edges; k++) e[k] = k;
-r = 0.3;
-placesAt(e, r, px, py);
+r = 0.3; placesAt(e, r, px, py);
 tell("px", px); tell("py", py);
 """
 
