@@ -428,6 +428,8 @@ def test_files(tmp_path, untouched):
     assert_refused(attempt(tmp_path, tmp_path), tmp_path, ["a folder"])
     file = tmp_path / "quote's a=b, blanks.msh"
     assert_refused(attempt(file, tmp_path), file, ["no such file"])
+    file.write_text(Mesh().text().replace('"upper"', '"\033[31mupper"'))
+    assert_refused(attempt(file, tmp_path), file, ["a control character in a group's name"])
     file.write_text(Mesh().text())
     assert attempt(file, tmp_path).force == pytest.approx(untouched[0], rel=1e-9)
     file.chmod(0)

@@ -108,6 +108,13 @@ def test_refused_before_it_is_taken(tmp_path):
     assert code == 0, output
 
 
+def test_plane_numbered_within_memory(tmp_path):
+    """FreeFEM crashes where the numbering of the plane's nodes does not fit: one line before that."""
+    for megabytes, flags in ((265, ["-h", 0.06, "-order", 4]), (280, ["-h", 0.06]), (275, ["-h", 0.1, "-order", 3])):
+        code, output, _ = within(megabytes, *CASES["plane, default"], *flags, folder=tmp_path / "out")
+        assert code == 10 and len(output.splitlines()) == 1 and "GB" in output, (megabytes, code, output)
+
+
 def starts(megabytes, folder):
     """Does FreeFEM itself begin with two threads in so much? Newer ones wait for ever, before they read a script."""
     (folder / "empty.edp").write_text('cout << "begun" << endl;\n')
