@@ -609,7 +609,7 @@ def test_what_several_motions_need(tmp_path, friction, other):
     """What two motions need is what passes through the contact between: the same number, and the same error."""
     case = f"body disc E 1000 nu 0.3\nbody block E 2000 nu 0.3\ncontact round top{friction}\nmove base 0 0.1\n"
     if other == "obstacle":
-        case = f"body disc E 1000 nu 0.3\nobstacle round plane 0 0 0 1 move 0 0.1{friction}\n"
+        case = f"body disc E 1000 nu 0.3\nobstacle round circle 0 -20 R 20 move 0 0.1{friction}\n"
     done = solve(tmp_path, DISC if other == "base" else ALONE, f"{case}move flat 0 -0.1\n", "-vtu", 0, size=0.3)
     run = summary(tmp_path)
     contact = run["estimates"]["contacts"][0]["force"]
