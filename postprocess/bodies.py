@@ -290,8 +290,9 @@ def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units
     most = bodies.grid.stress.max() if what == "von Mises" else bodies.greatest
     above = colours.norm.vmax < most * (1 - 1e-9)
     words = f", up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
-    look = {"extend": "max" if above else "neither", "label": f"{what}{words} [{units.stress}]"}
     upright = len(axes) == 1 and np.ptp(axes[0].get_ylim()) > 0.4 * np.ptp(axes[0].get_xlim())
+    between = "\n" if upright and above else " "  # a short bar's label would stand out above the page
+    look = {"extend": "max" if above else "neither", "label": f"{what}{words}{between}[{units.stress}]"}
     if upright:
         axes[0].set_anchor("W")
         look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}

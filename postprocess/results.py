@@ -55,6 +55,17 @@ class ResultsError(Exception):
         super().__init__(f"{path}: {what}")
 
 
+class Said(dict):
+    """An object of a JSON file; what is looked for and not there is a fault of that file."""
+
+    def __init__(self, path: Path, content: dict):
+        super().__init__(content)
+        self.path = path
+
+    def __missing__(self, key: str):
+        raise ResultsError(self.path, f"has no key {key} where one is needed")
+
+
 @dataclass(frozen=True)
 class States:
     """Displacements of all vertices before the first and after every Newton step.
@@ -255,7 +266,7 @@ def read_summary(path: Path) -> dict:
     except UnicodeDecodeError:
         raise ResultsError(path, "is binary, not a JSON file") from None
     try:
-        summary = json.loads(text, parse_constant=refuse_constant)
+        summary = json.loads(text, parse_constant=refuse_constant, object_hook=lambda found: Said(path, found))
     except json.JSONDecodeError as error:
         raise ResultsError(path, f"is not JSON, or is truncated, at line {error.lineno}: {error.msg}") from None
     except (ValueError, RecursionError) as error:
@@ -278,9 +289,16 @@ def read_summary(path: Path) -> dict:
                 raise ResultsError(path, f"key {key} is not a {kind}: {summary[key]!r}"[:200])
     if not isinstance(summary["converged"], bool):
         raise ResultsError(path, f"key converged is not true or false: {summary['converged']!r}"[:200])
-    said = summary.setdefault("warnings", [])
-    if not isinstance(said, list) or not all(isinstance(text, str) for text in said):
-        raise ResultsError(path, f"key warnings is not a list of texts: {said!r}"[:200])
+    for key in ("contacts", "prescribed", "stresses"):  # of runs of some kinds
+        found = summary.get(key) or []
+        if not isinstance(found, list) or not all(isinstance(each, dict) for each in found):
+            raise ResultsError(path, f"key {key} is not a list of objects: {found!r}"[:200])
+    if not isinstance(summary.get("estimates") or {}, dict):
+        raise ResultsError(path, f"key estimates is not an object: {summary['estimates']!r}"[:200])
+    for key in ("warnings", "given"):
+        found = summary.setdefault(key, [] if key == "warnings" else list(summary["parameters"]))
+        if not isinstance(found, list) or not all(isinstance(text, str) for text in found):
+            raise ResultsError(path, f"key {key} is not a list of texts: {found!r}"[:200])
     if not isinstance(summary.setdefault("message", ""), str):
         raise ResultsError(path, f"key message is not a text: {summary['message']!r}"[:200])
     steps = summary["newtonPerAdaptation"]

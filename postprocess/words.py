@@ -63,7 +63,7 @@ def command(run: Run) -> str:
     """The command, from the repository's root, that makes the run again: with the flags that it was given."""
     summary, parameters = run.summary, run.summary["parameters"]
     words = ["FreeFem++", "-nw", "-v", "0", script(summary["scene"], summary["method"])]
-    for name in summary.get("given", parameters):
+    for name in summary["given"]:
         if name != "out":
             words += [f"-{name}", flag_text(parameters[name])]
     return shlex.join([*words, "-out", place(run.path)])

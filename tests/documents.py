@@ -232,24 +232,9 @@ def build(out, root=ROOT, chapters=CHAPTERS):
         source = Path(folder, "source")
         source.mkdir()
         Site(root, source, chapters).write()
-        values = [
-            word
-            for key, value in SETTINGS.items()
-            for word in ("-D", f"{key}={int(value) if isinstance(value, bool) else value}")
-        ]
-        words = [
-            "-q",
-            "-W",
-            "--keep-going",
-            "-b",
-            "html",
-            "-C",
-            *values,
-            "-d",
-            f"{folder}/trees",
-            str(source),
-            str(out),
-        ]
+        told = {key: int(value) if isinstance(value, bool) else value for key, value in SETTINGS.items()}
+        values = [word for key, value in told.items() for word in ("-D", f"{key}={value}")]
+        words = [*"-q -W --keep-going -b html -C".split(), *values, "-d", f"{folder}/trees", str(source), str(out)]
         with contextlib.redirect_stderr(io.StringIO()) as said:
             code = main(words)
     print("".join(dict.fromkeys(said.getvalue().splitlines(keepends=True))), end="", file=sys.stderr)  # each once

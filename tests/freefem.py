@@ -14,6 +14,7 @@ import re
 import shutil
 import signal
 import subprocess
+import time
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -136,6 +137,11 @@ def short_of(short, every):
     return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in others)]
 
 
+def flag_lists(text):
+    """The flags of each run of "-a 1 -b 2 | -c 3"."""
+    return [part.split() for part in text.split("|")]
+
+
 RUBS = re.compile(r"^\s*(leg\s|tie\s|(contact|obstacle)\s.*\sfriction(\s|$))", re.M)
 ASKS = re.compile(r"^\s*(rotate|stresses|line|body\s.*\syield|expand|preload)(\s|$)", re.M)
 
@@ -216,11 +222,22 @@ def stored(scene, flags):
 
 
 def run_in(cwd, name, *flags, out=None, expect=0, env=None):
-    """One run, not shared, of a script file as a user would start it in `cwd`; `out` is its results' folder."""
+    """One run, not shared, of a script as a user would start it in `cwd`; out: its results; expect None: any code."""
     skip_without_ipopt(name)
     code, stdout = execute([*FREEFEM, name, *map(flag_text, flags), *(["-out", out] if out else [])], cwd, env)
-    assert code == expect, f"exit code {code} of {name} {flags}:\n{stdout[-2000:]}"
+    assert expect in (code, None), f"exit code {code} of {name} {flags}:\n{stdout[-2000:]}"
     return Run(code, stdout, out or cwd)
+
+
+def part(folder, mesh, case, *flags, space=False, script=None, expect=0):
+    """One run, not shared, of a case's text on a mesh, a file or its text; the results are in folder/out."""
+    folder.mkdir(exist_ok=True)
+    if not isinstance(mesh, Path):
+        text, mesh = mesh, folder / ("a.msh" if mesh.startswith("$") else "a.geo")
+        mesh.write_text(text)
+    (folder / "a.case").write_text(case)
+    words = ["-mesh", mesh, "-case", folder / "a.case", *([] if "-vtu" in flags else ["-vtu", 0]), *flags]
+    return run_in(ROOT, script or parts_script(case, words, space), *words, out=folder / "out", expect=expect)
 
 
 def snippet(folder, text, *flags, expect=0):
@@ -245,8 +262,7 @@ func int tell(string name, real[int] & values)
 }
 func int tell(string name, real value)
 {
-    real[int] one(1);
-    one = value;
+    real[int] one(1); one = value;
     return tell(name, one);
 }
 """
@@ -273,6 +289,13 @@ def tree(folder):
     for name in ("freefem++.pref", "Makefile"):
         shutil.copy(ROOT / name, folder)
     return folder
+
+
+def wait_for(what, seconds=60):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.005)
 
 
 def listing(folder):

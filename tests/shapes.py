@@ -74,6 +74,20 @@ def solid(geo: str, case: str, where: str, size: float = 1.0) -> Shape:
     return Shape(f"{geo}\n{groups(True, where)}", case, size, True)
 
 
+def polygon(body, size, corners, names, first=1):
+    """gmsh's geometry of one body: corners "x, y" in turn, names of its sides, from the first corner on.
+
+    first: the number of the first corner, for one body beside others.
+    """
+    count = len(corners)
+    sides = ", ".join(str(first + k) for k in range(count))
+    lines = [f"Point({first + k}) = {{{corner}, 0, {size}}};" for k, corner in enumerate(corners)]
+    lines += [f"Line({first + k}) = {{{first + k}, {first + (k + 1) % count}}};" for k in range(count)]
+    lines += [f"Curve Loop({first}) = {{{sides}}};", f"Plane Surface({first}) = {{{first}}};"]
+    lines += [f'Physical Curve("{name}") = {{{first + k - 1}}};' for k, name in names.items()]
+    return "\n".join([*lines, f'Physical Surface("{body}") = {{{first}}};\n'])
+
+
 BLOCK = "Rectangle(1) = {-10, -8, 0, 20, 8};"
 ON_BLOCK = "LOWER 1; UPPER 2; base 1:-10 -8 10 -8; top 1:-10 0 10 0; "
 TWO = f"body lower {STEEL}\nbody upper {STEEL}\nclamp base\n"
@@ -213,12 +227,22 @@ def write(name: str, folder: Path) -> tuple[Path, Path]:
 def gmsh(geo: Path, path: Path, dimension: str, matrix: np.ndarray) -> None:
     """A geometry's mesh by gmsh, turned."""
     subprocess.run(["gmsh", dimension, "-v", "1", "-format", "msh22", geo, "-o", path], check=True, timeout=120)
-    lines = path.read_text().splitlines()
-    first = lines.index("$Nodes") + 2
+    path.write_text(moved(path.read_text(), matrix))
+
+
+def moved(text: str, matrix: np.ndarray, scale: float = 1.0) -> str:
+    """A mesh file's text, its nodes turned, mirrored, scaled; triangles of a mirrored one are turned round."""
+    lines, size = text.splitlines(), len(matrix)
+    first, elements = lines.index("$Nodes") + 2, lines.index("$Elements") + 2
     for k in range(first, first + int(lines[first - 1])):
         number, *place = lines[k].split()
-        lines[k] = " ".join([number, *(f"{value:.16g}" for value in matrix @ np.array(place, float))])
-    path.write_text("\n".join(lines) + "\n")
+        at = scale * matrix @ np.array(place[:size], float)
+        lines[k] = " ".join([number, *(f"{value:.17g}" for value in at), *place[size:]])
+    for k in range(elements, len(lines) - 1) if np.linalg.det(matrix) < 0 else ():
+        words = lines[k].split()
+        if words[1] == "2":
+            lines[k] = " ".join([*words[:-2], words[-1], words[-2]])
+    return "\n".join([*lines, ""])
 
 
 def mesh(name: str, folder: Path) -> tuple[Path, Path]:

@@ -7,7 +7,7 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, execute, run_in, table
+from freefem import ROOT, execute, part, run_in, table
 from test_friction import case, series
 from test_paraview import Grid
 
@@ -18,14 +18,9 @@ For k In {0 : 3}
   Circle(k + 1) = {0, 0, 0, radius(k)};
   Curve Loop(k + 1) = {k + 1};
 EndFor
-Plane Surface(1) = {2, 1};
-Plane Surface(2) = {4, 3};
-Physical Surface("shaft") = {1};
-Physical Surface("hub") = {2};
-Physical Curve("bore") = {1};
-Physical Curve("seat") = {2};
-Physical Curve("hole") = {3};
-Physical Curve("rim") = {4};
+Plane Surface(1) = {2, 1}; Plane Surface(2) = {4, 3};
+Physical Surface("shaft") = {1}; Physical Surface("hub") = {2}; Physical Curve("bore") = {1};
+Physical Curve("seat") = {2}; Physical Curve("hole") = {3}; Physical Curve("rim") = {4};
 MeshSize{:} = 2;
 MeshSize{3} = 1.4;
 """
@@ -39,22 +34,16 @@ SLEEVE = """
 For k In {0 : 1}
   inner = k ? 4 : 1;
   outer = k ? 6 : 4;
-  Point(4 * k + 1) = {inner, k, 0, 0.8};
-  Point(4 * k + 2) = {outer, k, 0, 0.8};
-  Point(4 * k + 3) = {outer, 6 - k, 0, 0.6};
-  Point(4 * k + 4) = {inner, 6 - k, 0, 0.6};
+  Point(4 * k + 1) = {inner, k, 0, 0.8}; Point(4 * k + 2) = {outer, k, 0, 0.8};
+  Point(4 * k + 3) = {outer, 6 - k, 0, 0.6}; Point(4 * k + 4) = {inner, 6 - k, 0, 0.6};
   For l In {1 : 4}
     Line(4 * k + l) = {4 * k + l, 4 * k + l % 4 + 1};
   EndFor
   Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
   Plane Surface(k + 1) = {k + 1};
 EndFor
-Physical Surface("shaft") = {1};
-Physical Surface("hub") = {2};
-Physical Curve("foot") = {1};
-Physical Curve("seat") = {2};
-Physical Curve("hole") = {8};
-Physical Curve("rim") = {6};
+Physical Surface("shaft") = {1}; Physical Surface("hub") = {2}; Physical Curve("foot") = {1};
+Physical Curve("seat") = {2}; Physical Curve("hole") = {8}; Physical Curve("rim") = {6};
 """
 SLEEVED = """state axisymmetric
 body shaft E 200e3 nu 0.3
@@ -64,12 +53,9 @@ clamp foot
 """
 SPACE_FIT = """
 SetFactory("OpenCASCADE");
-Cylinder(1) = {0, 0, 0, 0, 0, 6, 4};
-Cylinder(2) = {0, 0, 1, 0, 0, 4, 6};
-Cylinder(3) = {0, 0, 1, 0, 0, 4, 4};
+Cylinder(1) = {0, 0, 0, 0, 0, 6, 4}; Cylinder(2) = {0, 0, 1, 0, 0, 4, 6}; Cylinder(3) = {0, 0, 1, 0, 0, 4, 4};
 BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
-Physical Volume("shaft") = {1};
-Physical Volume("hub") = {4};
+Physical Volume("shaft") = {1}; Physical Volume("hub") = {4};
 Mesh.MeshSizeMax = 3;
 """
 SPACE_FITTED = """group hole between hub shaft
@@ -122,30 +108,18 @@ def test_sleeve_pulled_off(tmp_path, pull, code):
 # ---------------------------------------------------------------- symmetry planes
 
 QUARTER = """
-Point(1) = {0, -20, 0, 8};
-Point(2) = {20, -20, 0, 8};
-Point(3) = {20, 0, 0, 4};
-Point(4) = {0, 0, 0, 0.3};
-Point(5) = {0, 10, 0, 4};
-Point(6) = {10, 10, 0, 4};
-Line(1) = {1, 2};
-Line(2) = {2, 3};
-Line(3) = {3, 4};
-Line(4) = {4, 1};
+Point(1) = {0, -20, 0, 8}; Point(2) = {20, -20, 0, 8}; Point(3) = {20, 0, 0, 4}; Point(4) = {0, 0, 0, 0.3};
+Point(5) = {0, 10, 0, 4}; Point(6) = {10, 10, 0, 4};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1 : 4};
 Plane Surface(1) = {1};
 Point(7) = {0, 0, 0, 0.22};
 Circle(5) = {7, 5, 6};
-Line(6) = {6, 5};
-Line(7) = {5, 7};
+Line(6) = {6, 5}; Line(7) = {5, 7};
 Curve Loop(2) = {5 : 7};
 Plane Surface(2) = {2};
-Physical Surface("block") = {1};
-Physical Surface("disc") = {2};
-Physical Curve("base") = {1};
-Physical Curve("top") = {3};
-Physical Curve("middle") = {4, 7};
-Physical Curve("round") = {5};
+Physical Surface("block") = {1}; Physical Surface("disc") = {2}; Physical Curve("base") = {1};
+Physical Curve("top") = {3}; Physical Curve("middle") = {4, 7}; Physical Curve("round") = {5};
 Physical Curve("load") = {6};
 """
 PRESSED = """body block E 70e3 nu 0.3
@@ -264,8 +238,8 @@ def test_mirror_in_space(tmp_path):
         (folder / "a.msh").write_text(mesh_again(half, turned, both))
         (folder / "a.case").write_text(text)
         words = "-mesh", folder / "a.msh", "-case", folder / "a.case", "-order", 1, "-estimate", 0, "-vtu", 0
-        part = run_in(ROOT, "edp/parts-3d.edp", *words, out=folder / "out")
-        contact, share = part.summary["contacts"][0], 0.5 if both else 1
+        run = run_in(ROOT, "edp/parts-3d.edp", *words, out=folder / "out")
+        contact, share = run.summary["contacts"][0], 0.5 if both else 1
         along = c * contact["shearForce"][0] + s * contact["shearForce"][1]
         found.append([share * contact["normalForce"], share * along, contact["stickShare"]])
     assert found[1] == pytest.approx(found[0], rel=1e-5)
@@ -289,10 +263,7 @@ move head 0.004 0.002 -0.01
 
 def test_all_fields_of_a_contact(tmp_path):
     """P3 in space with friction and estimates: contact.vtu has what each of them adds, under its own name."""
-    (tmp_path / "box.geo").write_text(BOX)
-    (tmp_path / "box.case").write_text(RUBBED)
-    words = "-mesh", tmp_path / "box.geo", "-case", tmp_path / "box.case", "-order", 3
-    rubbed = run_in(ROOT, "edp/parts-3d.edp", *words, out=tmp_path / "out")
+    rubbed = part(tmp_path, BOX, RUBBED, "-order", 3, "-vtu", 1, script="edp/parts-3d.edp")
     found, rows = Grid(rubbed.folder / "contact.vtu").at_points, table(rubbed.folder / "contact.csv")
     for name in ("shearX", "shearY", "shearZ", "slipX", "slipY", "slipZ", "slide", "status", "pressure"):
         (field,) = [field for field in found if field.lower().startswith(("contact" + name, name.lower()))]
@@ -306,23 +277,16 @@ BELT = """
 Point(1) = {0, 0, 0};
 For k In {0 : 1}
   r = 10 + 0.2 * k;
-  Point(10 * k + 2) = {r, -6, 0};
-  Point(10 * k + 3) = {r, 0, 0};
-  Point(10 * k + 4) = {0, r, 0};
-  Point(10 * k + 5) = {-r, 0, 0};
-  Point(10 * k + 6) = {-r, -6, 0};
+  Point(10 * k + 2) = {r, -6, 0}; Point(10 * k + 3) = {r, 0, 0}; Point(10 * k + 4) = {0, r, 0};
+  Point(10 * k + 5) = {-r, 0, 0}; Point(10 * k + 6) = {-r, -6, 0};
   Line(10 * k + 2) = {10 * k + 2, 10 * k + 3};
-  Circle(10 * k + 3) = {10 * k + 3, 1, 10 * k + 4};
-  Circle(10 * k + 4) = {10 * k + 4, 1, 10 * k + 5};
+  Circle(10 * k + 3) = {10 * k + 3, 1, 10 * k + 4}; Circle(10 * k + 4) = {10 * k + 4, 1, 10 * k + 5};
   Line(10 * k + 5) = {10 * k + 5, 10 * k + 6};
 EndFor
-Line(6) = {6, 16};
-Line(7) = {12, 2};
+Line(6) = {6, 16}; Line(7) = {12, 2};
 Curve Loop(1) = {2 : 5, 6, -15, -14, -13, -12, 7};
 Plane Surface(1) = {1};
-Physical Surface("belt") = {1};
-Physical Curve("inner") = {3, 4};
-Physical Curve("slack") = {7};
+Physical Surface("belt") = {1}; Physical Curve("inner") = {3, 4}; Physical Curve("slack") = {7};
 Physical Curve("tight") = {6};
 Mesh.MeshSizeMax = 0.9;
 """
@@ -337,9 +301,9 @@ move tight 0 -0.3
 def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """It slips: the tensions' ratio is Euler's, of a belt that is pulled in its middle and rubs at its inner side.
 
-    With r to the middle of its thickness, friction q = mu p turns it by q T/2 there; a transverse force V = q T/2 alone
-    bears that, for its curvature stays the pulley's: N - V' = p r, N' = q R by the angle. So p and the tension grow by
-    e^(rate theta), rate (r + mu rate T/2) = mu R.
+    With r from the middle of its thickness, friction q = mu p turns it about its middle by q T/2, borne by a transverse
+    force V = q T/2 alone, for its curvature stays the pulley's: N - V' = p r, r N' = q R. So p grows by e^(rate theta)
+    where rate (r + mu rate T/2) = mu R, and the tension as much.
     """
     belt = case(tmp_path, BELT.replace("0.2 * k", f"{thick} * k"), BELTED.replace("MU", str(friction)))
     assert belt.summary["newton"] <= 3 and belt.summary["backsolves"] < 300

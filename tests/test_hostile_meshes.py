@@ -7,7 +7,8 @@ import time
 from pathlib import Path
 
 import pytest
-from freefem import FREEFEM, ROOT, Run, environment
+from freefem import FREEFEM, ROOT, Run, environment, wait_for
+from shapes import polygon
 
 NAMES = {"clamped": 11, "contact": 12, "master": 13, "pushed": 14, "free": 15, "lower": 21, "upper": 22}
 SURFACES = ("lower", "upper")
@@ -117,43 +118,15 @@ def renumbered(step, first=1):
     return lambda mesh: mesh.text(number=lambda i: str(first + step * (i - 1)))
 
 
-def add_node(mesh):
-    mesh.nodes[len(mesh.nodes) + 1] = (50.0, 50.0, 0.0)
+def added(places, groups, *corners):
+    """A change that adds nodes and a line or a triangle; corners below 0 are of these nodes, -1 the first."""
 
-
-def add_piece(mesh):
-    n = len(mesh.nodes)
-    mesh.nodes |= {n + 1: (5.0, 0.0, 0.0), n + 2: (6.0, 0.0, 0.0), n + 3: (5.0, 1.0, 0.0)}
-    mesh.triangles.append([["lower"], [n + 1, n + 2, n + 3]])
-
-
-def add_hinged_piece(mesh):
-    """A triangle that hangs on one node of the lower body."""
-    n = len(mesh.nodes)
-    mesh.nodes |= {n + 1: (3.0, 0.0, 0.0), n + 2: (3.0, 1.0, 0.0)}
-    mesh.triangles.append([["lower"], [10, n + 1, n + 2]])
-
-
-def add_third_triangle(mesh):
-    """On an inner edge, which then has three."""
-    n = len(mesh.nodes)
-    mesh.nodes[n + 1] = (-1.9, 0.4, 0.0)
-    a, _, c = mesh.triangles[0][1]
-    mesh.triangles.append([["lower"], [a, c, n + 1]])
-
-
-def add_folded_triangle(mesh):
-    """Beside the clamped side, on the same side of it as the triangle above."""
-    n = len(mesh.nodes)
-    mesh.nodes[n + 1] = (-1.8, 0.2, 0.0)
-    mesh.triangles.append([["lower"], [1, 2, n + 1]])
-
-
-def add_dangling(name):
     def change(mesh):
-        n = len(mesh.nodes)
-        mesh.nodes |= {n + 1: (2.5, 1.0, 0.0), n + 2: (3.0, 1.0, 0.0)}
-        mesh.lines.append([[name], [n + 1, n + 2]])
+        first = len(mesh.nodes)
+        mesh.nodes |= {first + k: (*place, 0.0) for k, place in enumerate(places, 1)}
+        numbers = [first - corner if corner < 0 else corner for corner in corners]
+        if numbers:
+            (mesh.lines if len(numbers) == 2 else mesh.triangles).append([[groups], numbers])
 
     return change
 
@@ -204,10 +177,6 @@ def reverse(mesh):
         corners.reverse()
 
 
-def one_triangle(mesh):
-    mesh.triangles, mesh.lines = mesh.triangles[:1], []
-
-
 def one_edge(mesh):
     """Contact of one edge only, below the punch's middle."""
     edges = mesh.of("contact")
@@ -215,23 +184,15 @@ def one_edge(mesh):
         groups[:] = ["free"]
 
 
-def hole(mesh):
-    mesh.of("contact")[4][0][:] = ["free"]
-
-
-def vertical(mesh):
-    """The lower body's left side belongs to contact too."""
-    next(e for e in mesh.of("free"))[0][:] = ["contact"]
+def regrouped(name, index, new):
+    """A line of a group goes to another one."""
+    return lambda mesh: mesh.of(name)[index][0].__setitem__(slice(None), [new])
 
 
 def share_node(mesh):
     for _, corners in mesh.lines + mesh.of("upper"):
         if 31 in corners:
             corners[corners.index(31)] = 22
-
-
-def collapse(mesh):
-    mesh.nodes[12] = mesh.nodes[11]
 
 
 def again(kind, index=0, name=None):
@@ -244,29 +205,25 @@ def again(kind, index=0, name=None):
     return change
 
 
-def stray(name):
-    """A line of the other body joins the group."""
-
-    def change(mesh):
-        mesh.of("free")[-1 if name in ("contact", "clamped") else 0][0][:] = [name]
-
-    return change
-
-
 # what is done to the mesh, or (edited, line) to its text; SAME: the untouched mesh's force, or another one; or words of
 # the refusal
+DANGLING = [(2.5, 1.0), (3.0, 1.0)]
 SAME, SOLVED = "the same force", "a force"
 MESHES = {
     # elements
     "triangle twice": (again("lower", 3), ["overlap"]),
     "triangle of both bodies": (again("lower", 3, "upper"), ["overlap"]),
     "triangle in no body": (lambda mesh: mesh.triangles[5][0].__setitem__(0, "all"), ["triangle in no body"]),
-    "triangle without area": (collapse, ["element", "without area"]),
+    "triangle without area": (lambda mesh: mesh.nodes.update({12: mesh.nodes[11]}), ["element", "without area"]),
     "triangle clockwise": (lambda mesh: mesh.triangles[5][1].reverse(), SAME),
-    "three triangles on an edge": (add_third_triangle, ["the third", "overlap"]),
-    "folded triangle": (add_folded_triangle, ["same side", "overlap"]),
-    "one triangle": (one_triangle, ['"upper" has no triangle']),
+    "three triangles on an edge": (added([(-1.9, 0.4)], "lower", 1, 12, -1), ["the third", "overlap"]),
+    "folded triangle": (added([(-1.8, 0.2)], "lower", 1, 2, -1), ["same side", "overlap"]),
+    "one triangle": (
+        lambda mesh: vars(mesh).update(triangles=mesh.triangles[:1], lines=[]),
+        ['"upper" has no triangle'],
+    ),
     "quadrangle": (line(-1, "99 3 2 22 22 1 2 12 11"), ["element", "overlap"]),
+    "quadrangle of second order": (line(-1, "99 10 2 22 22 1 2 12 11 1 2 12 11 1"), ["element 99", "type 10"]),
     "second order": (line(-1, "99 9 2 22 22 1 2 12 3 4 11"), ["element 99", "overlap"]),
     "tetrahedron": (line(-1, "99 4 2 22 22 1 2 12 11"), ["element 99", "tetrahedron"]),
     "corner missing": (line(-1, lambda old: old.rsplit(" ", 1)[0]), ["element", "cut off"]),
@@ -277,16 +234,16 @@ MESHES = {
     "edge in one more curve": (again("contact", 4, "free"), SAME),
     "edge in contact and clamped": (again("contact", 0, "clamped"), ["two physical groups", "clamped"]),
     "lines reversed": (reverse, SAME),
-    "dangling line": (add_dangling("free"), SAME),
-    "dangling contact": (add_dangling("contact"), ["element", '"contact"', "no triangle has"]),
+    "dangling line": (added(DANGLING, "free", -1, -2), SAME),
+    "dangling contact": (added(DANGLING, "contact", -1, -2), ["element", '"contact"', "no triangle has"]),
     "contact inside": (add_interior("contact"), ['"contact" inside the bodies']),
     "free inside": (add_interior("free"), SAME),
     "contact and master exchanged": (exchange("contact", "master"), SOLVED),
-    "clamped partly on the upper body": (stray("clamped"), ["line 5", "elsewhere"]),
-    "contact in two pieces": (hole, SOLVED),
-    "vertical edge": (vertical, SAME),
+    "clamped partly on the upper body": (regrouped("free", -1, "clamped"), ["line 5", "elsewhere"]),
+    "contact in two pieces": (regrouped("contact", 4, "free"), SOLVED),
+    "vertical edge": (regrouped("free", 0, "contact"), SAME),
     # nodes
-    "node of no element": (add_node, SAME),
+    "node of no element": (added([(50.0, 50.0)], ""), SAME),
     "node number 0": (renumbered(1, 0), ["the node 0", "start at 1"]),
     "negative node number": (line(3, lambda old: "-" + old), ["the node -3"]),
     "node number of no number": (line(3, lambda old: "x" + old), ["the node x3"]),
@@ -312,8 +269,11 @@ MESHES = {
     "crack": (crack, ["share no nodes", "crack"]),
     "body in two parts": (split, ["share no nodes"]),
     "bodies share a node": (share_node, ["node 22", "hinge"]),
-    "piece that nothing holds": (add_piece, ["lower at", "nothing holds it"]),
-    "piece that hangs on a node": (add_hinged_piece, ["node 10", "hinge"]),
+    "piece that nothing holds": (
+        added([(5.0, 0.0), (6.0, 0.0), (5.0, 1.0)], "lower", -1, -2, -3),
+        ["lower at", "nothing holds it"],
+    ),
+    "piece that hangs on a node": (added([(3.0, 0.0), (3.0, 1.0)], "lower", 10, -1, -2), ["node 10", "hinge"]),
     "bodies overlap": (moved(up=-0.3, only="upper"), SOLVED),
     "master below": (moved(up=-5, only="upper"), ["line 3", "nothing lies opposite it"]),
     "bodies aside": (moved(right=30, only="upper"), ["line 3", "nothing lies opposite it"]),
@@ -468,27 +428,17 @@ def test_files(tmp_path, untouched):
     assert_refused(attempt(tmp_path, tmp_path), tmp_path, ["a folder"])
     file = tmp_path / "quote's a=b, blanks.msh"
     assert_refused(attempt(file, tmp_path), file, ["no such file"])
+    file.write_text(Mesh().text().replace('"upper"', '"\033[31mupper"'))
+    assert_refused(attempt(file, tmp_path), file, ["a control character in a group's name"])
     file.write_text(Mesh().text())
     assert attempt(file, tmp_path).force == pytest.approx(untouched[0], rel=1e-9)
     file.chmod(0)
     assert checked(file, tmp_path) == ((untouched[1], None) if os.geteuid() == 0 else (None, "may not be read"))
 
 
-GEO = """
-Point(1) = {-2, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 1, 0}; Point(4) = {-2, 1, 0};
-Point(5) = {-1.2, 1.1, 0}; Point(6) = {1.2, 1.1, 0}; Point(7) = {1.2, 2.1, 0}; Point(8) = {-1.2, 2.1, 0};
-For b In {0 : 1}
-  For k In {1 : 4}
-    Line(4 * b + k) = {4 * b + k, 4 * b + k % 4 + 1};
-  EndFor
-  Curve Loop(b + 1) = {4 * b + 1 : 4 * b + 4};
-  Plane Surface(b + 1) = {b + 1};
-EndFor
-Physical Curve("clamped") = {1}; Physical Curve("contact") = {3};
-Physical Curve("master") = {5}; Physical Curve("pushed") = {7};
-Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
-Mesh.MeshSizeMax = 0.5;
-"""
+GEO = polygon("lower", 0.5, ["-2, 0", "2, 0", "2, 1", "-2, 1"], {1: "clamped", 3: "contact"})
+UPPER = ["-1.2, 1.1", "1.2, 1.1", "1.2, 2.1", "-1.2, 2.1"]
+GEO += polygon("upper", "0.5", UPPER, {1: "master", 3: "pushed"}, 5)
 
 
 @pytest.mark.parametrize(
@@ -514,20 +464,14 @@ def test_refused_geo(text, words, tmp_path):
 
 def test_nothing_left_when_killed(tmp_path):
     """The copy shall go also when the run is killed while it is made."""
-    (tmp_path / "slow.geo").write_text(GEO.replace("0.5;", "0.004;"))
+    (tmp_path / "slow.geo").write_text(GEO.replace("0, 0.5}", "0, 0.004}"))
     (tmp_path / "two.case").write_text(CASE)
     files = ["-mesh", tmp_path / "slow.geo", "-case", tmp_path / "two.case", "-out", tmp_path / "out"]
     command = [*FREEFEM, "edp/parts.edp", *files]
     process = subprocess.Popen(
         command, cwd=ROOT, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
     )
-    end = time.monotonic() + 20
-    while not copies(process) and time.monotonic() < end:
-        time.sleep(0.02)
-    assert copies(process)
+    wait_for(lambda: copies(process))
     process.kill()
     process.wait()
-    end = time.monotonic() + 20
-    while copies(process) and time.monotonic() < end:
-        time.sleep(0.1)
-    assert not copies(process)
+    wait_for(lambda: not copies(process))

@@ -286,6 +286,25 @@ def test_what_is_echoed(word, tmp_path):
         assert b"\033" not in done.stdout and len(done.stdout) < 7000
 
 
+def test_pipes(tmp_path):
+    """A pipe as a case file, or as the table of a law, shall not be waited for."""
+    os.mkfifo(tmp_path / "it's a pipe")
+    law = f'contact contact master gap vertical law table "{tmp_path}/it\'s a pipe" d0 -0.05'
+    case = (ROOT / "edp/examples/punch/punch.case").read_text()
+    (tmp_path / "a.case").write_text(re.sub("contact contact .*", law, case))
+    (tmp_path / "no.case").write_text('body "lo\tw" E 1 nu 0\n')
+    words = ["-mesh", "edp/examples/punch/punch.geo", "-case"]
+    for command, said in (
+        (["edp/parts.edp", *words, tmp_path / "it's a pipe"], "a pipe or a device"),
+        (["edp/parts-3d.edp", *words, tmp_path / "it's a pipe", "-distance", "exact"], "a pipe or a device"),
+        (["edp/parts.edp", *words, tmp_path / "a.case"], "it's a pipe: no such file, or empty, a folder, a pipe"),
+        (["edp/parts.edp", *words, tmp_path / "no.case"], "a control character"),
+        ([script(DISC), "-law", "table", "-table", tmp_path / "it's a pipe"], "it's a pipe: cannot be read"),
+    ):
+        done = subprocess.run([*FREEFEM, *command], cwd=ROOT, capture_output=True, text=True, timeout=30)
+        assert done.returncode == 10 and done.stdout.count("\n") == 1 and said in done.stdout, done.stdout
+
+
 def no_room_beyond(limit):
     """A preexec_fn: a limit on a file's size stands for a full disk: writing beyond it fails."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

@@ -56,39 +56,23 @@ def test_index():
     assert re.findall(r"^\| \[(.*?)\]\((.*?)/README\.md\)", INDEX, re.M) == [(lab, lab) for lab in LABS]
 
 
-def test_the_afternoon():
-    """The instructor's page shall lead to all answers; its plan shall fill three hours with the labs' minutes."""
+def test_answers():
+    """The instructor's page shall lead to all answers."""
     text = (ROOT / "edp/labs/INSTRUCTOR.md").read_text()
     assert re.findall(r"\[\d+\]\((.*?)/ANSWERS\.md\)", text) == LABS
-    ((_, rows),) = tables(text)
-    clock = [[60 * int(time[0]) + int(time[2:]) for time in row[:2]] for row in rows]
-    assert clock[0][0] == 0 and clock[-1][1] == 180
-    assert [end for _, end in clock[:-1]] == [begin for begin, _ in clock[1:]]
-    for (begin, end), row in zip(clock, rows, strict=True):
-        for lab in re.findall(r"\((.*?)/README\.md\)", row[3]):
-            assert end - begin == int(re.search(r"Core (\d+) minutes", readme(lab))[1]), lab
 
 
 @pytest.mark.parametrize("lab", LABS)
 def test_parts_of_a_lab(lab):
-    """A lab shall have its parts, minutes, a figure of its commands, core questions, answers elsewhere, and fit."""
+    """A lab shall have a figure of its commands, core questions and their answers, elsewhere."""
     text = readme(lab)
-    assert re.findall(r"^## (.*)", text, re.M) == ["Theory", "Commands", "Questions", "Hand in"]
-    assert text.startswith(f"# Lab {lab.partition('-')[0]}: ")
-    assert "\n**Aim.** " in text and re.search(r"^\*\*Time\.\*\* Core \d+ minutes, the rest \d+\.$", text, re.M)
     (core,) = re.findall(r"^Core: ([\d, ]+)\.$", section(text, "Questions"), re.M)
     asked = re.findall(r"^(\d+)\. ", section(text, "Questions"), re.M)
-    assert set(core.split(", ")) <= set(asked)
+    assert set(core.split(", ")) <= set(asked) & set(re.findall(r"^- (\d+): ", answers(lab), re.M))
     assert "](figure.png)" in text and (ROOT / "edp/labs" / lab / "figure.png").stat().st_size < 130_000
     (drawn,) = re.findall(r"^\*`(\w+)\.png` of these commands: .*\*$", text, re.M)
     assert f"{drawn}.pdf" in text or f"postprocess {drawn} " in text
     assert "ANSWERS" not in text + INDEX
-    assert answers(lab).startswith(f"# Lab {lab.partition('-')[0]}: answers\n") and set(core.split(", ")) <= set(
-        re.findall(r"^- (\d+): ", answers(lab), re.M)
-    )
-    assert lab.partition("-")[2] in lab_script(lab).rpartition("/")[2]
-    for line in [*text.splitlines(), *answers(lab).splitlines()]:
-        assert len(line) <= 130 or line.startswith("|") or line.startswith(("for ", ".venv", "FreeFem++"))
 
 
 def test_where_includes_are_found():
@@ -338,21 +322,15 @@ def test_no_contact(tmp_path):
         run_in(ROOT, lab_script(lab), "-u0", 0.1, "-vtu", 0, out=tmp_path / lab)
 
 
+SLOPED = (41, 6, 33)  # steps
+INVERSE = "= p[i] <= soft * knee ? p[i] / soft : knee + (p[i] - soft * knee) / stiff;"
+
+
 @pytest.mark.parametrize(
     "function, change, check, steps",
     [
-        (
-            "slope",
-            ("? soft : stiff)", "? 2 * soft : 2 * stiff)"),
-            "slope, against differences of the pressure",
-            (41, 6, 33),
-        ),
-        (
-            "inverse",
-            ("= p[i] <= soft * knee ? p[i] / soft : knee + (p[i] - soft * knee) / stiff;", "= x / 3;"),
-            "inverse of pressure, against s",
-            (None, "0.90 %", "3.5 %"),
-        ),
+        ("slope", ("? soft : stiff)", "? 2 * soft : 2 * stiff)"), "slope, against differences of the pressure", SLOPED),
+        ("inverse", (INVERSE, "= x / 3;"), "inverse of pressure, against s", (None, "0.90 %", "3.5 %")),
         ("potential", ("W[i] = 0.5", "W[i] = 3 * 0.5"), "pressure, against differences of the potential", (1, 1, 4)),
     ],
     ids=["slope", "inverse", "potential"],

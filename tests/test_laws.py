@@ -27,8 +27,7 @@ LAW_ROWS = """
 real[int] given(rows), found(rows), gradient(rows), energy(rows), back(rows);
 for (int i = 0; i < rows; i++) in >> given[i];
 lawPressure(given, found, gradient);
-tell("pressure", found);
-tell("slope", gradient);
+tell("pressure", found); tell("slope", gradient);
 lawPotential(given, energy);
 tell("potential", energy);
 lawInverse(found, back);
@@ -40,9 +39,7 @@ real[int] shats(rows), phats(rows), ks(rows), taus(rows), sg(rows), pg(rows), dg
 int[int] stateg(rows);
 for (int i = 0; i < rows; i++) in >> shats[i] >> phats[i] >> ks[i] >> taus[i];
 graphPoint(shats, phats, ks, taus, sg, pg, dg, stateg);
-tell("s", sg);
-tell("p", pg);
-tell("slope", dg);
+tell("s", sg); tell("p", pg); tell("slope", dg);
 for (int i = 0; i < rows; i++) dg[i] = stateg[i];
 tell("state", dg);
 """

@@ -9,10 +9,7 @@ setUpContact();
 {
     int[int] all(points);
     for (int i = 0; i < points; i++) all[i] = i;
-    real[int] v(points);
-    real[int] column(points);
-    real[int] fast(points);
-    real[int] slow(points);
+    real[int] v(points); real[int] column(points); real[int] fast(points); real[int] slow(points);
     for (int test = 0; test < 2; test++)
     {
         kernelTest(0, v);
@@ -25,8 +22,7 @@ setUpContact();
             kernelColumn(all, kernelCell, j, column);
             slow += v[j] * column;
         }
-        fast -= slow;
-        tell("off" + test, fast.l2 / slow.l2);
+        fast -= slow; tell("off" + test, fast.l2 / slow.l2);
     }
     tell("levels", levels);
 }
@@ -56,12 +52,8 @@ TURNED = """SetFactory("OpenCASCADE");
 Box(1) = {0, 0, -1, 3, 2, 1};
 Rotate {{0, 0, 1}, {0, 0, 0}, Atan(0.75)} { Volume{1}; }
 f() = Abs(Boundary{ Volume{1}; });
-Physical Volume("block") = {1};
-Physical Surface("left") = {f(0)};
-Physical Surface("side") = {f(1)};
-Physical Surface("front") = {f(2)};
-Physical Surface("base") = {f(4)};
-Physical Surface("top") = {f(5)};
+Physical Volume("block") = {1}; Physical Surface("left") = {f(0)}; Physical Surface("side") = {f(1)};
+Physical Surface("front") = {f(2)}; Physical Surface("base") = {f(4)}; Physical Surface("top") = {f(5)};
 Mesh.MeshSizeMax = 0.22;
 """
 TURNED_CASE = """body block E 1 nu 0.3
@@ -94,32 +86,14 @@ flagsDone("a grid of points on a half-space, in a quarter");
 macro grown(field) field.resize(points);
 field = 0; //
 points = side * side;
-grown(pointX)
-grown(pointY)
-grown(pointZ)
-grown(normalX)
-grown(normalY)
-grown(normalZ)
-grown(weight)
-grown(overlapBefore)
-grown(immobile)
-grown(paired)
-grown(contactOf)
-paired = 1;
-normalZ = 1;
-verticalGaps = true;
-mirrorX = true;
-mirrorY = true;
-copies = 4;
-patch = 6;
-contactLength = patch;
-weight = 4 * (patch / (side - 1.))^2;
+grown(pointX) grown(pointY) grown(pointZ) grown(normalX) grown(normalY) grown(normalZ)
+grown(weight) grown(overlapBefore) grown(immobile) grown(paired) grown(contactOf)
+paired = 1; normalZ = 1; verticalGaps = true; mirrorX = true; mirrorY = true; copies = 4; patch = 6;
+contactLength = patch; weight = 4 * (patch / (side - 1.))^2;
 for (int i = 0; i < points; i++)
 {
     int place = (7919 * i) % points;          // in no order
-    int row = place / side;
-    int column = place % side;
-    pointX[i] = patch * column / (side - 1.);
+    int row = place / side; int column = place % side; pointX[i] = patch * column / (side - 1.);
     pointY[i] = patch * row / (side - 1.);
     if (column == 0 || column == side - 1) weight[i] *= 0.5;
     if (row == 0 || row == side - 1) weight[i] *= 0.5;
@@ -131,8 +105,7 @@ tell("hertz", 4. / 3 * youngModulus / (1 - nu * nu) * sqrt(radius) * (u0 - d0)^1
 setUpContact();
 setUpPreconditioner();
 noteKernel(true);
-kernelC = 0;
-preconditionerInUse = "kernel";
+kernelC = 0; preconditionerInUse = "kernel";
 applyLoad(1.);
 sFree = sRest;
 firstThreshold();
@@ -142,9 +115,7 @@ solveOnFine();
 modelInPlace = true;
 productsOf(q, Cq, 0, true);
 presentOverlaps();
-real[int] forces = q;
-tell("residual", residualNow());
-tell("force", forces.sum);
+real[int] forces = q; tell("residual", residualNow()); tell("force", forces.sum);
 """
 
 

@@ -3,13 +3,12 @@
 The truth is a body that is turned in its mesh, statics, or the true distance.
 """
 
-import json
 import re
 from itertools import count
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, flag_text, parts_script, short_of
+from freefem import ROOT, part, short_of
 
 # an ellipse, finer near (0, 5), turned by `turn` about its centre
 CAM = """
@@ -97,6 +96,7 @@ class Said:
     def __init__(self, summary, stdout):
         self.summary, self.stdout = summary, stdout
         self.linear = summary["linearised"]
+        self.listed = self.linear and list(self.linear["changes"])
         if self.linear:
             both = {"normal force": " normal force"}  # the others are the names' only ones
             changes = self.linear["changes"]
@@ -122,16 +122,10 @@ def said(tmp_path):
     numbers = count()
 
     def go(geo, case, *flags, space=False, **constants):
-        folder = tmp_path / str(next(numbers))
-        folder.mkdir()
         for name, value in constants.items():
             geo = re.sub(rf"\b{name} = {{[^}}]*}}", f"{name} = {{{value}}}", geo)
-        (folder / "a.geo").write_text(geo)
-        (folder / "a.case").write_text(case)
-        files = ["-mesh", folder / "a.geo", "-case", folder / "a.case", "-out", folder / "out", "-vtu", 0]
-        code, stdout = execute(list(map(flag_text, [*FREEFEM, parts_script(case, flags, space), *files, *flags])))
-        assert code == 0, stdout[-3000:]
-        return Said(json.loads((folder / "out/summary.json").read_text()), stdout)
+        done = part(tmp_path / str(next(numbers)), geo, case, *flags, space=space)
+        return Said(done.summary, done.stdout)
 
     return go
 
@@ -272,3 +266,72 @@ def test_turned_in_space(said):
     # points that face nothing are no example for their neighbours
     exact = said(WHEEL, case.format("clamp shaft"), "-distance", "exact", space=True)
     assert exact.holds("force", true) and exact.known("force")[1] < 0.05 * true
+
+
+# ---------------------------------------------------------------- with friction
+
+BALL = """
+SetFactory("OpenCASCADE");
+Sphere(1) = {0, 0, 1, 1, -Pi/2, 0, 2*Pi};
+Physical Volume("ball") = {1}; cut() = Surface In BoundingBox {-2, -2, 0.999, 2, 2, 1.001};
+skin() = Abs(Boundary{ Volume{1}; }); skin() -= cut();
+Physical Surface("cut") = cut(); Physical Surface("skin") = skin();
+Field[1] = MathEval; Field[1].F = "0.09 + 0.4 * Sqrt(x * x + y * y + z * z)";
+Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0;
+"""
+
+
+def rubbed(found):
+    """Forces, what is lost and what is needed, by the names that `linearised` has."""
+    contact = found.summary["contacts"][0]
+    name = contact["name"]
+    numbers = {f"{name} force": np.linalg.norm(contact["force"]), f"{name} normal force": contact["normalForce"]}
+    numbers |= {f"{name} dissipated": contact["dissipated"]}
+    numbers[f"{name} shear force"] = np.linalg.norm(contact["shearForce"])
+    return numbers | {f"{x['name']} needed": x["force"] for x in found.summary["prescribed"]}
+
+
+BOTH = "body low E 1000 nu 0.3\nbody up E 1000 nu 0.3\ncontact {} friction 0.3\nmove head {}\n"
+ON_BALL = "body ball E 1000 nu 0.3\nobstacle skin sphere 0 0 -2 R 2 friction 0.3{}\nmove cut {}\n"
+
+
+@pytest.mark.parametrize(
+    "geo, case",
+    [
+        (NOSE, BOTH.format("nose floor", "0.05 -0.1") + "clamp base\n"),
+        (BALL, ON_BALL.format("", "0.06 0.02 -0.05")),
+        (BALL, ON_BALL.format(" move 0 0 0.05", "0.05 0 0")),
+    ],
+    ids=["dragged", "ball", "pushed obstacle"],
+)
+def test_friction_with_the_true_distance(said, geo, case):
+    """What the true distance changes of a run that rubs shall be foreseen, number by number, and be in the errors."""
+    space = geo == BALL
+    linear, exact = said(geo, case, space=space), said(geo, case, "-distance", "exact", space=space)
+    told, truth = rubbed(linear), rubbed(exact)
+    seen = 0
+    for number in linear.listed:
+        name = f"{number['name']} {number['kind']}"
+        happens = truth[name] - told[name]
+        size = linear.summary["contacts"][0]["normalForce"]
+        if "dissipated" in name:  # what sticks and slips changes with it: inside its ± alone
+            assert abs(happens) <= 2 * abs(number["change"])
+            continue
+        assert number["change"] == pytest.approx(happens, rel=0.35, abs=2e-3 * size), name
+        seen += abs(happens) > 1e-3 * size
+    assert seen > 0 and exact.linear is None
+    assert linear.holds("normalForce", exact.known("normalForce")[0])
+    assert "gaps at rest" not in linear.stdout
+
+
+@pytest.mark.long
+def test_friction_pressed_deep(said):
+    """The flat surface is the slave: its points come opposite others, and each still lies within its error."""
+    case = BOTH.format("floor nose", "0.3 -0.5") + "clamp base\n"
+    linear, exact = said(NOSE, case), said(NOSE, case, "-distance", "exact")
+    for what in ("force", "normalForce"):
+        true, doubt = exact.known(what)
+        value, error = linear.known(what)
+        assert abs(value - true) <= error + doubt < 0.05 * value
+    shears = [np.linalg.norm(found.summary["contacts"][0]["shearForce"]) for found in (linear, exact)]
+    assert abs(shears[0] - shears[1]) <= linear.summary["contacts"][0]["mesh"]["shearForce"]["error"] < 0.2 * shears[0]

@@ -108,6 +108,17 @@ def test_refused_before_it_is_taken(tmp_path):
     assert code == 0, output
 
 
+def test_plane_numbered_within_memory(tmp_path):
+    """FreeFEM crashes where the numbering of the plane's nodes does not fit: one line before that."""
+    for megabytes, flags in (
+        (265, ["-h", 0.06, "-order", 4]),
+        (280, ["-h", 0.05, "-order", 4]),
+        (275, ["-h", 0.1, "-order", 3]),
+    ):
+        code, output, _ = within(megabytes, *CASES["plane, default"], *flags, folder=tmp_path / "out")
+        assert code == 10 and len(output.splitlines()) == 1 and "GB" in output, (megabytes, code, output)
+
+
 def starts(megabytes, folder):
     """Does FreeFEM itself begin with two threads in so much? Newer ones wait for ever, before they read a script."""
     (folder / "empty.edp").write_text('cout << "begun" << endl;\n')
@@ -137,15 +148,11 @@ include "laws/all.idp"
 include "solve/methods/all.idp"
 include "case/scheme.idp"
 include "solve/solver.idp"
-tell("groups", groupsLeft("fake"));
-tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));
+tell("groups", groupsLeft("fake")); tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));
 matrix K = [[2., 0.], [0., 2.]];
-real[int] b = [1., 1.];
-real[int] x = [0.5, 0.5];
-dofsThatFit = 3;
+real[int] b = [1., 1.]; real[int] x = [0.5, 0.5]; dofsThatFit = 3;
 checkSolved(K, b, x);
-x[1] = 7;
-checkSolved(K, b, x);
+x[1] = 7; checkSolved(K, b, x);
 """
 
 

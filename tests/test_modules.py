@@ -21,8 +21,7 @@ int count = countFlag("-count", 3, "a whole number", 1, 5);
 string word = wordFlag("-word", "one", "a word", "one two");
 string text = textFlag("-text", "any", "a text", "any text");
 flagsDone("What the script is for.");
-tell("alpha", alpha);
-tell("count", count);
+tell("alpha", alpha); tell("count", count);
 cout << "word " << word << endl << "text " << text << endl;
 """
 
@@ -117,14 +116,10 @@ Th = gmshMesh("block", names, values, 40.);
 """
 
 GROUPS = """
-real area = int2d(Th)(1.);
-tell("area", area);
-int contactLine = group("contact");
-int clampedLine = group("clamped");
-real contactLength = int1d(Th, contactLine)(1.);
-real contactY = int1d(Th, contactLine)(y) / contactLength;
-real clampedLength = int1d(Th, clampedLine)(1.);
-real[int] lines = [contactLength, contactY, clampedLength];
+real area = int2d(Th)(1.); tell("area", area);
+int contactLine = group("contact"); int clampedLine = group("clamped");
+real contactLength = int1d(Th, contactLine)(1.); real contactY = int1d(Th, contactLine)(y) / contactLength;
+real clampedLength = int1d(Th, clampedLine)(1.); real[int] lines = [contactLength, contactY, clampedLength];
 tell("lines", lines);
 """
 
@@ -155,10 +150,8 @@ func real energyOf(real[int] & v)
     return 0.5 * (v' * product);
 }
 fespace Uh(Th, ELEMENT);
-Uh [a1, a2] = [0, -0.01 * y];
-tell("pressed", energyOf(a1[]));
-Uh [b1, b2] = [0, 0.01 * x * y];
-tell("sheared", energyOf(b1[]));
+Uh [a1, a2] = [0, -0.01 * y]; tell("pressed", energyOf(a1[]));
+Uh [b1, b2] = [0, 0.01 * x * y]; tell("sheared", energyOf(b1[]));
 """
 
 
@@ -182,10 +175,8 @@ macro loads(v1, v2) int2d(Th)(-3. * v2) //
 
 SINKING = """
 set(stiffness, solver = "CHOLMOD", sym = 1, positive = 1);
-real[int] sunk = stiffness^-1 * bodyLoad;
-real[int] top = sunk(pointDof);
-tell("top", top);
-tell("load", bodyLoad.sum);
+real[int] sunk = stiffness^-1 * bodyLoad; real[int] top = sunk(pointDof);
+tell("top", top); tell("load", bodyLoad.sum);
 """
 
 
@@ -213,22 +204,14 @@ halve(halved);
 tell("stored", real(assembled.nnz) - halved.nnz);
 real[int] b(Vh.ndof);
 for (int i = 0; i < b.n; i++) b[i] = cos(2. * i);
-real[int] product = full * b;
-real[int] difference = halved * b;
-difference -= product;
+real[int] product = full * b; real[int] difference = halved * b; difference -= product;
 tell("product", difference.linfty);
-halved += assembled;
-difference = halved * b;
-difference -= product;
-difference -= product;
+halved += assembled; difference = halved * b; difference -= product; difference -= product;
 tell("sum", difference.linfty);
 set(full, solver = "UMFPACK");
 set(halved, solver = "CHOLMOD", sym = 1, positive = 1);
-difference = halved^-1 * b;
-difference *= 2;
-real[int] solved = full^-1 * b;
-difference -= solved;
-tell("solution", difference.linfty / solved.linfty);
+difference = halved^-1 * b; difference *= 2;
+real[int] solved = full^-1 * b; difference -= solved; tell("solution", difference.linfty / solved.linfty);
 """
 
 
@@ -241,9 +224,7 @@ def test_half_matrices(tmp_path):
 # ---------------------------------------------------------------- surface/slave.idp
 
 POINTS = """
-tell("x", pointX);
-tell("y", pointY);
-tell("weight", weight);
+tell("x", pointX); tell("y", pointY); tell("weight", weight);
 fespace Uh(Th, ELEMENT);
 Uh [a1, a2] = [100 + x, 10 * x + y];
 real[int] trace(points);
@@ -283,24 +264,15 @@ fespace Uh(Th, ELEMENT);
 real[int] seen(points);
 tell("x", pointX);
 for (int i = 0; i < points; i++) seen[i] = paired[i];
-tell("paired", seen);
-tell("unpaired", pointsUnpaired);
-Uh [a1, a2] = [7, 3];
-seen = overlapMap * a1[];
-tell("rigid", seen);
-Uh [b1, b2] = [x * y, 0];
-seen = overlapMap * b1[];
-tell("sideways", seen);
+tell("paired", seen); tell("unpaired", pointsUnpaired);
+Uh [a1, a2] = [7, 3]; seen = overlapMap * a1[]; tell("rigid", seen);
+Uh [b1, b2] = [x * y, 0]; seen = overlapMap * b1[]; tell("sideways", seen);
 Uh [s1, s2] = [0, 0];
 for (int n = 0; n < nodes; n++) s1[][nodeDof(n, 0)] = nodeAt(n, 0);
-Uh [c1, c2] = [0, (region == disc) * (2 - 3 * s1)];
-seen = overlapMap * c1[];
-tell("linear", seen);
-Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)];
-seen = overlapMap * d1[];
+Uh [c1, c2] = [0, (region == disc) * (2 - 3 * s1)]; seen = overlapMap * c1[]; tell("linear", seen);
+Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)]; seen = overlapMap * d1[];
 tell("quadratic", seen);
-Uh [e1, e2] = [0, (region == block) * (2 - 3 * x + 0.5 * x^2)];
-seen = overlapMap * e1[];
+Uh [e1, e2] = [0, (region == block) * (2 - 3 * x + 0.5 * x^2)]; seen = overlapMap * e1[];
 tell("slave", seen);
 """
 
@@ -338,9 +310,7 @@ tell("weight", weight);
 real[int] seen(points);
 for (int i = 0; i < points; i++) seen[i] = paired[i];
 tell("paired", seen);
-Uh [c1, c2] = [0, (region == upper) * (2 - 3 * x)];
-seen = overlapMap * c1[];
-tell("linear", seen);
+Uh [c1, c2] = [0, (region == upper) * (2 - 3 * x)]; seen = overlapMap * c1[]; tell("linear", seen);
 """
 
 
@@ -374,22 +344,17 @@ def test_partly_covered(tmp_path, share, order, element):
 # The solver's overlaps are made wrong by a share of the greatest one, and the displacement by a share of itself.
 SPOILT = """
 include "solve/solve.idp"
-real[int] right = Cq;
-real[int] overlaps = shat;
-real[int] u = displacement;
+real[int] right = Cq; real[int] overlaps = shat; real[int] u = displacement;
 func int tellAgain(string name)
 {
     goOn();
     judgeOverlaps();
     tell(name, converged);
-    Cq = right;
-    shat = overlaps;
-    displacement = u;
+    Cq = right; shat = overlaps; displacement = u;
     return 0;
 }
 tellAgain("right");
-real share = 1e-5 * max(right.linfty, approach);
-int most = 0;
+real share = 1e-5 * max(right.linfty, approach); int most = 0;
 for (int i = 0; i < points; i++) if (paired[i] && q[i] > q[most]) most = i;
 Cq[most] += 0.5 * share; shat[most] += 0.5 * share;
 tellAgain("little");
@@ -423,8 +388,7 @@ def test_overlaps_of_the_displacement(flags, tmp_path):
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
 TANGENT = """
 applyLoad(1.);
-walled = false;
-lambda = 0;
+walled = false; lambda = 0;
 func int traceOf(real[int] & u, real[int] & trace)
 {
     if (selection) trace = u(pointDof);
@@ -435,41 +399,29 @@ func int imbalance(real[int] & u, real[int] & G)
 {
     real[int] overlap(points), pressure(points), unused(points);
     traceOf(u, overlap);
-    overlap += sRest;
-    lawPressure(overlap, pressure, unused);
-    pressure = pressure .* weight;
-    G = stiffness * u;
-    G -= bodyLoad;
-    real[int] spread(ndof);
-    spread = 0;
+    overlap += sRest; lawPressure(overlap, pressure, unused);
+    pressure = pressure .* weight; G = stiffness * u; G -= bodyLoad; real[int] spread(ndof); spread = 0;
     if (selection) spread(pointDof) += pressure;
     else spread = overlapMap' * pressure;
     G += spread;
     return 0;
 }
-real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points);
-displacement = 0;
+real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points); displacement = 0;
 for (int k = 1; k <= 5; k++)
 {
-    uBefore = displacement;
-    traceOf(uBefore, trace);
-    s = sRest + trace;
-    lawPressure(s, p, slope);
+    uBefore = displacement; traceOf(uBefore, trace);
+    s = sRest + trace; lawPressure(s, p, slope);
     for (int i = 0; i < points; i++) state[i] = slope[i] > 0 ? compliant : open;
     solveLinearised();
     if (k != 2 && k != 5) continue;
     fullStep = displacement - uBefore;
     imbalance(uBefore, G0);
-    real smallness = 1e-5;
-    real[int] uForward = uBefore + smallness * fullStep;
+    real smallness = 1e-5; real[int] uForward = uBefore + smallness * fullStep;
     real[int] uBackward = uBefore - smallness * fullStep;
     imbalance(uForward, Gplus);
     imbalance(uBackward, Gminus);
-    real[int] JfullStep = Gplus - Gminus;
-    JfullStep /= 2 * smallness;
-    real[int] tangentError = JfullStep + G0;
-    tell("imbalance" + k, G0.l2);
-    tell("error" + k, tangentError.l2);
+    real[int] JfullStep = Gplus - Gminus; JfullStep /= 2 * smallness; real[int] tangentError = JfullStep + G0;
+    tell("imbalance" + k, G0.l2); tell("error" + k, tangentError.l2);
 }
 """
 

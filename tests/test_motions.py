@@ -38,29 +38,15 @@ ndof = points + 1;             // the last moves no point
 readInto(pointX)
 readInto(weight)
 readInto(overlapBefore)
-macro none(field) field.resize(points); field = 0; //
-none(pointY) none(pointZ) none(normalX) none(normalY) none(normalZ) none(placeOnEdge)
-displacement.resize(ndof);
-displacement = 0;
-bodyLoad.resize(ndof);
-bodyLoad = 0;
-wholeLoad.resize(ndof);
-wholeLoad = 0;
-normalY = 1;
-paired.resize(points);
-paired = 1;
-along.resize(points);
-along = pointX;
-contactOf.resize(points);
-immobile.resize(points);
-immobile = 0;
-chainOf.resize(points);
+macro zero(field, n) field.resize(n); field = 0; //
+macro none(field) zero(field, points) //
+none(pointY) none(pointZ) none(normalX) none(normalY) none(normalZ) none(placeOnEdge) none(immobile) none(paired)
+zero(displacement, ndof) zero(bodyLoad, ndof) zero(wholeLoad, ndof) zero(chainClosed, CONTACTS)
+normalY = 1; paired = 1; along.resize(points); along = pointX; contactOf.resize(points); chainOf.resize(points);
 readAll("contactOf");
 for (int i = 0; i < points; i++) contactOf[i] = lrint(read[i]);
 chainOf = contactOf;
 for (int c = 0; c < CONTACTS; c++) addContact("contact " + c, "", 0, 0, -1, false, localCompliance);
-chainClosed.resize(CONTACTS);
-chainClosed = 0;
 contactLength = pointX.max - pointX.min;
 {
     real[int,int] K(ndof, ndof);
@@ -89,16 +75,12 @@ for (int k = 0; k < motions; k++) for (int l = 0; l < motions; l++) motionStiffn
 
 END = """
 include "solve/solve.idp"
-tell("q", q);
-tell("overlap", shat);
-tell("Cq", Cq);
+tell("q", q); tell("overlap", shat); tell("Cq", Cq);
 if (motions > 0) tell("motion", motion);
 real[int] fixed(motions);
 for (int k = 0; k < motions; k++) fixed[k] = motionFixed[k];
 if (motions > 0) tell("fixed", fixed);
-tell("converged", converged);
-tell("newton", newtonSteps);
-tell("backsolves", backsolves);
+tell("converged", converged); tell("newton", newtonSteps); tell("backsolves", backsolves);
 """
 
 

@@ -137,17 +137,11 @@ class TestRefusals:
 
     @pytest.mark.parametrize(
         ("key", "value"),
-        [
-            ("converged", 1),
-            ("newton", -3),
-            ("newton", 2.5),
-            ("force", "large"),
-            ("parameters", []),
-            ("newtonPerAdaptation", 12),
-            ("method", None),
-            ("points", True),
-            ("h", [0.5]),
-        ],
+        zip(
+            "converged newton newton force parameters newtonPerAdaptation method points h".split(),
+            [1, -3, 2.5, "large", [], 12, None, True, [0.5]],
+            strict=True,
+        ),
     )
     def test_summary_values_of_the_wrong_kind(self, broken, key, value):
         folder = broken()
@@ -190,21 +184,9 @@ class TestRefusals:
         ("name", "spoil", "words"),
         [
             ("contact", lambda text: text.replace("x,y,weight", "x,y,weight,weight", 1), "appears twice"),
-            (
-                "contact",
-                lambda text: re.sub(r"\n[^,]*,", "\ninf,", text, count=1),
-                "column x has the value inf in line 2",
-            ),
-            (
-                "contact",
-                lambda text: re.sub(r"((,[^,]+){3}),\d((,[^,]+){8})\n$", r"\1,3\3\n", text),
-                "column status has 3",
-            ),
-            (
-                "history",
-                lambda text: text.replace("\n1,1,1,1,", "\n1,1,1.5,1,", 1),
-                "column iteration has 1.5 in line 2",
-            ),
+            ("contact", lambda text: re.sub(r"\n[^,]*,", "\ninf,", text, count=1), "x has the value inf in line 2"),
+            ("contact", lambda text: re.sub(r"((,[^,]+){3}),\d((,[^,]+){8})\n$", r"\1,3\3\n", text), "status has 3"),
+            ("history", lambda text: text.replace("\n1,1,1,1,", "\n1,1,1.5,1,", 1), "iteration has 1.5 in line 2"),
             ("history", lambda text: re.sub(r"\n(.*)\n(.*)\n", r"\n\2\n\1\n", text, count=1), "does not count 1, 2, 3"),
         ],
     )
@@ -254,14 +236,6 @@ def draw(name, *folders):
 
 
 class TestFigures:
-    def test_every_figure_is_tested(self):
-        of_runs = {name for name, module in figures.modules().items() if not hasattr(module, "READ")}
-        drawn_from_real_runs = {"hertz", "series"}  # test_hertz_figures.py
-        drawn_from_real_runs |= {"sphere", "patch", "punch", "waves", "rigid", "hertz_error"}  # test_scene_figures.py
-        drawn_from_real_runs |= {"equilibrium", "overshoot", "cost"}  # test_labs.py
-        drawn_from_real_runs |= {"attraction", "attraction_profiles"}  # test_adhesion.py
-        assert of_runs - drawn_from_real_runs == FIGURES  # those of campaigns: test_campaign.py
-
     @pytest.mark.long
     @pytest.mark.parametrize("name", ["figure1", "thresholds"])
     def test_the_same_bytes_again(self, runs, tmp_path, name):
@@ -271,19 +245,12 @@ class TestFigures:
             assert (tmp_path / "one" / f"f.{kind}").read_bytes() == (tmp_path / "two" / f"f.{kind}").read_bytes()
         assert not re.search(rb"CreationDate|ModDate", (tmp_path / "one" / "f.pdf").read_bytes())
 
-    DRAWN = (
-        ("figure1", "meshed"),
-        ("figure1", "rigid"),
-        ("figure1", "apart"),
-        ("figure2", "rigid", "incremental"),
-        ("convergence", "rigid", "d0", "newton", "incremental"),
-        ("thresholds", "newton"),
-        ("thresholds", "rigid", "d0"),
-    )
+    DRAWN = "figure1 meshed, figure1 rigid, figure1 apart, figure2 rigid incremental, thresholds newton, "
+    DRAWN += "convergence rigid d0 newton incremental, thresholds rigid d0"
 
-    @pytest.mark.parametrize("case", DRAWN, ids=" ".join)
+    @pytest.mark.parametrize("case", DRAWN.split(", "))
     def test_drawn(self, runs, case):
-        name, *folders = case
+        name, *folders = case.split()
         assert faults(draw(name, *(runs[folder] for folder in folders))) == []
 
     def test_figure1_shows_the_first_and_the_last_model(self, runs):
@@ -345,27 +312,15 @@ class TestFigures:
         folder = broken()
         edit_summary(folder, h=0.25, order=2)
         labels = style.labels([read_run(runs["rigid"]), read_run(folder), read_run(runs["d0"])])
-        assert labels == [
-            "paper's scheme, $T^0 = 0$, P1, $h = 0.5$",
-            "paper's scheme, $T^0 = 0$, P2, $h = 0.25$",
-            "paper's scheme, $T^0 = d_0$, P1, $h = 0.5$",
-        ]
+        told = "0$, P1, $h = 0.5$", "0$, P2, $h = 0.25$", "d_0$, P1, $h = 0.5$"
+        assert labels == [f"paper's scheme, $T^0 = {words}" for words in told]
         edit_summary(folder, h=0.5, order=1, scene="meshed-disc")
         assert style.labels([read_run(runs["rigid"]), read_run(folder)])[1].endswith("(broken)")
 
-    @pytest.mark.parametrize(
-        ("value", "text"),
-        [
-            (0.25, "0.25"),
-            (1000, "1000"),
-            (1e-6, "10^{-6}"),
-            (3.2e-9, r"3.2 \times 10^{-9}"),
-            (1e12, "10^{12}"),
-            (0, "0"),
-            (-2.5e-5, r"-2.5 \times 10^{-5}"),
-            (9.99e-7, "10^{-6}"),
-        ],
-    )
+    NUMBERS = (0.25, 1000, 1e-6, 3.2e-9, 1e12, 0, -2.5e-5, 9.99e-7)
+    TEXTS = r"0.25|1000|10^{-6}|3.2 \times 10^{-9}|10^{12}|0|-2.5 \times 10^{-5}|10^{-6}".split("|")
+
+    @pytest.mark.parametrize(("value", "text"), zip(NUMBERS, TEXTS, strict=True))
     def test_numbers_in_labels(self, value, text):
         assert style.number(value) == text
 

@@ -7,7 +7,7 @@ import attraction
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, run, run_in
+from freefem import part, run
 from test_adhesion import MODULUS, SPHERE, R, flags
 from test_examples import FOLDER, STEEL, example
 from test_examples import solve as solve_parts
@@ -82,10 +82,7 @@ line axis 0 0 0 -200
 def test_rounded_punch(row, tmp_path):
     """The axial displacement and stress in the middle of the contact; on a finer mesh than the published ones."""
     order, *sizes = re.findall(r"[\d.]+\d|\d", row[0])
-    (tmp_path / "punch.geo").write_text(PUNCH)
-    (tmp_path / "punch.case").write_text(PUNCHED.format(order, *sizes))
-    words = ["-mesh", tmp_path / "punch.geo", "-case", tmp_path / "punch.case", "-order", order]
-    run_in(ROOT, "edp/parts.edp", *words, "-estimate", 0, "-vtu", 0, out=tmp_path / "out")
+    part(tmp_path, PUNCH, PUNCHED.format(order, *sizes), "-order", order, "-estimate", 0)
     line = np.genfromtxt(tmp_path / "out/line-axis.csv", delimiter=",", names=True)[0]
     same([line["uy"], line["stressYY"]], figures(*row[1:]))
 

@@ -71,19 +71,11 @@ def test_confined_block_of_odd_shape():
 # ---------------------------------------------------------------- no contact
 
 
-@pytest.mark.parametrize(
-    "scene, method, u0",
-    [
-        *((scene, "xnewton", 0.2) for scene in SCENES),
-        (DISC, "paper", 0.2),
-        (DISC, "newton", 0.25),
-        (DISC, "incremental", 0.25),
-        (DISC, "signorini", 0.2),
-        (DISC, "paper", -1),
-        (TWO_BODIES, "paper", 0.2),
-        (BLOCK, "newton", 0.25),
-    ],
-)
+APART = [*((scene, "xnewton", 0.2) for scene in SCENES), (DISC, "paper", 0.2), (DISC, "newton", 0.25)]
+APART += [(DISC, "incremental", 0.25), (DISC, "signorini", 0.2), (DISC, "paper", -1), (TWO_BODIES, "paper", 0.2)]
+
+
+@pytest.mark.parametrize("scene, method, u0", [*APART, (BLOCK, "newton", 0.25)])
 def test_no_contact(scene, method, u0):
     """Short of first touch (u0 = gap + d0), or just at it, the result shall be zero force, converged, nothing open."""
     h = 5 if scene == BLOCK else 1

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from freefem import run
+from freefem import part, run
 from test_parts import UNTURNED, Mesh, block, cube, turn_in_space, vector
-from test_states import PLACES, TENSOR, E, line_of, solve
+from test_states import PLACES, TENSOR, E, line_of
 
 LAWS = {"power": ("-kappa", 10, "-m", 2), "exponential": ("-beta", 6)}
 
@@ -57,7 +57,7 @@ def test_column(tmp_path, state):
     case += f"body block E {E} nu 0\nobstacle bottom plane {v([0, 0, 0])} {v(down)}\nweight block {v(-weight * down)}\n"
     case += f"line a {v([0.4, 0.1, 0.1])} {v([1.7, 0.9, 0.9])}\n"
     mesh = cube(Mesh(), cells=(2, 2, 2)) if space else block(Mesh())
-    solve(tmp_path, mesh.text(matrix), case, "-order", 2, "-tol", 1e-10, "-estimate", 0, space=space)
+    part(tmp_path, mesh.text(matrix), case, "-order", 2, "-tol", 1e-10, "-estimate", 0, space=space)
     rows = line_of(tmp_path)
     depth = height - np.array([rows[name] for name in "xyz"[:where]]).T @ (matrix @ down)[:where]
     for name, (a, b) in zip(TENSOR, PLACES, strict=True):
@@ -75,7 +75,7 @@ def test_inside_the_bodies(tmp_path, state):
     layers, height, weight = 8, 2, 0.7
     case = f"state {state}\nbody block E {E} nu 0\nobstacle bottom plane 0 0 0 1\nweight block 0 {-weight}\n"
     case += "symmetry left\n" * (state == "strain")
-    found = solve(tmp_path, block(Mesh(), cells=(8, layers)).text(), case, "-order", 1, "-tol", 1e-10)
+    found = part(tmp_path, block(Mesh(), cells=(8, layers)).text(), case, "-order", 1, "-tol", 1e-10)
     estimates, area = found.estimates, 3 if state == "strain" else 9 * np.pi
     way, energy = estimates["loads"][0]["way"], estimates["energy"]
     for said, exact in (way, weight * height**2 / (3 * E)), (energy, -(weight**2) * height**3 / (6 * E) * area):

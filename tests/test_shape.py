@@ -1,11 +1,10 @@
 """The shape's part of a number in the plane: corners, elements that follow every smooth boundary, what is unknown."""
 
-import json
 import re
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, short_of, snippet, told
+from freefem import ROOT, execute, part, short_of, snippet, told
 from test_parts import Mesh, block
 from test_surfaces import ring
 
@@ -68,14 +67,8 @@ def test_corners(tmp_path):
 
 def run(folder, mesh, case, *flags, expect=0):
     """summary.json of a run with estimates, the first contact's normal force in it, what was printed."""
-    name = "a.geo" if "Point" in mesh else "a.msh"
-    (folder / name).write_text(mesh)
-    (folder / "a.case").write_text(case)
-    command = [*FREEFEM, "edp/parts.edp", "-mesh", folder / name, "-case", folder / "a.case", "-out", folder / "out"]
-    code, stdout = execute([*command, *flags])
-    assert code == expect, stdout[-2000:]
-    summary = json.loads((folder / "out/summary.json").read_text())
-    return summary, summary["estimates"]["contacts"][0]["normalForce"], stdout
+    done = part(folder, mesh, case, *flags, expect=expect)
+    return done.summary, done.estimates["contacts"][0]["normalForce"], done.stdout
 
 
 def circle(first, radius, sides, turned=0.0):

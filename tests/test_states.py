@@ -2,19 +2,12 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, parts_script, run_in
+from freefem import part
 from test_parts import UNTURNED, Mesh, block, cube, turn, turn_in_space, vector
 
 E, NU, HEAT = 100.0, 0.3, 2e-3
 TENSOR = "stressXX stressYY stressZZ stressXY stressYZ stressXZ".split()
 PLACES = (0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)
-
-
-def solve(folder, mesh, case, *flags, space=False):
-    (folder / "a.msh").write_text(mesh)
-    (folder / "a.case").write_text(case)
-    files = "-mesh", folder / "a.msh", "-case", folder / "a.case", "-vtu", 0
-    return run_in(ROOT, parts_script(case, flags, space), *files, *flags, out=folder / "out")
 
 
 def line_of(folder, name="a"):
@@ -74,7 +67,7 @@ def test_uniform(tmp_path, state, order):
     ends = {"a": ([0.2, 0.3, 0.1], [1.7, 1.5, 0.9]), "b": ([1.8, 0.3, 0.7], [0.3, 1.1, 0.6])}
     case += "".join(f"line {name} {v(one)} {v(other)}\n" for name, (one, other) in ends.items())
     mesh = cube(Mesh(), cells=(2, 2, 1)) if space else block(Mesh())
-    run = solve(tmp_path, mesh.text(matrix), case, "-order", order, "-tol", 1e-10, "-estimate", 0, space=space)
+    run = part(tmp_path, mesh.text(matrix), case, "-order", order, "-tol", 1e-10, "-estimate", 0, space=space)
     for name in ends:
         check_line(line_of(tmp_path, name), matrix @ stress @ matrix.T, matrix @ strain @ matrix.T)
     contact = run.summary["contacts"][0]
@@ -94,7 +87,7 @@ def test_mean_of_a_cone(tmp_path):
     mesh = block(Mesh(), cells=(12, 8))
     mesh.nodes = [(x * (1 - y / 4), y, z) for x, y, z in mesh.nodes]
     case = f"state axisymmetric\nbody block E {E} nu {NU}\nobstacle bottom plane 0 0 0 1\n"
-    run = solve(
+    run = part(
         tmp_path,
         mesh.text(),
         f"{case}pressure top 4\npressure right 4\nline a 0.2 0.3 1 1.5\n",
@@ -122,7 +115,7 @@ def test_moments(tmp_path, space):
     shape = "sphere {} R 5 force {}" if space else "circle {} R 5 force {}"
     case = f"body block E 1000 nu {NU}\nclamp bottom\nobstacle top {shape.format(*ways)}\n"
     mesh = cube(Mesh(), cells=(7, 6, 2)) if space else block(Mesh(), cells=(24, 8))
-    found = solve(tmp_path, mesh.text(matrix), case, "-order", 1, "-estimate", 0, space=space)
+    found = part(tmp_path, mesh.text(matrix), case, "-order", 1, "-estimate", 0, space=space)
     summary, points = found.summary, found.contact
     force, moment = matrix @ push, np.cross(matrix @ place, matrix @ push)
     carried = np.array(summary["supports"][0]["force"])

@@ -30,13 +30,8 @@ def ring(mesh, inner, outer, edges, layers, name, groups, phase=0.0, at=0.0):
 
 POINTS = """
 real[int] seen(points);
-tell("x", pointX);
-tell("y", pointY);
-tell("normalX", normalX);
-tell("normalY", normalY);
-tell("gap", overlapBefore);
-tell("weight", weight);
-tell("along", along);
+tell("x", pointX); tell("y", pointY); tell("normalX", normalX); tell("normalY", normalY);
+tell("gap", overlapBefore); tell("weight", weight); tell("along", along);
 for (int i = 0; i < points; i++) seen[i] = paired[i];
 tell("paired", seen);
 for (int i = 0; i < points; i++) seen[i] = contactOf[i];
@@ -45,9 +40,7 @@ for (int i = 0; i < points; i++) seen[i] = chainOf[i];
 tell("chain", seen);
 real[int] closed(chainClosed.n);
 for (int i = 0; i < chainClosed.n; i++) closed[i] = chainClosed[i];
-tell("closed", closed);
-tell("correction", correctionMost);
-tell("corners", sharpCorners);
+tell("closed", closed); tell("correction", correctionMost); tell("corners", sharpCorners);
 """
 
 
@@ -105,9 +98,7 @@ def test_gap_of_circles(tmp_path):
 
 
 CURVED = """
-real[int] unit(ndof);
-real[int] resisted(ndof);
-real[int] worst(3);
+real[int] unit(ndof); real[int] resisted(ndof); real[int] worst(3);
 placeNodes(false);
 for (int k = 0; k < 3; k++)
 {
@@ -118,17 +109,14 @@ for (int k = 0; k < 3; k++)
         if (k == 2) unit[nodeDof(n, 0)] = -nodeAt(n, 1);
         if (k == 2) unit[nodeDof(n, 1)] = nodeAt(n, 0);
     }
-    resisted = elasticStiffness * unit;
-    worst[k] = resisted.linfty;
+    resisted = elasticStiffness * unit; worst[k] = resisted.linfty;
 }
 tell("rigid", worst);
 for (int n = 0; n < nodes; n++) for (int c = 0; c < 2; c++) unit[nodeDof(n, c)] = nodeAt(n, c);
 tell("swelling", wholeLoad' * unit);
 unit = 0;
 for (int n = 0; n < nodes; n++) unit[nodeDof(n, 1)] = 1;
-tell("weighs", wholeLoad' * unit);
-tell("curved", curvedElements);
-tell("stretch", leastStretch);
+tell("weighs", wholeLoad' * unit); tell("curved", curvedElements); tell("stretch", leastStretch);
 """
 
 
@@ -180,15 +168,12 @@ def outlined(mesh, outline, at, tag, matrix):
 
 
 PLACES = """
-real[int] px(edges);
-real[int] py(edges);
+real[int] px(edges); real[int] py(edges);
 int[int] e(edges);
 real[int] r(edges);
 for (int k = 0; k < edges; k++) e[k] = k;
-r = 0.3;
-placesAt(e, r, px, py);
-tell("px", px);
-tell("py", py);
+r = 0.3; placesAt(e, r, px, py);
+tell("px", px); tell("py", py);
 """
 
 

@@ -1,10 +1,9 @@
 """Surfaces in space: smooth geometry through meshes' nodes, pairing, contacts, obstacles, turned problems."""
 
-import json
-
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, Run, execute, flag_text, run, scene_text, snippet, told
+from freefem import ROOT, execute, part, run, scene_text, snippet, told
+from shapes import moved
 from test_parts import Mesh, cube, turn_in_space
 
 from postprocess import closed_forms as forms
@@ -14,15 +13,7 @@ E, NU = 100.0, 0.3
 
 
 def parts(folder, mesh, case, *flags, expect=0):
-    """The run of a mesh's and a case file's texts."""
-    (folder / "a.msh").write_text(mesh)
-    (folder / "a.case").write_text(case)
-    out = folder / "out"
-    files = ["-mesh", folder / "a.msh", "-case", folder / "a.case", "-out", out]
-    command = [*FREEFEM, "edp/parts-3d.edp", *files, "-vtu", "0", "-estimate", "0"]
-    code, stdout = execute([*command, *map(flag_text, flags)], ROOT)
-    assert code == expect, f"exit code {code} of parts-3d {flags}:\n{stdout[-3000:]}"
-    return Run(code, stdout, out)
+    return part(folder, mesh, case, "-estimate", 0, *flags, space=True, expect=expect)
 
 
 def vector(values):
@@ -261,16 +252,6 @@ def test_distance_about_an_axis():
     assert square.force == pytest.approx(circle.force, rel=0.01)
 
 
-def turned_file(text, matrix):
-    """A mesh file of gmsh's, version 2, its nodes turned."""
-    head, nodes = text.split("$Nodes\n")
-    nodes, tail = nodes.split("$EndNodes")
-    count, *rows = nodes.splitlines()
-    places = [(number, matrix @ np.array(place, float)) for number, *place in map(str.split, rows)]
-    rows = [f"{number} {vector(place)}" for number, place in places]
-    return "\n".join([head + "$Nodes", count, *rows, "$EndNodes" + tail])
-
-
 @pytest.mark.parametrize("order", [2, pytest.param(1, marks=pytest.mark.long)])
 def test_turned_cylinders(tmp_path, order):
     """Crossed cylinders with symmetries and a force, turned: the same counts, but for one product, results to 1e-9."""
@@ -285,7 +266,7 @@ def test_turned_cylinders(tmp_path, order):
     def solve(name, matrix):
         (tmp_path / name).mkdir()
         turned = case.replace(force, f"force grip {vector(matrix @ [0, 0, -500])}")
-        return parts(tmp_path / name, turned_file(mesh, matrix), turned, "-order", order, "-tol", 1e-11)
+        return parts(tmp_path / name, moved(mesh, matrix), turned, "-order", order, "-tol", 1e-11)
 
     one, other = solve("one", np.eye(3)), solve("other", TURNS[order])
     assert one.contactPoints > 10
@@ -304,11 +285,6 @@ def test_crossed_cylinders(tmp_path, ratio, extent, growth):
     numbers = {"ratio": ratio, "size": b / 10, "long": a, "wide": b, "extent": extent * a, "growth": growth, "finer": 1}
     example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders.geo"
     text = "".join(f"{name} = {float(value)!r};\n" for name, value in numbers.items()) + f'Include "{example}";\n'
-    (tmp_path / "a.geo").write_text(text)
-    out = tmp_path / "out"
-    words = ["-mesh", tmp_path / "a.geo", "-case", example.with_suffix(".case"), "-vtu", "0", "-out", out]
-    code, stdout = execute([*FREEFEM, "edp/parts-3d.edp", *words], ROOT)
-    assert code == 0, stdout[-3000:]
-    contact = json.loads((out / "summary.json").read_text())["contacts"][0]
+    (contact,) = part(tmp_path, text, example.with_suffix(".case").read_text(), space=True).contacts
     assert contact["semiAxes"] == pytest.approx([a, b], rel=0.01)
     assert contact["pressureMax"] == pytest.approx(greatest, rel=0.01)

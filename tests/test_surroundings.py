@@ -27,6 +27,7 @@ from freefem import (
     snippet,
     table,
     tree,
+    wait_for,
 )
 from freefem import script as scene_script
 
@@ -56,13 +57,6 @@ def ended(process):
     """(exit code, output) of such a run."""
     stdout = process.communicate(timeout=100)[0]
     return process.returncode, stdout.replace(PLUGIN_SAYS, "", 1)
-
-
-def wait_for(what, seconds=60):
-    end = time.monotonic() + seconds
-    while not what():
-        assert time.monotonic() < end
-        time.sleep(0.005)
 
 
 def started(pid):

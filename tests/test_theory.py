@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, scene_text, snippet, told
+from freefem import ROOT, run, scene_text, short_of, snippet, told
 
 THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 DISC, SPHERE = "disc-on-block", "sphere-on-block"
@@ -20,24 +20,15 @@ kernelMatrix(all, kernelCell, half);
 fitKernel();
 real[int,int] fitted(0, 0);
 kernelMatrix(all, kernelCell, fitted);
-tell("x", pointX);
-tell("weight", weight);
-tell("cell", kernelCell);
-tell("k", bodyStiffness);
-tell("alpha", localCompliance);
-tell("scale", kernelLength);
-real[int] unit(points);
-real[int] column(points);
+tell("x", pointX); tell("weight", weight); tell("cell", kernelCell); tell("k", bodyStiffness);
+tell("alpha", localCompliance); tell("scale", kernelLength);
+real[int] unit(points); real[int] column(points);
 for (int i = 0; i < points; i++)
 {
-    unit = 0;
-    unit[i] = 1;
-    complianceTimes(unit, column, 0);
+    unit = 0; unit[i] = 1; complianceTimes(unit, column, 0);
     tell("C", column);
-    column = half(:, i);
-    tell("G", column);
-    column = fitted(:, i);
-    tell("M", column);
+    column = half(:, i); tell("G", column);
+    column = fitted(:, i); tell("M", column);
 }
 """
 
@@ -175,18 +166,13 @@ def test_remainder_is_smooth(problem):
         assert np.linalg.norm(scene.C - scene.M, 2) < 0.05 * np.linalg.norm(scene.C, 2)
 
 
-@pytest.mark.parametrize(
-    "scene, flags, low, high",
-    [
-        pytest.param(DISC, ("-h", 0.5), 0.75, 1.25, marks=pytest.mark.long),
-        pytest.param(DISC, ("-h", 0.25), 0.75, 1.25, marks=pytest.mark.long),
-        (DISC, ("-h", 0.1), 0.75, 1.25),
-        pytest.param(DISC, ("-h", 0.25, "-order", 2), 0.75, 1.25, marks=pytest.mark.long),
-        (DISC, ("-h", 0.5, "-order", 4), 0.75, 1.25),
-        (SPHERE, ("-h", 1, "-layers", 2), 0.25, 1.25),
-        pytest.param(SPHERE, ("-h", 1.5, "-layers", 2, "-order", 2), 0.5, 1.25, marks=pytest.mark.long),
-    ],
-)
+SPECTRA = [(DISC, ("-h", 0.1), 0.75, 1.25), (DISC, ("-h", 0.5, "-order", 4), 0.75, 1.25)]
+SPECTRA += [(SPHERE, ("-h", 1, "-layers", 2), 0.25, 1.25)]
+MORE = [(DISC, flags, 0.75, 1.25) for flags in (("-h", 0.5), ("-h", 0.25), ("-h", 0.25, "-order", 2))]
+MORE += [(SPHERE, ("-h", 1.5, "-layers", 2, "-order", 2), 0.5, 1.25)]
+
+
+@pytest.mark.parametrize("scene, flags, low, high", short_of(SPECTRA, MORE))
 def test_preconditioned_spectrum(problem, scene, flags, low, high):
     """The fitted kernel shall be positive definite, and the eigenvalues of M^-1 C lie near 1 whatever the mesh."""
     made = problem(scene, *flags)

@@ -2,12 +2,11 @@
 
 import csv
 import itertools
-import json
 from itertools import count
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, flag_text, parts_script
+from freefem import ROOT, part
 from test_linear_gaps import PLANK, STANDING
 from test_parts import Mesh, block, cube, vector
 
@@ -46,16 +45,9 @@ def solve(tmp_path):
     """solve(mesh, case, *flags) runs a case; its summary and what it printed."""
     numbers = count()
 
-    def go(mesh, case, *flags, space=False, expect=0):
-        folder = tmp_path / str(next(numbers))
-        folder.mkdir()
-        name = "a.geo" if "Point" in mesh else "a.msh"
-        (folder / name).write_text(mesh)
-        (folder / "a.case").write_text(case)
-        files = ["-mesh", folder / name, "-case", folder / "a.case", "-out", folder / "out", "-vtu", 0]
-        code, stdout = execute(list(map(flag_text, [*FREEFEM, parts_script(case, flags, space), *files, *flags])))
-        assert code == expect, stdout[-3000:]
-        return (json.loads((folder / "out/summary.json").read_text()) if code == 0 else {}), stdout
+    def go(mesh, case, *flags, **how):
+        done = part(tmp_path / str(next(numbers)), mesh, case, *flags, **how)
+        return done.summary if done.code == 0 else {}, done.stdout
 
     return go
 
@@ -144,21 +136,6 @@ def test_lever_at_rest(solve):
     assert -motion[1] == pytest.approx(down, rel=2e-3)
     (way,) = summary["estimates"]["loads"]
     assert way["way"]["value"] == pytest.approx(down, rel=2e-3)
-
-
-@pytest.mark.long
-def test_see_saw(solve):
-    """A plank on a foot near its middle that tilts until the other one stands."""
-    geo = PLANK
-    for number, old, new in ((2, "1", "3.5"), (3, "2", "4.5"), (4, "2", "4.5"), (5, "3", "5.5")):
-        geo = geo.replace(f"Point({number}) = {{{old},", f"Point({number}) = {{{new},")
-    summary, _ = solve(geo, STANDING + "weight plank 0 -1\n", "-distance", "exact")
-    area, tilt = 40 + np.pi, np.arcsin(0.3 / 3.5)
-    middle = (200 + 12.5 * np.pi / 2) / area - 4.5, (80 - 2 / 3 * 2) / area
-    right = area * (middle[0] + middle[1] * np.tan(tilt)) / 3.5
-    for number, true in enumerate((area - right, right)):
-        value, error = force(summary, number)
-        assert abs(value - true) < error < 0.02 * true
 
 
 @pytest.mark.long

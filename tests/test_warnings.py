@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, run, run_in, script, snippet
+from freefem import ROOT, execute, part, run, script, snippet
 from test_scene_figures import draw
 from text_boxes import faults
 
@@ -278,13 +278,9 @@ TRUE_CIRCLES = 227.1  # greatest pressure, from the true circles' gap, another c
 )
 def test_facets(tmp_path, pin, said):
     """A pressure that facets spoil shall be said; one that they do not is near that of the true circles, and is not."""
-    (tmp_path / "pin.geo").write_text(PIN_IN_HOLE.replace("PIN", pin))
-    (tmp_path / "pin.case").write_text(
-        "body lower E 2.1e5 nu 0.3\nbody upper E 2.1e5 nu 0.3\ncontact contact master gap vertical\nclamp clamped\n"
-        "force pushed 0 -2000\n"
-    )
-    flags = ["-mesh", tmp_path / "pin.geo", "-case", tmp_path / "pin.case", "-order", 1, "-vtu", 0, "-estimate", 0]
-    done = run_in(ROOT, "edp/parts.edp", *flags, "-surface", "facets", out=tmp_path / "out")
+    case = "body lower E 2.1e5 nu 0.3\nbody upper E 2.1e5 nu 0.3\ncontact contact master gap vertical\nclamp clamped\n"
+    flags = ["-order", 1, "-estimate", 0, "-surface", "facets"]
+    done = part(tmp_path, PIN_IN_HOLE.replace("PIN", pin), case + "force pushed 0 -2000\n", *flags)
     if said:
         assert done.pressureMax > 2 * TRUE_CIRCLES
         warned(done, "jumps from point to point", "finer edges")

@@ -2,33 +2,17 @@
 
 import numpy as np
 import pytest
-from freefem import named, run, run_in, script
+from freefem import flag_lists, named, run, run_in, script, short_of
 
 BASE = ["-method", "xnewton", "-tol", 1e-8]
-LAWS = [
-    ["-law", "exponential", "-beta", 500],
-    ["-law", "barrier", "-p0", 1],
-    ["-law", "barrier", "-p0", 1e-4],
-    ["-law", "signorini"],
-    ["-kappa", 1e-2, "-m", 30],
-    ["-kappa", 1e3, "-m", 1.05],
-    ["-kappa", 1e12],
-    ["-kappa", 1e30, "-m", 20],
-]
-USUAL_LAWS = [["-law", "exponential", "-beta", 60], ["-kappa", 1e6, "-m", 10]]
-P2_LAWS = [["-law", "signorini"], ["-kappa", 1e-2, "-m", 30], ["-kappa", 1e12], ["-kappa", 1e30, "-m", 20]]
+P2_LAWS = flag_lists("-law signorini | -kappa 0.01 -m 30 | -kappa 1e12 | -kappa 1e30 -m 20")
+LAWS = flag_lists("-law exponential -beta 500 | -law barrier -p0 1 | -law barrier -p0 1e-4 | -kappa 1e3 -m 1.05")
+USUAL_LAWS = flag_lists("-law exponential -beta 60 | -kappa 1e6 -m 10")
+COUNTED = [*((law, 1) for law in LAWS + P2_LAWS), *((law, 2) for law in P2_LAWS)]
+EVERY = [*((law, 2) for law in LAWS), *((law, order) for law in USUAL_LAWS for order in (1, 2))]
 
 
-@pytest.mark.parametrize(
-    "law, order",
-    [
-        *((law, 1) for law in LAWS),
-        *((law, 2) for law in LAWS if law in P2_LAWS),
-        *(pytest.param(law, 2, marks=pytest.mark.long) for law in LAWS if law not in P2_LAWS),
-        *(pytest.param(law, order, marks=pytest.mark.long) for law in USUAL_LAWS for order in (1, 2)),
-    ],
-    ids=named,
-)
+@pytest.mark.parametrize("law, order", short_of(COUNTED, EVERY), ids=named)
 def test_counts(law, order):
     """Any law shall be solved in 4 linearisations, 20 back-substitutions, one factorisation and one model."""
     done = run("disc-on-block", *BASE, *law, "-h", 0.25 * order, "-order", order)
@@ -39,15 +23,10 @@ def test_counts(law, order):
     assert done.summary["used"]["kernel"] is True
 
 
-@pytest.mark.parametrize(
-    "flags",
-    [
-        ["-law", "signorini", "-ends", 4.239],
-        pytest.param(["-kappa", 1e12, "-ends", 4.245], marks=pytest.mark.long),
-        ["-kappa", 1e9, "-ends", 4.272],
-    ],
-    ids=str,
-)
+SHRINKING = flag_lists("-law signorini -ends 4.239 | -kappa 1e9 -ends 4.272")
+
+
+@pytest.mark.parametrize("flags", short_of(SHRINKING, flag_lists("-kappa 1e12 -ends 4.245")), ids=str)
 def test_counts_on_points_that_shrink_to_the_ends(flags):
     """Points of very different distances, 1:86, shall cost no more linearisations than even ones."""
     done = run("disc-on-block", *BASE, *flags, "-h", 0.5, "-order", 2)
@@ -67,12 +46,7 @@ def test_cold_start(law):
 
 @pytest.mark.parametrize(
     "flags",
-    [
-        [],
-        ["-kappa", 1e6, "-m", 10],
-        pytest.param(["-law", "exponential"], marks=pytest.mark.long),
-        ["-law", "barrier", "-T0", -0.01],
-    ],
+    short_of([[], *flag_lists("-kappa 1e6 -m 10 | -law barrier -T0 -0.01")], [["-law", "exponential"]]),
     ids=str,
 )
 def test_same_as_paper(flags):
@@ -85,19 +59,10 @@ def test_same_as_paper(flags):
     assert ours.energy <= paper.energy * (1 + 1e-12)
 
 
-@pytest.mark.parametrize(
-    "part",
-    [
-        ["-start", "none"],
-        pytest.param(["-preconditioner", "diagonal"], marks=pytest.mark.long),
-        ["-preconditioner", "none"],
-        ["-inner", "newton", "-T0", 0, "-start", "none"],
-        ["-threshold", "pointwise", "-T0", 0],
-        pytest.param(["-T0", 0], marks=pytest.mark.long),
-        ["-T0", "d0"],
-    ],
-    ids=str,
-)
+PARTS = "-start none | -preconditioner none | -inner newton -T0 0 -start none | -threshold pointwise -T0 0 | -T0 d0"
+
+
+@pytest.mark.parametrize("part", short_of(flag_lists(PARTS), flag_lists("-preconditioner diagonal | -T0 0")), ids=str)
 def test_ingredients(part):
     """Taking an ingredient away shall cost iterations, never change the answer."""
     whole = run("disc-on-block", "-method", "xnewton", "-tol", 1e-11, "-h", 0.5)
@@ -121,21 +86,10 @@ def test_pressure_does_not_oscillate():
     assert p1.pressureMax == pytest.approx(p2.pressureMax, rel=0.02)
 
 
-@pytest.mark.parametrize(
-    "flags",
-    [
-        ["-nu", 0.4999, "-order", 2],
-        pytest.param(["-E", 1e-6], marks=pytest.mark.long),
-        pytest.param(["-E", 1e12], marks=pytest.mark.long),
-        ["-d0", -1e-12],
-        pytest.param(["-d0", -5], marks=pytest.mark.long),
-        ["-aspect", 100],
-        ["-offset", 15],
-        pytest.param(["-u0", 7.5], marks=pytest.mark.long),
-        ["-u0", 0.25 + 1e-12],
-    ],
-    ids=str,
-)
+EXTREME = flag_lists("-nu 0.4999 -order 2 | -d0 -1e-12 | -aspect 100 | -offset 15 | -u0 0.250000000001")
+
+
+@pytest.mark.parametrize("flags", short_of(EXTREME, flag_lists("-E 1e-6 | -E 1e12 | -d0 -5 | -u0 7.5")), ids=str)
 def test_extremes(flags):
     """Extreme data shall be solved, and to plain Newton's answer."""
     ours = run("disc-on-block", *BASE, "-h", 0.5, *flags)

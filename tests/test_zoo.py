@@ -3,23 +3,20 @@
 The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a few are solved.
 """
 
-import json
 import os
 import subprocess
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, short_of
+from freefem import FREEFEM, ROOT, execute, part, short_of
 
 from postprocess.__main__ import main
 
 FACE = """  For k In {1 : 4}
     Line(at + k) = {at + k, at + k % 4 + 1};
   EndFor
-  Curve Loop(at + 1) = {at + 1 : at + 4};
-  Plane Surface(at + 1) = {at + 1};
-  Transfinite Curve{at + 1 : at + 4} = parts + 1;
-  Transfinite Surface{at + 1};
+  Curve Loop(at + 1) = {at + 1 : at + 4}; Plane Surface(at + 1) = {at + 1};
+  Transfinite Curve{at + 1 : at + 4} = parts + 1; Transfinite Surface{at + 1};
 """  # on four points
 CUBOIDS = (
     """
@@ -70,15 +67,8 @@ contact foot top
 clamp base
 move grip 0 {} -0.011
 """
-BOXES = """SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 4, 4, 2};
-Box(2) = {1, 1, 2.01, 2, 2, 1};
-"""
-JOINED = """SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 4, 4, 2};
-Box(2) = {1, 1, 2, 2, 2, 1};
-BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
-"""
+BOXES = 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 4, 4, 2}; Box(2) = {1, 1, 2.01, 2, 2, 1};\n'
+JOINED = BOXES.replace("2.01", "2") + "BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n"
 PICKED = """group lower volumes 1
 group upper near 2 2 3
 group foot between upper lower
@@ -406,9 +396,6 @@ def test_step_solved(tmp_path, cad):
     forces = []
     bricks = gmsh(tmp_path, "b.msh", CUBOIDS, "-3", "-format", "msh41", "-setnumber", "brick", 1)
     for mesh, case in ((cad, PICKED), (bricks, "")):
-        (tmp_path / "a.case").write_text(case + NAMED.format("0"))
-        flags = ["-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"]
-        code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", mesh, "-case", tmp_path / "a.case", *flags])
-        assert code == 0, said
-        forces.append(json.loads((tmp_path / "out/summary.json").read_text())["contacts"][0]["force"][2])
+        done = part(tmp_path, mesh, case + NAMED.format("0"), "-estimate", 0, space=True)
+        forces.append(done.contacts[0]["force"][2])
     assert forces[0] == pytest.approx(forces[1], rel=0.05)

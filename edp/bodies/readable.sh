@@ -98,6 +98,8 @@ if test -n "$SETS" && test -z "$again"; then
         test "$word" != -setnumber || next=name
     done
 fi
+# a terminal obeys what is printed
+named() { ! grep -q '[[:cntrl:]]' "$folder/names" || no "a control character in a group's name; allowed: other names"; }
 # gmsh's own way to name what it cannot read
 complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 readCase() {
@@ -125,6 +127,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
         grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
         test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
         sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
+        named
     }
     pick() {
         PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo LEFT=$folder/left FACES=$folder/faces \
@@ -209,6 +212,7 @@ if test -n "$how"; then
 fi
 tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/every curve of the geometry/d;/^[0-9] /p;}' > "$folder/names"
 test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
+named
 test -n "$picked" || readCase
 straight=
 test "$space" = 1 || case $kind in geo | step | stp | brep | iges | igs) straight=1 ;; esac

@@ -81,6 +81,7 @@ function splitLine(   rest, at) {
       rest = substr(rest, RLENGTH + 1)
       if (substr(rest, 1, 1) == "\"") no(word[words] rest ": a quote inside a word; allowed: a blank between two words")
     }
+    if (word[words] ~ /[[:cntrl:]]/) no(word[words] ": a control character; allowed: letters, digits and signs")
   }
 }
 function spells(t) { return t ~ /^[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?$/ }
@@ -228,8 +229,10 @@ function readLaw(v,   name, list, n, k, given, taken) {
   if (!(name in takes)) no(name ": unknown law; " meant(name, lawWords) "allowed: " lawNames)
   if (name == "table") {
     if (at >= words) no("the file of the law table is missing; allowed: " lawNames)
-    lawFile = word[++at]
-    if ((getline line_ < lawFile) <= 0) no(lawFile ": no such file, or empty; allowed: a file of overlap,pressure pairs")
+    lawFile = line_ = word[++at]
+    gsub(/\047/, "\047\\\047\047", line_)
+    if (system("test -f \047" line_ "\047") || (getline line_ < lawFile) <= 0)
+      no(lawFile ": no such file, or empty, a folder, a pipe or a device; allowed: a file of overlap,pressure pairs")
     close(lawFile)
   }
   while (at < words && word[at + 1] in parameter) {

@@ -99,7 +99,7 @@ def plot_loop(axes, table: dict, words: str) -> None:
             k = rows[len(rows) // 2 - 1]
             ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
-    axes.set_xlabel(words, loc="left")  # the axis' power of ten stands at its right end
+    axes.set_xlabel(style.folded(words, 36), loc="left", multialignment="left")  # the power of ten is at the right end
     axes.set_ylabel("shear force")
     axes.set_title(f"energy: {energy}", loc="right", fontsize=8)
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)

@@ -106,7 +106,7 @@ def truths_of(part: Part) -> dict[str, Job]:
 
 
 def numbers_of(summary: dict) -> dict[str, list]:
-    """Every number that has a place for its ±: name to [value, error or None]."""
+    """Every number that has a place for its ±: name to [value, error or None]; a preload has none: 1 % of it."""
     told = summary.get("estimates") or {}
     found = {}
     for word, entry in told.items():
@@ -120,6 +120,14 @@ def numbers_of(summary: dict) -> dict[str, list]:
         for name in ("pressureMax", "contactLength"):
             if isinstance(contact.get(name), float | int):
                 found.setdefault(f"contacts.{k}.{name}", [contact[name], None])
+        if "mesh" in contact:
+            error = (contact["mesh"]["shearForce"] or {}).get("error")
+            found[f"contacts.{k}.shearForce"] = [float(np.linalg.norm(contact["shearForce"])), error]
+    for k, needs in enumerate(summary.get("prescribed", [])):
+        if "error" in needs:
+            found[f"prescribed.{k}.needs"] = [needs.get("force", needs.get("moment")), needs["error"]]
+    for k, bolt in enumerate(summary.get("preloads", [])):
+        found[f"preloads.{k}.tension"] = [bolt["force"], 0.01 * abs(bolt["force"])]
     return found
 
 
@@ -211,7 +219,7 @@ def warned(name: str, value: float, error: float, record: dict) -> tuple[bool, l
     """Whether a warning says this error's size; and all the warnings that are of this number."""
     word, _, rest = name.partition(".")
     own = None
-    if rest:
+    if word in ("contacts", "loads"):
         index = int(rest.partition(".")[0]) + (0 if word == "contacts" else record["contacts"])
         own = record["names"][index] if index < len(record["names"]) else None
     others = [each for each in record["names"] if each != own]
@@ -310,7 +318,7 @@ def table(rows: list[dict], kinds: dict[str, str]) -> str:
     groups = [("all", rows)]
     for kind in dict.fromkeys(kinds.values()):
         groups.append((kind, [row for row in rows if kinds[row["part"]] == kind]))
-    for word in ("force", "pressureMax", "contactLength", "way", "energy"):
+    for word in ("force", "pressureMax", "contactLength", "way", "energy", "needs", "shearForce"):
         groups.append((word, [row for row in rows if row["number"].endswith(word)]))
     for family in dict.fromkeys(row["part"].rpartition(" ")[0] for row in rows):
         groups.append((family, [row for row in rows if row["part"].startswith(f"{family} ")]))

@@ -4,8 +4,9 @@
 sizes of a finer run), its case file, and what is known of its numbers in closed form, each with the doubt of that form.
 """
 
+import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -199,7 +200,7 @@ def few(random: Random) -> int:
 
 
 def press_fit(name: str, random: Random) -> Part:
-    """Two rings with an interference that is small beside the radius: Lame."""
+    """Two rings with an interference that is small beside the radius: Lame. A part of it by heat, or twisted."""
     a, c, b = np.cumsum(random.uniform(0.5, 1.5, 3)) * 10
     (E1, nu1), (E2, nu2) = moduli(random), moduli(random)
     E2, strain = E1 * random.uniform(0.3, 3), random.random() < 0.7
@@ -215,19 +216,38 @@ def press_fit(name: str, random: Random) -> Part:
         hub, outer = sketch.oval(0, 0, c, c, size, joint), sketch.oval(0, 0, b, b, (b - c) / 2, outside)
         sketch.body("inner", shaft, bore)
         sketch.body("outer", outer, hub)
-        return sketch.named(shaft=shaft, hub=hub)
+        held = {"bore": bore, "outside": outer} if name.startswith("twisted") else {}
+        return sketch.named(shaft=shaft, hub=hub, **held)
 
     e1, e2, n1, n2 = E1, E2, nu1, nu2
     if strain:
         e1, e2, n1, n2 = E1 / (1 - nu1**2), E2 / (1 - nu2**2), nu1 / (1 - nu1), nu2 / (1 - nu2)
-    r = c + over  # of the inner ring at rest: its pressure is smaller by c / r
-    p = over / c / (((r**2 + a**2) / (r**2 - a**2) - n1) / e1 + ((b**2 + c**2) / (b**2 - c**2) + n2) / e2)
-    doubt = 0.3 * over / c
-    known = {"normalForce": 2 * np.pi * c * p, "pressureMax": p, "contactLength": 2 * np.pi * c}
     case = (
-        f"state {'strain' if strain else 'stress'}\n{body('inner', E1, nu1)}{body('outer', E2, nu2)}contact hub shaft\n"
+        f"state {'strain' if strain else 'stress'}\n{body('inner', E1, nu1)}{body('outer', E2, nu2)}contact hub shaft"
     )
-    return Part(name, geo, case, contact_knows(known, doubt), ("shape",), fine=0)
+
+    def give(e: float, n: float, held: float) -> float:
+        """Displacement over pressure and radius of a ring that is held at this share of the radius."""
+        return (1 - n * n) / e * (1 - held**2) / (1 + n + (1 - n) * held**2)
+
+    r, pressed = c + over, over  # of the inner ring at rest: its pressure is smaller by c / r
+    if name.startswith("shrink"):
+        cold = random.uniform(0.3, 3) * over / c
+        pressed += c * cold
+        case += f"\nexpand outer 1e-5 {-1e5 * cold / (1 + nu2 * strain):.9g}"
+    p = pressed / c / (((r**2 + a**2) / (r**2 - a**2) - n1) / e1 + ((b**2 + c**2) / (b**2 - c**2) + n2) / e2)
+    if name.startswith("twisted"):
+        p = over / c / (give(e1, n1, a / r) - give(e2, n2, b / c))
+    known = {"normalForce": 2 * np.pi * c * p, "pressureMax": p, "contactLength": 2 * np.pi * c}
+    doubt = 0.3 * pressed / (min(c - a, b - c) if name.startswith("twisted") else c)
+    found = contact_knows(known, doubt)
+    if name.startswith("twisted"):
+        mu, share = random.uniform(0.05, 0.6), random.choice([random.uniform(0.2, 0.8), random.uniform(1.2, 3)])
+        soft = [(1 + nu) / (2 * np.pi * E) * abs(1 / c**2 - 1 / s**2) for E, nu, s in ((E1, nu1, a), (E2, nu2, b))]
+        most = mu * p * 2 * np.pi * c**2
+        case += f" friction {mu:.9g}\nclamp bore\nrotate outside 0 0 {share * most * sum(soft):.9g}"
+        found["prescribed.0.needs"] = (min(share, 1) * most, doubt * most)
+    return Part(name, geo, f"{case}\n", found, ("shape",), fine=0)
 
 
 def contact_knows(known: dict[str, float], doubt: float = 1e-9, contact: int = 0) -> Known:
@@ -359,6 +379,52 @@ def crack(name: str, random: Random) -> Part:
     return Part(
         name, geo, case, contact_knows({"force": p * a, "pressureMax": p, "contactLength": a}), ("tip",), fine=0
     )
+
+
+def shank(name: str, random: Random) -> Part:
+    """A bolt under a rigid head, tightened against a sleeve, then heated or pulled: the joint diagram."""
+    r, gap, wall, length, high = random.uniform([0.5, 0.2, 0.5, 4, 0.5], [2, 1, 3, 12, 2])
+    (E1, _), cut = moduli(random), length * random.uniform(0.2, 0.8)
+    E2, out = E1 * random.uniform(0.2, 2), r + gap + wall
+    bolt, sleeve = E1 * r / length, E2 * wall / length
+    F, pull, heat = E1 * r * 1e-3, random.choice([0, random.uniform(0.2, 3)]), random.choice([0, random.uniform(0, 1)])
+
+    def geo(sketch: Sketch) -> str:
+        h = 0.4 * r
+        ends = [sketch.point(x, y, h) for y in (0, cut, length) for x in (0, r)]
+        rim = [sketch.point(x, y, h) for x, y in ((out, length), (out, length + high), (0, length + high))]
+        across = [sketch.curve("Line", ends[2 * k], ends[2 * k + 1]) for k in range(3)]
+        left = [sketch.curve("Line", ends[2 * k + 2], ends[2 * k]) for k in range(2)]
+        right = [sketch.curve("Line", ends[2 * k + 1], ends[2 * k + 3]) for k in range(2)]
+        head = [sketch.curve("Line", *pair) for pair in pairwise([ends[5], *rim, ends[4]])]
+        for k in range(2):
+            sketch.body(f"shank{k}", [across[k], right[k], -across[k + 1], left[k]])
+        sketch.body("head", [across[2], *head])
+        tube = sketch.rectangle(r + gap, 0, out, length, h)
+        sketch.body("sleeve", tube)
+        sketch.names[:2] = ['Physical Surface("shank") = {1, 2};']
+        sketch.used -= {across[2]}
+        groups = {"foot": [across[0], tube[0]], "axis": [*left, head[3]], "cut": [across[1]]}
+        return sketch.named(**groups, under=[head[0]], seat=[tube[2]], top=[head[2]])
+
+    longer, load = heat * F * (1 / bolt + 1 / sleeve), pull * F
+    closed = F + (longer + load / sleeve) / (1 / bolt + 1 / sleeve)
+    case = f"state stress\n{body('shank', E1, 0)}{body('head', 1e6 * E1, 0)}{body('sleeve', E2, 0)}contact seat under\n"
+    case += f"symmetry foot\nsymmetry axis\npreload cut {F:.9g}\nexpand sleeve 1e-5 {1e5 * longer / length:.9g}\n"
+    found = {"preloads.0.tension": (max(closed, load), 1e-3 * closed)}
+    return Part(name, geo, f"{case}traction top 0 {load / out:.9g}\n", found, fine=0)
+
+
+def rubbing(make: Callable[[str, Random], Part]) -> Callable[[str, Random], Part]:
+    """The same with friction, and dragged where a motion or a force pushes."""
+
+    def made(name: str, random: Random) -> Part:
+        part, mu, drag = make(name, random), random.uniform(0.05, 0.6), random.uniform(-0.5, 0.5)
+        case = re.sub(r"^((?:contact|obstacle) .*)$", rf"\1 friction {mu:.3g}", part.case, flags=re.M)
+        aside = r"\b((?:move|force)(?: grip)?) 0 (-\S+)"
+        return replace(part, case=re.sub(aside, lambda x: f"{x[1]} {drag * float(x[2]):.9g} {x[2]}", case))
+
+    return made
 
 
 # ---------------------------------------------------------------- rotations
@@ -816,7 +882,12 @@ FAMILIES: dict[str, tuple[Callable[[str, Random], Part], int]] = {
     **{"head": (two_bodies, 4), "wavy": (two_bodies, 2), "coarse master": (two_bodies, 2), "squeezed": (squeezed, 2)},
     **{"o-ring": (squeezed, 2), "polygon": (polygon, 3), "hip": (hip, 2), "seat": (seat, 3), "punch": (punch, 2)},
     **{"prism": (prism, 4), "press fit in space": (press_fit_in_space, 2), "ball in space": (ball_in_space, 2)},
-    **{"wheel": (wheel, 2)},
+    **{"wheel": (wheel, 2), "shrink fit": (press_fit, 3), "twisted fit": (press_fit, 6), "shank": (shank, 3)},
+    **{
+        "rubbed head": (rubbing(two_bodies), 4),
+        "rubbed bracket": (rubbing(bracket), 3),
+        "rubbed seat": (rubbing(seat), 2),
+    },
 }
 
 

@@ -22,28 +22,25 @@ from campaign import case, decade, flags_of, markdown, select, signed, value
 FOLDER = campaign.RESULTS_FOLDER / "stability"
 COLUMNS = ("stepsPerModel", "rounds", "masterForce", "approach")
 
+
+def power(kappa: float, m: float) -> dict:
+    return {"law": "power", "kappa": kappa, "m": m}
+
+
 KAPPAS = (1e-2, 1.0, 1e3, 1e6, 1e9, 1e12, 1e30)
 EXPONENTS = (1.05, 2, 3, 3.3, 10, 20, 30)
-POWER = [{"law": "power", "kappa": kappa, "m": m} for kappa in KAPPAS for m in EXPONENTS]
-OTHER = [
-    {"law": "exponential", "p0": 0.02, "beta": 60},
-    {"law": "exponential", "p0": 0.02, "beta": 500},
-    {"law": "barrier", "p0": 1},
-    {"law": "barrier", "p0": 1e-4},
-]
+POWER = [power(kappa, m) for kappa in KAPPAS for m in EXPONENTS]
+OTHER = [{"law": "exponential", "p0": 0.02, "beta": beta} for beta in (60, 500)]
+OTHER += [{"law": "barrier", "p0": p0} for p0 in (1, 1e-4)]
 HARD = {"law": "signorini"}
 LAWS = POWER + OTHER
 TABLE = {"law": "table", "table": "table.csv"}
 # The corners of the box and two laws inside it; a few laws; those that all methods are run with.
-SAMPLE = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1e30) for m in (1.05, 30)]
-SAMPLE += [{"law": "power", "kappa": kappa, "m": 3} for kappa in (1e3, 1e12)] + OTHER
-STIFF = [
-    {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e3, 3), (1e3, 10), (1e9, 3), (1e12, 3), (1e30, 30))
-]
+SAMPLE = [power(kappa, m) for kappa in (1e-2, 1e30) for m in (1.05, 30)]
+SAMPLE += [power(kappa, 3) for kappa in (1e3, 1e12)] + OTHER
+STIFF = [power(1e3, 3), power(1e3, 10), power(1e9, 3), power(1e12, 3), power(1e30, 30)]
 FEW = [STIFF[0], STIFF[3], STIFF[4]]
-METHOD_LAWS = [
-    {"law": "power", "kappa": kappa, "m": m} for kappa in (1e-2, 1.0, 1e3, 1e12, 1e30) for m in (1.05, 3, 10, 30)
-] + OTHER
+METHOD_LAWS = [power(kappa, m) for kappa in (1e-2, 1.0, 1e3, 1e12, 1e30) for m in (1.05, 3, 10, 30)] + OTHER
 
 TOL = 1e-8
 GAP, D0, U0, SIZE = 0.5, -0.25, 2.5, 40.0  # the paper's test
@@ -59,13 +56,7 @@ MAP = {"h": 0.1, "order": 2}  # that of the table of counts over stiffness and e
 SECONDS = {(0.5, 1): 0.1, (0.5, 2): 0.1, (0.1, 1): 0.35, (0.1, 2): 1.0}
 SECONDS |= {(1.0, 3): 0.25, (0.5, 3): 0.3, (1.0, 4): 0.35, (0.5, 4): 0.4, (0.1, 4): 2.0}
 SECONDS |= {(0.05, 1): 0.8, (0.05, 2): 2.5, (0.025, 1): 2.0, (0.025, 2): 5.5, (0.05, 4): 5.5}
-LOADS = {
-    "overlap 1e-12 of the size": GAP + D0 + 1e-12 * SIZE,
-    "overlap 1e-6 of the size": GAP + D0 + 1e-6 * SIZE,
-    "a tenth": 0.1 * U0 + 0.9 * (GAP + D0),
-    "half": 0.5 * U0,
-    "twice": 2 * U0,
-}
+LOADS = (GAP + D0 + 1e-12 * SIZE, GAP + D0 + 1e-6 * SIZE, 0.1 * U0 + 0.9 * (GAP + D0), 0.5 * U0, 2 * U0)
 STARTS = {"0": {"T0": "0"}, "d0": {"T0": "d0"}}
 
 # a steel bearing in SI units, and the same numbers with lengths in units of 5 mm, pressures in units of E
@@ -114,7 +105,7 @@ def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
         add("rival", law, RIVALS, method="incremental", steps=5, factor=10)
         add("rival", law, RIVALS, method="ipopt", factor=3)
     # loads
-    for u0 in LOADS.values():
+    for u0 in LOADS:
         for law in SAMPLE:
             for mesh in SMALL:
                 add("load", law, mesh, u0=u0)
@@ -137,13 +128,13 @@ def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
     # a rigid layer and a linear one
     for m in (2, 3, 10):
         for kappa in (1e6, 1e9, 1e12, 1e15, 1e18, 1e24, 1e30):
-            add("rigid layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2)
+            add("rigid layer", power(kappa, m), h=0.25, order=2)
     add("rigid layer", h=0.25, order=2, method="signorini")
     add("rigid layer", h=0.25, order=2, law="signorini")
     for m in (1.1, 1.01, 1.001, 1.0001, 1.00001):
         for kappa in (1.0, 1e3):
-            add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2)
-            add("linear layer", {"law": "power", "kappa": kappa, "m": m}, h=0.25, order=2, method="newton")
+            add("linear layer", power(kappa, m), h=0.25, order=2)
+            add("linear layer", power(kappa, m), h=0.25, order=2, method="newton")
     return sorted(found, key=lambda item: (item.parameters["method"] != "xnewton", item.name != "grid"))
 
 
@@ -176,7 +167,7 @@ def extreme() -> list[campaign.Case]:
     for order in (1, 2):
         add("u0 three times", compared=order == 1, laws=FEW + OTHER, u0=3 * U0, h=0.1, order=order)
     for (scene, kappa, m), known in reference.values().items():
-        law = {"law": "power", "kappa": kappa, "m": m} if np.isfinite(kappa) else HARD
+        law = power(kappa, m) if np.isfinite(kappa) else HARD
         for mesh in ({"h": 0.5, "order": 2}, {"h": 1.0, "order": 4}, {"h": 0.5, "order": 4, "grading": 60}):
             if scene == "disc-on-block":
                 merged = {"method": "xnewton", "tol": TOL, **law, **mesh, "ends": round(known["halfWidth"], 3)}
@@ -203,18 +194,16 @@ def further() -> list[campaign.Case]:
 
 
 # two meshed bodies and space: scene and its flags, every law of BODY_LAWS on each
-BODY_LAWS = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1.0, 1e12) for m in (1.05, 20)]
-BODY_LAWS += [{"law": "power", "kappa": kappa, "m": 3} for kappa in (1e3, 1e30)] + [*OTHER[::3], HARD]
+BODY_LAWS = [power(kappa, m) for kappa in (1.0, 1e12) for m in (1.05, 20)]
+BODY_LAWS += [power(kappa, 3) for kappa in (1e3, 1e30)] + [*OTHER[::3], HARD]
 SPACE = ("two-spheres", "sphere-on-plane", "sphere-on-block", "patch-test-3d", "counts in space")
 RATIOS = (1e-6, 1.0, 1e9)
 POINTS = ("segment", "nodal")
-CURVED = {
-    ("two-cylinders", 1): {"d0": -0.01, "h": 0.1},
-    ("two-cylinders", 2): {"d0": -0.01, "h": 0.1},
-    ("two-spheres", 1): {"d0": -0.01, "h": 0.2, "layers": 2},
-    ("two-spheres", 2): {"d0": -0.01, "h": 0.4, "layers": 1},
-    ("sphere-on-plane", 1): {"d0": -0.01, "h": 0.2, "layers": 2},
-    ("sphere-on-plane", 2): {"d0": -0.01, "h": 0.4, "layers": 1},
+CURVED = {("two-cylinders", order): {"d0": -0.01, "h": 0.1} for order in (1, 2)}
+CURVED |= {
+    (scene, order): {"d0": -0.01, "h": 0.2 * order, "layers": 3 - order}
+    for scene in ("two-spheres", "sphere-on-plane")
+    for order in (1, 2)
 }
 
 
@@ -267,7 +256,7 @@ def bodies() -> list[campaign.Case]:
 COUNTED = [*({"order": 1, "h": h} for h in (1.0, 0.5, 0.25, 0.1)), {"order": 2, "h": 0.1}]
 COUNTED_TOLERANCES = (1e-4, 1e-6, 1e-8)
 IN_SPACE = {"sphere-on-block": {"order": 2, "h": 1.0}, "two-spheres": {"order": 2, "d0": -0.01, "h": 0.2, "layers": 3}}
-SPACE_LAWS = [{"law": "power", "kappa": kappa, "m": m} for kappa in (1.0, 1e3, 1e6, 1e9, 1e12) for m in (1.05, 3, 20)]
+SPACE_LAWS = [power(kappa, m) for kappa in (1.0, 1e3, 1e6, 1e9, 1e12) for m in (1.05, 3, 20)]
 AGREEING = {"order": 2, "h": 0.25, "tol": 1e-10, "eps": 1e-12}
 STIFFER = {"method": "paper", "order": 2, "h": 0.25, "eps": 1e-8, "tol": 1e-10}
 
@@ -359,16 +348,8 @@ def check(what: str, row: dict, found: float, expected: float, tolerance: float,
     """One comparison; the error is relative unless given."""
     if error is None:
         error = abs(found - expected) / max(abs(expected), NOTHING)
-    return {
-        "check": what,
-        "name": row["name"],
-        "flags": row["flags"],
-        "found": found,
-        "expected": expected,
-        "error": error,
-        "tolerance": tolerance,
-        "passed": bool(error <= tolerance),
-    }
+    told = {"check": what, "name": row["name"], "flags": row["flags"], "found": found, "expected": expected}
+    return told | {"error": error, "tolerance": tolerance, "passed": bool(error <= tolerance)}
 
 
 def against_newton(rows: list[dict]) -> list[dict]:
@@ -586,10 +567,7 @@ def methods_table(rows: list[dict]) -> str:
     return markdown(["method", "runs", "failed", "linearisations, median", "most"], lines)
 
 
-CHOSEN = [
-    {"law": "power", "kappa": kappa, "m": m} for kappa, m in ((1e-2, 3), (1.0, 3), (1e3, 3), (1e12, 3), (1e3, 30))
-]
-CHOSEN += [OTHER[0], OTHER[2]]
+CHOSEN = [power(*law) for law in ((1e-2, 3), (1.0, 3), (1e3, 3), (1e12, 3), (1e3, 30))] + [OTHER[0], OTHER[2]]
 
 
 def laws_table(rows: list[dict]) -> str:
