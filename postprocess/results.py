@@ -48,7 +48,6 @@ SUMMARY = {
 Table = dict[str, np.ndarray]
 
 
-
 class ResultsError(Exception):
     """A result file, or a set of them, that cannot be used: `<file>: <what is wrong>`."""
 

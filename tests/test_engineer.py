@@ -494,8 +494,10 @@ def test_sweep(tmp_path, monkeypatch, capsys):
 
 
 SPOILS = {
-    "summary.json": ["null contacts", "text contacts", "no parameters", "null given", "number estimates", "no stresses"]
-    + ["binary", "pipe", "folder", "half"],
+    "summary.json": [
+        *("null contacts", "text contacts", "no parameters", "null given", "number estimates", "no stresses"),
+        *("binary", "pipe", "folder", "half"),
+    ],
     "contact.csv": ["binary", "pipe", "folder", "half"],
     "solution.vtu": ["binary", "pipe", "folder", "half"],
     "sweep.json": ["binary", "half", "pipe", "folder"],

@@ -7,7 +7,7 @@ from math import exp, pi, sqrt
 import numpy as np
 import pytest
 from freefem import execute, part, table
-from test_friction import case, series
+from test_friction import case
 from test_paraview import Grid
 
 FIT = """
@@ -208,9 +208,9 @@ move tight 0 -0.3
 def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """It slips: the tensions' ratio is Euler's, of a belt that is pulled in its middle and rubs at its inner side.
 
-    With r from the middle of its thickness, friction q = mu p turns it about its middle by q T/2, borne by a transverse force
-    V = q T/2 alone, for its curvature stays the pulley's: N - V' = p r, r N' = q R, and so p grows by e^(rate theta) where
-    rate (r + mu rate T/2) = mu R, and the tension as much.
+    With r from the middle of its thickness, friction q = mu p turns it about its middle by q T/2, borne by a transverse
+    force V = q T/2 alone, for its curvature stays the pulley's: N - V' = p r, r N' = q R. So p grows by e^(rate theta)
+    where rate (r + mu rate T/2) = mu R, and the tension as much.
     """
     belt = case(tmp_path, BELT.replace("0.2 * k", f"{thick} * k"), BELTED.replace("MU", str(friction)))
     assert belt.summary["newton"] <= 3 and belt.summary["backsolves"] < 300
