@@ -353,3 +353,17 @@ def test_sample_of_the_campaign(tmp_path):
     code, stdout = execute(command)
     assert code == 0 and stdout.count(" 0 failed") == len(kinds), stdout
     assert max(map(int, re.findall(r"newton: .*most (\d+)", stdout))) <= 12
+
+
+def test_moment_of_a_twisted_fit(tmp_path):
+    """All of a press fit slips: friction's moment on the displaced radius, the same turned from inside and from outside."""
+    fit = FIT.replace("{3, 8, 8, 12}", "{3, 8.05, 8, 12}")
+    text = FITTED.replace("interference 0.01 ", "").replace("clamp bore", "clamp {}\nrotate {} 0 0 0.03")
+    moments = []
+    for groups in (("rim", "bore"), ("bore", "rim")):
+        run = case(tmp_path / groups[0], fit, text.format(*groups), "-distance", "exact", "-estimate", 1)
+        slips = 0.2 * run.summary["contacts"][0]["normalForce"]
+        moments.append(run.summary["prescribed"][0]["moment"])
+        assert slips * 8 < moments[-1] < slips * 8.05
+        assert run.summary["prescribed"][0]["error"] < 2e-3 * moments[-1]
+    assert moments[0] == pytest.approx(moments[1], rel=1e-4)
