@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch
-from freefem import ROOT, execute, short_of
+from freefem import ROOT, execute, short_of, table
 from test_paraview import Grid
 
 BOWL = "body disc E 1000 nu 0.3\nobstacle rim circle 0 0.5 R 2.5 inside\n"
@@ -142,6 +142,43 @@ def test_ends(go):
     sketch.group("rim", rim[3:])
     sketch.group("hub", rim[1:2])
     assert "extend the group" in go(sketch.text(), f"{DISC}move hub 0 -0.1\n", "-estimate", 0).warnings
+
+
+def halves(split):
+    """A block of 4 by 2 whose sole is two groups, or one."""
+    sketch = Sketch(Draw())
+    sides, _ = sketch.outline([(0, 0, 0.3), (2, 0, 0.3), (4, 0, 0.3), (4, 2, 0.3), (0, 2, 0.3)])
+    sketch.body("a", sides)
+    for name, side in (("one", sides[: 2 - split]), ("other", sides[1:2]), ("top", sides[3:4]), ("side", sides[4:])):
+        if split or name != "other":
+            sketch.group(name, side)
+    return sketch.text()
+
+
+@pytest.mark.parametrize(
+    "rubs, support", [("", "symmetry side"), (" friction 0.3", "symmetry side"), (" friction 0.3", "move side 0.01 0")]
+)
+def test_neighbours(go, tmp_path, rubs, support):
+    """Two contacts of neighbours on one surface carry what one contact does, each its own share of the node between."""
+    case = "body a E 1e3 nu 0.3\n{}" + f"{support}\npressure top 1\n"
+    floor = f"obstacle one plane 0 0 0 1{rubs}\n"
+    whole = go(halves(False), case.format(floor)).summary["contacts"]
+    run = go(halves(True), case.format(floor + floor.replace("one", "other")))
+    forces = np.array([entry["force"] for entry in run.summary["contacts"]])
+    assert forces[:, 1].sum() == pytest.approx(whole[0]["force"][1], rel=1e-6)
+    assert rubs or forces[:, 1] == pytest.approx([2, 2], abs=1e-5)
+    assert "(2, 0)" not in run.warnings
+    points = table(tmp_path / "1/out/contact.csv")
+    pressures = points["pressure"][np.abs(points["x"] - 2) < 1e-9]
+    assert len(pressures) == 2 and pressures[0] == pytest.approx(pressures[1], rel=1e-4) and pressures[0] > 0.3
+
+
+@pytest.mark.parametrize("other", ["0 0 0 1 friction 0.2", "0 -0.001 0 1 friction 0.3"])
+def test_neighbours_unlike(go, other):
+    """With friction, and unlike at the node that they share, they are refused: how forces part is not known."""
+    case = "obstacle one plane 0 0 0 1 friction 0.3\nobstacle other plane {}\nsymmetry side\npressure top 1\n"
+    said = go(halves(True), "body a E 1e3 nu 0.3\n" + case.format(other), expect=10).stdout
+    assert "contacts one plane and other plane share the node at (2, 0)" in said
 
 
 def test_sizes_of_elements(go):
