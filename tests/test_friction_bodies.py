@@ -356,7 +356,7 @@ def test_sample_of_the_campaign(tmp_path):
 
 
 def test_moment_of_a_twisted_fit(tmp_path):
-    """All of a press fit slips: friction's moment on the displaced radius, the same turned from inside and from outside."""
+    """All of a press fit slips: friction's moment on the displaced radius, turned from inside or outside."""
     fit = FIT.replace("{3, 8, 8, 12}", "{3, 8.05, 8, 12}")
     text = FITTED.replace("interference 0.01 ", "").replace("clamp bore", "clamp {}\nrotate {} 0 0 0.03")
     moments = []
