@@ -2,12 +2,13 @@
 
 import re
 import sys
-from math import exp, pi, sqrt
+from math import cos, exp, pi, sin, sqrt
 
 import numpy as np
 import pytest
-from freefem import execute, part, table
-from test_friction import case
+import shapes
+from freefem import ROOT, execute, part, run_in, table
+from test_friction import case, series
 from test_paraview import Grid
 
 FIT = """
@@ -152,6 +153,98 @@ def test_greatest_pressures_of_two_meshes(tmp_path):
     assert abs(one - other) < first + second < 0.02 * one
 
 
+ARM = """
+Point(1) = {0, 0, 0, 0.3};
+Point(2) = {3, 0, 0, 0.15};
+Point(3) = {5, 0, 0, 0.15};
+Point(4) = {5, 1, 0, 0.3};
+Point(5) = {0, 1, 0, 0.3};
+For k In {1 : 5}
+  Line(k) = {k, k % 5 + 1};
+EndFor
+Curve Loop(1) = {1 : 5};
+Plane Surface(1) = {1};
+Physical Surface("arm") = {1};
+Physical Curve("wall") = {5};
+Physical Curve("sole") = {2};
+Physical Curve("back") = {4};
+"""
+ROD = """body arm E 1000 nu 0.3
+obstacle sole circle 4 -5 R 5RUBS
+clamp wall
+"""
+
+
+@pytest.mark.parametrize("rubs", ["", " friction 0.3"])
+def test_way_of_a_load_by_differences(tmp_path, rubs):
+    """An arm that a traction presses: what a unit of the load moves it by, of the adjoint, as a greater load does."""
+    ways = []
+    for k, share in enumerate((1, 1.01)):
+        (tmp_path / str(k)).mkdir()
+        text = ROD.replace("RUBS", rubs) + f"traction back {0.3 * share} {-share}\n"
+        found = case(tmp_path / str(k), ARM, text, "-estimate", 1, "-tol", 1e-9).summary["estimates"]
+        ways.append(found["loads"][0]["way"]["value"])
+    assert found["contactStiffness"] == pytest.approx((ways[1] - ways[0]) / (0.01 * 5 * sqrt(1.09)), rel=1e-5)
+
+
+HALVES = """
+SetFactory("OpenCASCADE");
+Box(1) = {-2, 0, -1, 4, 2, 1};
+Box(2) = {-1, 0, 0, 2, 1, 0.6};
+Physical Volume("low") = {1};
+Physical Volume("up") = {2};
+Physical Surface("base") = {5};
+Physical Surface("top") = {6};
+Physical Surface("foot") = {11};
+Physical Surface("head") = {12};
+Physical Surface("mirror") = {3, 9};
+Mesh.MeshSizeMax = 0.9;
+"""
+BLOCKS = """body low E 1000 nu 0.3
+body up E 3000 nu 0.3
+contact foot top friction 0.3
+clamp base
+"""
+
+
+def mesh_again(half: str, turned: float, both: bool) -> str:
+    """A mesh of gmsh's format 2.2 turned about z; both: with its image beyond the plane y = 0, joined with it there."""
+    head, rest = half.split("$Nodes\n")
+    nodes, rest = rest.split("$EndNodes\n$Elements\n")
+    at = {int(number): tuple(map(float, place)) for number, *place in map(str.split, nodes.splitlines()[1:])}
+    cells = [list(map(int, line.split())) for line in rest.split("$EndElements")[0].splitlines()[1:]]
+    if both:
+        image = {k: k if abs(place[1]) < 1e-9 else k + max(at) for k, place in at.items()}
+        cells = [row for row in cells if any(image[k] != k for k in row[5:])]
+        at |= {image[k]: (x, -y, z) for k, (x, y, z) in list(at.items()) if image[k] != k}
+        cells += [[*row[:4], 100 + row[4], *(image[k] for k in (row[6], row[5], *row[7:]))] for row in cells]
+    c, s = cos(turned), sin(turned)
+    lines = [f"{k} {c * x - s * y!r} {s * x + c * y!r} {z!r}" for k, (x, y, z) in at.items()]
+    rows = [" ".join(map(str, [k, *row[1:]])) for k, row in enumerate(cells, 1)]
+    nodes, elements = (f"{len(part)}\n" + "\n".join(part) + "\n" for part in (lines, rows))
+    return f"{head}$Nodes\n{nodes}$EndNodes\n$Elements\n{elements}$EndElements\n"
+
+
+def test_mirror_in_space(tmp_path):
+    """Half a block on half a block, turned about z, so that no axis is the mirror's normal: as the whole ones are."""
+    (tmp_path / "half.geo").write_text(HALVES)
+    shapes.gmsh(tmp_path / "half.geo", tmp_path / "half.msh", "-3", np.eye(3))
+    half, found = (tmp_path / "half.msh").read_text(), []
+    for turned, both in ((0, True), (0.6, False)):
+        c, s = cos(turned), sin(turned)
+        text = BLOCKS + f"move head {0.004 * c} {0.004 * s} -0.01\n" + ("" if both else "symmetry mirror\n")
+        folder = tmp_path / str(both)
+        folder.mkdir()
+        (folder / "a.msh").write_text(mesh_again(half, turned, both))
+        (folder / "a.case").write_text(text)
+        words = "-mesh", folder / "a.msh", "-case", folder / "a.case", "-order", 1, "-estimate", 0, "-vtu", 0
+        run = run_in(ROOT, "edp/parts-3d.edp", *words, out=folder / "out")
+        contact, share = run.summary["contacts"][0], 0.5 if both else 1
+        along = c * contact["shearForce"][0] + s * contact["shearForce"][1]
+        found.append([share * contact["normalForce"], share * along, contact["stickShare"]])
+    assert found[1] == pytest.approx(found[0], rel=1e-5)
+
+
 # ---------------------------------------------------------------- the files of P3 in space
 
 BOX = """
@@ -219,6 +312,38 @@ def test_belt_over_half_a_turn(tmp_path, friction, thick):
     rate = (sqrt(middle**2 + 20 * friction**2 * thick) - middle) / (friction * thick)
     tight = -belt.summary["supports"][0]["force"][1]
     assert tight == pytest.approx(thick * exp(rate * pi), rel=2e-3)
+
+
+WEDGE = """
+Point(1) = {0, 0, 0};
+Point(2) = {0.5, 0, 0};
+Point(3) = {0.75149, 1, 0};
+Point(4) = {0, 1, 0};
+For k In {1 : 4}
+  Line(k) = {k, k % 4 + 1};
+EndFor
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Physical Surface("wedge") = {1};
+Physical Curve("flank") = {2};
+Physical Curve("head") = {3};
+Physical Curve("mirror") = {4};
+Mesh.MeshSizeMax = 0.1047;
+"""
+WEDGED = """body wedge E 2503.75 nu 0.04
+obstacle flank plane 0.5 0 -1 0.25149 friction 0.2575
+symmetry mirror
+leg 1
+traction head 0 -10
+leg 4
+traction head 0 -0.5
+"""
+
+
+def test_wedge_let_go(tmp_path):
+    """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
+    let_go = case(tmp_path, WEDGE, WEDGED)
+    assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
 def test_sample_of_the_campaign(tmp_path):
