@@ -209,7 +209,7 @@ def test_results_of_a_lab(lab, plain):
     """A run in the lab's folder, no environment set: its results lie at the root."""
     shutil.rmtree(plain / "results", ignore_errors=True)
     folder, name = lab_script(lab).rsplit("/", 1)
-    coarse = ["-h", 0.08] if lab == "7-gecko" else []
+    coarse = ["-h", 0.034] if lab == "7-gecko" else []
     run_in(plain / folder, name, *coarse, "-vtu", 0, "-estimate", 0, expect=0, env=BARE)
     (summary,) = (plain / "results").rglob("summary.json")
     assert summary.parent.parent == plain / "results/labs" / lab
