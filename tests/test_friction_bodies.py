@@ -297,7 +297,7 @@ move tight 0 -0.3
 """
 
 
-@pytest.mark.parametrize("friction, thick", [(0.8, 0.2), (0.8, 0.1), pytest.param(0.3, 0.2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("friction, thick", [(0.8, 0.2), (0.8, 0.04), pytest.param(0.3, 0.2, marks=pytest.mark.long)])
 def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """It slips: the tensions' ratio is Euler's, of a belt that is pulled in its middle and rubs at its inner side.
 
@@ -312,6 +312,8 @@ def test_belt_over_half_a_turn(tmp_path, friction, thick):
     rate = (sqrt(middle**2 + 20 * friction**2 * thick) - middle) / (friction * thick)
     tight = -belt.summary["supports"][0]["force"][1]
     assert tight == pytest.approx(thick * exp(rate * pi), rel=2e-3)
+    assert thick > 0.1 or tight == pytest.approx(thick * exp(friction * pi), rel=0.01)
+    assert belt.summary["outOfBalance"] < 1e-8
 
 
 WEDGE = """
