@@ -1,5 +1,7 @@
 """Surfaces of any shape in the plane: chains, splines, what lies opposite, the true distance, turned problems."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from freefem import ROOT, run, snippet, told
@@ -95,6 +97,56 @@ def test_gap_of_circles(tmp_path):
     np.testing.assert_allclose(-nodal["gap"], 1e-3, rtol=1e-3)
     facets = pairs(tmp_path, rings(96).text(), RINGS, "-surface", "facets")
     assert abs(facets["gap"] - 0.05).max() > 1e-3
+
+
+RUNS = """
+ifstream file("before.txt");
+for (int c = 0; c < 3; c++)
+{
+    file >> spans;
+    spanBefore.resize(spans + 1);
+    spanLine.resize(spans + 1);
+    spanBefore = spans;
+    spanLine = 0;
+    for (int k = 0; k < spans; k++) file >> spanBefore[k] >> spanLine[k];
+    numberRuns();
+    real[int] number(spans);
+    real[int] before(spans);
+    for (int k = 0; k < spans; k++) number[k] = outlineRun[k];
+    for (int k = 0; k < spans; k++) before[k] = outlinePlace[k];
+    real[int] size(runSize.n);
+    for (int k = 0; k < size.n; k++) size[k] = runSize[k];
+    tell("run" + c, number); tell("before" + c, before); tell("size" + c, size);
+}
+"""
+
+
+def test_runs(tmp_path):
+    """Runs of curved spans, closed and open, among lines, in any order: what walks along them finds."""
+    text, known = "", []
+    for last in (10, 16, 25):  # the place of the last span: in a closed run, before an open one, in it
+        order = list(np.random.default_rng(3).permutation(59))
+        order.insert(last, 59)
+        lines = {order[k] for k in (20, 31, 32, 59)}
+        bounds = [0, 7, 8, 16, 40, 43, 60]  # the first three are closed, one of them of one span; the others begin anew
+        before = dict.fromkeys(order, 60)
+        for k, (first, end) in enumerate(pairwise(bounds)):
+            before |= {order[i]: order[i - 1 if i > first else end - 1] for i in range(first + (k > 2), end)}
+        text += "\n".join(["60", *(f"{before[k]} {int(k in lines)}" for k in range(60)), ""])
+
+        def walk(k, before=before, lines=lines):
+            """The spans of its run before this one; of a closed run back to its least."""
+            way = [k]
+            while not {way[-1], before[way[-1]]} & {60, *lines} and before[way[-1]] != k:
+                way.append(before[way[-1]])
+            return way if before[way[-1]] != k or k in lines else way[: way.index(min(way)) + 1]
+
+        heads = sorted({walk(k)[-1] for k in range(60) if k not in lines})
+        number = [0 if k in lines else 1 + heads.index(walk(k)[-1]) for k in range(60)]
+        known += [number, [0 if k in lines else len(walk(k)) - 1 for k in range(60)], np.bincount(number).tolist()]
+    (tmp_path / "before.txt").write_text(text)
+    values = pairs(tmp_path, rings(24).text(), RINGS, more=RUNS)
+    assert [values[f"{name}{c}"].tolist() for c in range(3) for name in ("run", "before", "size")] == known
 
 
 CURVED = """

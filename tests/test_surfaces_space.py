@@ -195,6 +195,24 @@ def test_smooth_cylinder(tmp_path):
     assert abs(bulge[~lid][:, :, 2]).max() < 0.02 * height
 
 
+def test_smooth_in_any_order(tmp_path):
+    """An open patch, and beside it one whose triangles and corners come in another order: the same bulges, normals."""
+    n = 4
+    x, y = np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1))
+    x, y = (x + 0.05 * np.sin(5 * y)).ravel(), (y + 0.03 * x**2).ravel()
+    nodes = np.column_stack([x, y, 0.2 * x**2 + 0.1 * (x + y) ** 2 - 0.1 * x * y**2])
+    first = [k for k in range(n * (n + 1)) if (k + 1) % (n + 1)]
+    triangles = np.array([(k, k + 1, k + n + 2) for k in first] + [(k, k + n + 2, k + n + 1) for k in first])
+    triangles[[0, n - 1]] = triangles[[n - 1, 0]]  # the one that has a corner alone, which is to be the last of all
+    triangles[0] = np.roll(triangles[0], 1)
+    other, places = triangles[::-1], np.concatenate([nodes, nodes + [3, 0, 0]])
+    bulge, normal = smoothed(tmp_path, places, np.concatenate([triangles, other + len(nodes)]))
+    count = len(triangles)
+    for values in (bulge, normal):
+        assert abs(values[:count]).max(axis=(1, 2)).min() > 1e-3
+        np.testing.assert_allclose(values[count:][::-1], values[:count], atol=1e-12)
+
+
 def general(text):
     """The scene two-spheres with a statement of contact instead of its formula for the gap."""
     start, end = text.index("macro separation"), text.index("macro atRim")
