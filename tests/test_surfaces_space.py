@@ -205,7 +205,7 @@ def test_smooth_in_any_order(tmp_path):
     triangles = np.array([(k, k + 1, k + n + 2) for k in first] + [(k, k + n + 2, k + n + 1) for k in first])
     triangles[[0, n - 1]] = triangles[[n - 1, 0]]  # the one that has a corner alone, which is to be the last of all
     triangles[0] = np.roll(triangles[0], 1)
-    other, places = triangles[::-1], np.concatenate([nodes, nodes + [3, 0, 0]])
+    other, places = triangles[::-1], np.concatenate([nodes, nodes + np.array([3, 0, 0])])
     bulge, normal = smoothed(tmp_path, places, np.concatenate([triangles, other + len(nodes)]))
     count = len(triangles)
     for values in (bulge, normal):
