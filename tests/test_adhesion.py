@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, table
+from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, snippet, table, told
 from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
 from postprocess import style
@@ -417,6 +417,20 @@ def test_refused(words, said, tmp_path):
     assert said in line
     assert "allowed" in line
     assert not (tmp_path / "out").exists()
+
+
+def test_fold_leaves_the_dual(tmp_path):
+    """What a fold near by adds to the error is found with a dual of its own; the present one is there again."""
+    code = """dualOfForces(dualForces, askedGain);
+    real[int] change = dualDisplacement;
+    real unused = 1;
+    nearFold(unused, unused);
+    change -= dualDisplacement;
+    tell("share", change.linfty / dualDisplacement.linfty);
+    """
+    text = (ROOT / "edp/scenes/adhesive-cylinder.edp").read_text() + code
+    found = told(snippet(tmp_path, text, "-vtu", 0, "-out", tmp_path / "out"))
+    assert found["share"][0] < 1e-12
 
 
 def test_coarse_mesh():

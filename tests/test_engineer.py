@@ -347,6 +347,7 @@ def test_displacements_where_curves_end(tmp_path, bore):
         geometry = re.sub("Physical Surface.*", 'Physical Surface("hub") = 1;', RING).replace("{1, 5}", "1")
         geometry = geometry.replace("{3, 7}", "3")
     solve(tmp_path, geometry, f"{case}pressure inner 100\n{lines}", "-order", 4, size=3)
+    assert summary(tmp_path)["contacts"][0]["force"] == [0, 0]  # across both planes
     at_bore = [moved(B, lame(100, p, A, B), HUB, False) for p in (0, 1)]
     p = at_bore[0] / (at_bore[0] - at_bore[1]) if bore else seat_pressure(0.02, 100, False)
     for name in ("end", "other"):

@@ -5,7 +5,7 @@ from itertools import count
 import numpy as np
 import pytest
 import reference
-from freefem import ROOT, run_in, script, short_of
+from freefem import ROOT, run_in, script, short_of, snippet, told
 from test_examples import example
 
 from postprocess import closed_forms as forms
@@ -187,6 +187,28 @@ def test_space_is_deterministic(solved, scene):
     first, second = (solved(scene, "-accuracy", 6e-3) for _ in range(2))
     assert first.accuracy["meshes"] > 1 and first.ndof == second.ndof
     assert first.force == second.force and first.approach == second.approach
+
+
+ARCS = """
+measureBoundary();
+real[int] label(arcLabel.n);
+for (int e = 0; e < label.n; e++) label[e] = arcLabel[e];
+tell("x", arcFromX); tell("y", arcFromY); tell("alongX", arcAlongX); tell("alongY", arcAlongY);
+tell("from", arcBendFrom); tell("to", arcBendTo); tell("label", label);
+"""
+
+
+def test_arcs(tmp_path):
+    """The curvature that a scene's straight edges stand for is that of its circles, and none on flat sides."""
+    text = (ROOT / "edp/scenes/two-cylinders.edp").read_text() + ARCS
+    found = told(snippet(tmp_path, text, "-order", 1, "-h", 1, "-estimate", 0, "-vtu", 0))
+    x, y, dx, dy = (found[name] for name in ("x", "y", "alongX", "alongY"))
+    flat = np.isin(found["label"], (1, 5))
+    centre = np.where(found["label"] > 3, 20.1, 0)
+    for px, py in ((x, y), (x + dx, y + dy)):
+        np.testing.assert_allclose(np.where(flat, 10, np.hypot(px, py - centre)), 10, rtol=1e-5)
+    for bend in (found["from"], found["to"]):
+        np.testing.assert_allclose(bend, np.where(flat, 0, 0.1), rtol=1e-3, atol=1e-12)
 
 
 def crossed_cylinders(folder, *flags, size=0.3, expect=0):

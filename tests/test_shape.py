@@ -1,5 +1,6 @@
 """The shape's part of a number in the plane: corners, elements that follow every smooth boundary, what is unknown."""
 
+import json
 import re
 
 import numpy as np
@@ -36,6 +37,76 @@ def lame(inner=7, radius=10, outer=14, overlap=0.001):
     """Integral of the pressure of such rings, round."""
     bends = (radius**2 + inner**2) / (radius**2 - inner**2) + (outer**2 + radius**2) / (outer**2 - radius**2)
     return 2 * np.pi * overlap * 1000 / (1 - 0.3**2) / bends
+
+
+FIELDS = """
+real[int] given(ndof);
+real[int,int] E(0, 0);
+real[int,int] X(0, 0);
+real[int,int] Y(0, 0);
+placeNodes(false);
+for (int k = 0; k < 2; k++)
+{
+    for (int n = 0; n < nodes; n++)
+    {
+        given[nodeDof(n, 0)] = k == 0 ? nodeAt(n, 0) : 2 * nodeAt(n, 0) + 3 * nodeAt(n, 1);
+        given[nodeDof(n, 1)] = k == 0 ? nodeAt(n, 1) : 5 * nodeAt(n, 0) + 7 * nodeAt(n, 1);
+    }
+    sideFields(given, E, X, Y);
+    real[int] seen(E.n * E.m);
+    for (int i = 0; i < seen.n; i++) seen[i] = E(i / E.m, i % E.m);
+    tell("strain" + k, seen);
+    seen.resize(X.n * X.m);
+    for (int i = 0; i < seen.n; i++) seen[i] = X(i / X.m, i % X.m);
+    tell("x" + k, seen);
+    for (int i = 0; i < seen.n; i++) seen[i] = Y(i / X.m, i % X.m);
+    tell("y" + k, seen);
+}
+doubtSplines();
+tell("doubt", splineDoubt);
+"""
+PEAK = """
+real[int] ofU(0);
+real[int] withU(0);
+real[int] rate(0);
+energyOf(displacement, ofU);
+energyWith(displacement, withU, rate);
+tell("of", ofU); tell("with", withU); tell("lack", hertzLack(peakOf(0)));
+real[int] mixture = motionUnfelt(:, 0);
+real[int] rolled = motionField * mixture;
+tell("rolled", rolled' * displacement / (rolled.l2 * displacement.l2));
+"""
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_heavy_disc(tmp_path, order):
+    """What Hertz's pressure is above that of one point; energies from either side; no rolling that nothing feels."""
+    (tmp_path / "a.geo").write_text(DISC)
+    (tmp_path / "a.case").write_text(HEAVY)
+    text, files = (ROOT / "edp/parts.edp").read_text() + PEAK, ["-mesh", "a.geo", "-case", "a.case", "-vtu", 0]
+    of = told(snippet(tmp_path, text, *files, "-order", order, "-out", tmp_path / "out"))
+    np.testing.assert_allclose(of["with"], of["of"], rtol=1e-12)
+    assert abs(of["rolled"][0]) < 1e-10
+    found = json.loads((tmp_path / "out/summary.json").read_text())
+    greatest = np.sqrt(found["force"] * 1000 / (1 - 0.3**2) / np.pi)
+    assert of["lack"][0] == pytest.approx(1.5 * max(greatest - found["pressureMax"], 0), rel=1e-4)
+    assert of["lack"][0] > 0 or order == 2
+
+
+def test_fields_on_sides(tmp_path):
+    """Strains and values of a linear field at round sides, whose places the field x tells; what splines are off."""
+    (tmp_path / "a.msh").write_text(fit(12))
+    (tmp_path / "a.case").write_text(RINGS + "contact bore pin\n")
+    text = (ROOT / "edp/parts.edp").read_text() + FIELDS
+    of = told(snippet(tmp_path, text, "-mesh", "a.msh", "-case", "a.case", "-order", 2, "-vtu", 0))
+    x, y = of["x0"], of["y0"]
+    radius = np.hypot(x, y)
+    assert len(x) == 4 * 12 * 4 and min(abs(radius[:, None] - [7, 10, 10.001, 14]).min(axis=1)) < 0.05
+    np.testing.assert_allclose(of["strain1"].reshape(-1, 4), np.tile([2.0, 7, 8, 0], (len(x), 1)), atol=1e-12)
+    np.testing.assert_allclose(of["x1"], 2 * x + 3 * y, atol=1e-3)
+    np.testing.assert_allclose(of["y1"], 5 * x + 7 * y, atol=1e-3)
+    turn = 2 * np.pi / 12  # of a circle the fourth derivative is 1/R^3
+    np.testing.assert_allclose(of["doubt"][:24], turn**2 * (10 * turn) ** 4 / 384 / 10**3, rtol=1e-3)
 
 
 BRACKET = """

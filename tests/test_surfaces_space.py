@@ -213,6 +213,16 @@ def test_smooth_in_any_order(tmp_path):
         np.testing.assert_allclose(values[count:][::-1], values[:count], atol=1e-12)
 
 
+def test_mean_of_neighbours(tmp_path):
+    """Pressures that are all alike are off their neighbours' mean by nothing."""
+    code = 'real[int] off(points);\nphat = 3;\nneighboursMean(off);\ntell("off", off);\n'
+    text = (ROOT / "edp/scenes/sphere-on-block.edp").read_text() + code
+    off = told(snippet(tmp_path, text, "-order", 1, "-h", 2, "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"))[
+        "off"
+    ]
+    assert len(off) > 9 and (off == 0).all()
+
+
 def general(text):
     """The scene two-spheres with a statement of contact instead of its formula for the gap."""
     start, end = text.index("macro separation"), text.index("macro atRim")

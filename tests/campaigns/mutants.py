@@ -281,7 +281,10 @@ def executed(runs: dict[str, list[str]]) -> tuple[list, dict[str, list], dict[st
 
 def differences(tree: Tree, name: str) -> list[str]:
     mine, other = (folder / "results/same" / name for folder in (tree.folder, FOLDER / "plain"))
-    found = list(same.differences(mine, other))
+    try:
+        found = list(same.differences(mine, other))
+    except json.JSONDecodeError:  # not a number
+        return ["summary.json"]
     for path in sorted(other.glob("*.csv")):
         if path.name not in ("contact.csv", "history.csv", "adaptations.csv"):
             try:
