@@ -88,6 +88,7 @@ def test_heavy_disc(tmp_path, order):
     np.testing.assert_allclose(of["with"], of["of"], rtol=1e-12)
     assert abs(of["rolled"][0]) < 1e-10
     found = json.loads((tmp_path / "out/summary.json").read_text())
+    assert found["estimates"]["loads"][0]["name"] == "weight disc"
     greatest = np.sqrt(found["force"] * 1000 / (1 - 0.3**2) / np.pi)
     assert of["lack"][0] == pytest.approx(1.5 * max(greatest - found["pressureMax"], 0), rel=1e-4)
     assert of["lack"][0] > 0 or order == 2

@@ -248,6 +248,33 @@ def test_gap_of_spheres(tmp_path, surface, points):
     assert error < 0.01 * facets if surface == "smooth" else error > facets
 
 
+PLACES = """
+real[int,int] place(3, facePlace.n * slaves);
+facedNormal.resize(3, place.m);
+smoothPlaces(place);
+real[int] away(place.m);
+for (int k = 0; k < away.n; k++) away[k] = sqrt(place(0, k)^2 + place(1, k)^2 + place(2, k)^2);
+tell("away", away);
+samplePoints();
+real[int] off(samples);
+for (int k = 0; k < samples; k++)
+{
+    off[k] = -pointX[samplePair[k]];
+    for (int b = 0; b < 3; b++) off[k] += sampleOn(b, k) * slaveX(sampleSlave[k], b);
+}
+tell("off", off);
+"""
+
+
+def test_places_of_spheres(tmp_path):
+    """What the estimates and the true distance call places on the slave lies on its sphere; the points are points."""
+    text = general((ROOT / "edp/scenes/two-spheres.edp").read_text()) + PLACES
+    flags = ["-order", 1, "-h", 0.5, "-layers", 1, "-distance", "exact", "-vtu", 0, "-out", tmp_path / "out"]
+    values = told(snippet(tmp_path, text, *flags))
+    assert len(values["away"]) > 100 and abs(values["away"] - 10).max() < 0.01 * 0.5**2 / 80
+    assert len(values["off"]) > 9 and abs(values["off"]).max() < 1e-12
+
+
 EXACT = ["-distance", "exact", "-h", 0.5, "-layers", 1]
 LAYER = ["-law", "power", "-kappa", 100, "-m", 2, "-d0", -0.05, "-tol", 1e-11]
 
