@@ -195,13 +195,19 @@ real[int] label(arcLabel.n);
 for (int e = 0; e < label.n; e++) label[e] = arcLabel[e];
 tell("x", arcFromX); tell("y", arcFromY); tell("alongX", arcAlongX); tell("alongY", arcAlongY);
 tell("from", arcBendFrom); tell("to", arcBendTo); tell("label", label);
+real[int] off(points);
+off = 0;
+for (int i = 0; i < points; i++) phat[i] = 1 + i % 2;
+phat[3] = 2.5;
+peakBounds(off);
+tell("off", off);
 """
 
 
 def test_arcs(tmp_path):
     """The curvature that a scene's straight edges stand for is that of its circles, and none on flat sides."""
     text = (ROOT / "edp/scenes/two-cylinders.edp").read_text() + ARCS
-    found = told(snippet(tmp_path, text, "-order", 1, "-h", 1, "-estimate", 0, "-vtu", 0))
+    found = told(snippet(tmp_path, text, "-order", 1, "-h", 0.2, "-estimate", 0, "-vtu", 0))
     x, y, dx, dy = (found[name] for name in ("x", "y", "alongX", "alongY"))
     flat = np.isin(found["label"], (1, 5))
     centre = np.where(found["label"] > 3, 20.1, 0)
@@ -209,6 +215,7 @@ def test_arcs(tmp_path):
         np.testing.assert_allclose(np.where(flat, 10, np.hypot(px, py - centre)), 10, rtol=1e-5)
     for bend in (found["from"], found["to"]):
         np.testing.assert_allclose(bend, np.where(flat, 0, 0.1), rtol=1e-3, atol=1e-12)
+    assert found["off"] == pytest.approx(1.5 * (np.arange(len(found["off"])) == 3))  # alternating pressures
 
 
 def crossed_cylinders(folder, *flags, size=0.3, expect=0):
