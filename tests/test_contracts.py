@@ -217,14 +217,28 @@ def test_the_code_is_read():
     assert len(owners()) > 300
 
 
+@cache
+def described(name):
+    """The names whose definitions have a comment: a function's below its head, a variable's behind it or above."""
+    text = (EDP / name).read_text()
+    functions = re.findall(r"^func [^\n(]*?(\w+)\s*\([^{]*?\)\n//", text, flags=re.M)
+    behind = re.findall(r"^(?:int|real|bool|string|matrix)(?:\[[a-z,]*\])* (\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
+    above = re.findall(r"^// [^\n]*\n(?:int|real|bool|string|matrix)(?:\[[a-z,]*\])* (\w+)", text, flags=re.M)
+    return {*functions, *behind, *above}
+
+
 def test_gives():
-    """What other files use of a module shall be in its Gives; of several modules behind one name one is enough."""
+    """What other files use of a module shall be in its Gives, or described where it is defined."""
     wrong = []
     for word, paths_of in owners().items():
         users = {user for user in MODULES + SCRIPTS if word in uses(user)} - paths_of
         of_modules = checked(path for path in paths_of if path.endswith(".idp"))
-        if users and of_modules and not any(word in named(part(path, "Gives")) for path in of_modules):
-            wrong.append(f"{', '.join(of_modules)}: {word} is not in Gives, {min(users)} uses it")
+        if (
+            users
+            and of_modules
+            and not any(word in named(part(path, "Gives")) | described(path) for path in of_modules)
+        ):
+            wrong.append(f"{', '.join(of_modules)}: {word} is not described, {min(users)} uses it")
     assert not wrong, "\n".join(sorted(wrong))
 
 
