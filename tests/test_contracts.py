@@ -250,3 +250,14 @@ def test_paths():
         named_paths = [path for path in paths(comments) if not path.startswith(("results/", "build/"))]
         wrong += [f"{name}: {path}" for path in named_paths if not (EDP / path).exists() and not (ROOT / path).exists()]
     assert not wrong, "\n".join(wrong)
+
+
+def test_glossary():
+    """Names of the code in the glossary shall be there, and each term shall stand in it once."""
+    rows = [row.split(" | ") for row in (EDP / "GLOSSARY.md").read_text().splitlines() if row.startswith("| ")]
+    terms = [row[0].removeprefix("| ") for row in rows if row[0] != "| term"]
+    assert len(set(terms)) == len(terms) > 50
+    names = {name for row in rows for name in re.findall(r"`([a-zA-Z]\w*)`", row[1])}
+    summary, laws_and_words = {"backsolves", "estimates"}, {"signorini", "leg", "tie"}
+    options = {path.name for path in (EDP / "options").iterdir()}
+    assert names - set(owners()) - summary - laws_and_words - options == set()
