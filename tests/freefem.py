@@ -60,9 +60,9 @@ def script(scene):
 
 
 def environment(**changes):
-    """The environment of a run: one BLAS thread, and nothing of an enclosing make."""
+    """The environment of a run: one thread, of CHOLMOD's OpenMP as well, and nothing of an enclosing make."""
     kept = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-    return {**kept, "OPENBLAS_NUM_THREADS": "1", **changes}
+    return {**kept, "OPENBLAS_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1", **changes}
 
 
 def table(path):

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, table
+from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, short_of, table
 from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
 from postprocess import style
@@ -187,9 +187,7 @@ def test_two_bodies():
 # ---------------------------------------------------------------- paths
 
 
-@pytest.mark.parametrize(
-    "mu", [0.05, pytest.param(0.3, marks=pytest.mark.long), pytest.param(1, marks=pytest.mark.long), 2]
-)
+@pytest.mark.parametrize("mu", short_of([0.05, 2], [0.3, 1]))
 def test_pull_off(mu):
     """The least force on the whole path shall be that of the half-space to 0.5 %, with five increments each way."""
     done, _, unit = follow(mu)

@@ -336,7 +336,7 @@ def test_stresses_of_lame(tmp_path):
         assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
 
-@pytest.mark.parametrize("bore", [True, False], ids=["rigid bore", "pair"])
+@pytest.mark.parametrize("bore", short_of([False], [True]), ids=["pair", "rigid bore"])
 def test_displacements_where_curves_end(tmp_path, bore):
     """A spline is off most beside its ends, here on symmetry planes: what lines say there, against Lame's."""
     held = "body hub E 200000 nu 0.3\nsymmetry below\nsymmetry left\nobstacle seat circle 0 0 R 20 inside\n"
@@ -603,8 +603,10 @@ ALONE = f"""{DISC[: DISC.index("Point(11)")]}Physical Surface("disc") = 1; Physi
 Physical Curve("flat") = {{3}};"""
 
 
-@pytest.mark.parametrize("friction", ["", " friction 0.3"], ids=["free", "rubs"])
-@pytest.mark.parametrize("other", ["base", "obstacle"])
+@pytest.mark.parametrize(
+    "friction, other",
+    short_of([("", "base"), (" friction 0.3", "obstacle")], [("", "obstacle"), (" friction 0.3", "base")]),
+)
 def test_what_several_motions_need(tmp_path, friction, other):
     """What two motions need is what passes through the contact between: the same number, and the same error."""
     case = f"body disc E 1000 nu 0.3\nbody block E 2000 nu 0.3\ncontact round top{friction}\nmove base 0 0.1\n"
@@ -638,7 +640,7 @@ Physical Curve("foot") = {1}; Physical Curve("head") = {3}; Physical Curve("top"
 
 
 @pytest.mark.parametrize(
-    "pull, length, least, most", [(0, 10, 1e-14, 1e-8), (3.05, 10, 0.1, 0.5), (3.1, 9.96, 0.1, 0.5)]
+    "pull, length, least, most", short_of([(0, 10, 1e-14, 1e-8), (3.1, 9.96, 0.1, 0.5)], [(3.05, 10, 0.1, 0.5)])
 )
 def test_length_of_a_flat_face(tmp_path, pull, length, least, most):
     """A face that presses all over is known to rounding, not where a corner is about to lift, or just has."""

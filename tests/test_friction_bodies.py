@@ -7,7 +7,7 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, execute, part, run_in, table
+from freefem import ROOT, execute, part, run_in, short_of, table
 from test_friction import case, series
 from test_paraview import Grid
 
@@ -175,7 +175,7 @@ clamp wall
 """
 
 
-@pytest.mark.parametrize("rubs", ["", " friction 0.3"])
+@pytest.mark.parametrize("rubs", short_of([" friction 0.3"], [""]))
 def test_way_of_a_load_by_differences(tmp_path, rubs):
     """An arm that a traction presses: what a unit of the load moves it by, of the adjoint, as a greater load does."""
     ways = []
@@ -297,7 +297,7 @@ move tight 0 -0.3
 """
 
 
-@pytest.mark.parametrize("friction, thick", [(0.8, 0.2), (0.8, 0.04), pytest.param(0.3, 0.2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("friction, thick", short_of([(0.8, 0.04)], [(0.8, 0.2), (0.3, 0.2)]))
 def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """It slips: the tensions' ratio is Euler's, of a belt that is pulled in its middle and rubs at its inner side.
 
@@ -348,9 +348,9 @@ def test_wedge_let_go(tmp_path):
     assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
-def test_sample_of_the_campaign(tmp_path):
+@pytest.mark.parametrize("kinds", short_of([("block",)], [(("fit", "wedge", "belt"),)]))
+def test_sample_of_the_campaign(tmp_path, kinds):
     """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
-    kinds = "fit", "block", "wedge", "belt"
     command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]
     code, stdout = execute(command)
     assert code == 0 and stdout.count(" 0 failed") == len(kinds), stdout

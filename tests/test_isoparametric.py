@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, snippet, told
+from freefem import ROOT, execute, part, short_of, snippet, told
 from test_meshes import read
 
 BALL = """SetFactory("OpenCASCADE"); Sphere(1) = {{0, 0, 0, 1}};
@@ -177,7 +177,7 @@ PLUGGED += "group top plane 1 1 1 0 0 1\nbody plug E 1000 nu 0.3\nobstacle low p
 PLUGGED += "symmetry x\nsymmetry y\npressure top 3\n"
 
 
-@pytest.mark.parametrize("order, most", [(1, 0.02), (2, 1e-4)])
+@pytest.mark.parametrize("order, most", short_of([(2, 1e-4)], [(1, 0.02)]))
 def test_pressure_within_a_rim(tmp_path, order, most):
     """A pressure on a flat face whose rim is round: the balance's force is known to the shape of the rim."""
     summary, _ = run(tmp_path, PLUG, PLUGGED, "-order", order)
