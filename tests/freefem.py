@@ -124,6 +124,11 @@ def flag_text(value):
     return str(value)
 
 
+def data(name):
+    """The text of a file of tests/data: a geometry, lines of FreeFEM."""
+    return (ROOT / "tests/data" / name).read_text()
+
+
 def named(value):
     """A parametrised test's name: its flags as they are typed."""
     return " ".join(map(flag_text, value)) if isinstance(value, list) else None
@@ -252,20 +257,7 @@ def snippet(folder, text, *flags, expect=0):
 
 
 # tell("name", values) prints a line that told() reads
-TELL = """cout.precision(17);
-func int tell(string name, real[int] & values)
-{
-    cout << "told " << name;
-    for (int i = 0; i < values.n; i++) cout << " " << values[i];
-    cout << endl;
-    return 0;
-}
-func int tell(string name, real value)
-{
-    real[int] one(1); one = value;
-    return tell(name, one);
-}
-"""
+TELL = data("tell.edp")
 
 
 def told(stdout):

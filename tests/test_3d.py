@@ -71,12 +71,10 @@ LAWS = [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1, 1e12) for m
 
 @pytest.mark.parametrize(
     "law, symmetry",
-    [
-        *((law, "quarter") for law in (LAWS[0], LAWS[2], LAWS[3])),
-        *(pytest.param(law, "quarter", marks=pytest.mark.long) for law in (LAWS[1], LAWS[4])),
-        (LAWS[4], "half"),
-        pytest.param(LAWS[4], "whole", marks=pytest.mark.long),
-    ],
+    short_of(
+        [*((law, "quarter") for law in (LAWS[0], LAWS[2], LAWS[3])), (LAWS[4], "half")],
+        [(LAWS[1], "quarter"), (LAWS[4], "quarter"), (LAWS[4], "whole")],
+    ),
 )
 def test_counts(law, symmetry):
     """At most 5 linearisations and 20 back-substitutions, one factorisation, whatever the law's stiffness."""
@@ -290,12 +288,10 @@ def test_patch_in_space_nodal_fails():
 
 @pytest.mark.parametrize(
     "scene, flags, points",
-    [
-        ("patch-test-3d", [], "nodal"),
-        ("two-spheres", ["-h", 0.3, "-layers", 1], "segment"),
-        pytest.param("patch-test-3d", [], "segment", marks=pytest.mark.long),
-        pytest.param("two-spheres", ["-h", 0.3, "-layers", 1], "nodal", marks=pytest.mark.long),
-    ],
+    short_of(
+        [("patch-test-3d", [], "nodal"), ("two-spheres", ["-h", 0.3, "-layers", 1], "segment")],
+        [("patch-test-3d", [], "segment"), ("two-spheres", ["-h", 0.3, "-layers", 1], "nodal")],
+    ),
 )
 def test_action_is_reaction(scene, flags, points):
     """Contact forces on the two bodies shall be equal and opposite to 1e-12, their moments to 1e-8."""

@@ -8,7 +8,7 @@ import subprocess
 import time
 
 import pytest
-from freefem import MULTIGRID, ROOT, environment, flag_text, script, short_of, snippet, told
+from freefem import MULTIGRID, ROOT, data, environment, flag_text, script, short_of, snippet, told
 
 EXAMPLES = ROOT / "edp" / "examples"
 built = MULTIGRID.exists()
@@ -139,21 +139,7 @@ def test_threads_without_addresses(tmp_path):
     assert code == 0, output
 
 
-SYSTEM = """
-include "case/flags.idp"
-string scene = "disc-on-block";
-include "case/output.idp"
-include "blocks/block-flags.idp"
-include "laws/all.idp"
-include "solve/methods/all.idp"
-include "case/scheme.idp"
-include "solve/solver.idp"
-tell("groups", groupsLeft("fake")); tell("none", numberAfter("fake/nothing", "", "MemAvailable:", 12));
-matrix K = [[2., 0.], [0., 2.]];
-real[int] b = [1., 1.]; real[int] x = [0.5, 0.5]; dofsThatFit = 3;
-checkSolved(K, b, x);
-x[1] = 7; checkSolved(K, b, x);
-"""
+SYSTEM = data("memory/system.edp")
 
 
 def test_groups_and_a_failed_factorisation(tmp_path):

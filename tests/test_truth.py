@@ -11,7 +11,7 @@ import foreign
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
-from freefem import FREEFEM, ROOT, execute, parts_script, short_of
+from freefem import FREEFEM, ROOT, data, execute, parts_script, short_of
 from test_parts import Mesh, block, turn
 
 MEMORY = 3_000_000  # kB: a run that wants more shall end, not the machine
@@ -342,17 +342,7 @@ def test_kink_on_a_mirror(go):
     assert one["at"] == pytest.approx([0, 1], abs=0.3)
 
 
-ON_WIDER = """
-Point(1) = {0, 0, 0, 0.25}; Point(2) = {2, RISE, 0, 0.25}; Point(3) = {2, 3, 0, 1}; Point(4) = {0, 3, 0, 1};
-Point(9) = {0, 2.5, 0};
-Point(5) = {0, 0, 0, 0.25}; Point(6) = {4, 0, 0, 0.5}; Point(7) = {4, -3, 0, 1}; Point(8) = {0, -3, 0, 1};
-NOSE = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
-Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
-Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("up") = {1};
-Curve Loop(2) = {5:8}; Plane Surface(2) = {2};
-Physical Surface("low") = {2}; Physical Curve("foot") = {1}; Physical Curve("top") = {3}; Physical Curve("face") = {5};
-Physical Curve("below") = {7}; Physical Curve("mirror") = {4, 8};
-"""
+ON_WIDER = data("truth/on-wider.geo")
 
 
 @pytest.mark.parametrize(
@@ -375,18 +365,7 @@ def test_opposite_a_corner(go, contact, nose):
 
 # ---------------------------------------------------------------- surfaces that no contact names
 
-PIN = """
-Point(1) = {0, 0, 0}; Point(2) = {4.98, 0, 0, 0.5}; Point(3) = {0, 4.98, 0, 0.5}; Point(4) = {-4.98, 0, 0, 0.5};
-Point(5) = {0, -4.98, 0, 0.5};
-Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
-Point(12) = {5, 0, 0, 0.5}; Point(13) = {0, 5, 0, 0.5}; Point(14) = {-5, 0, 0, 0.5}; Point(15) = {0, -5, 0, 0.5};
-Circle(11) = {12, 1, 13}; Circle(12) = {13, 1, 14}; Circle(13) = {14, 1, 15}; Circle(14) = {15, 1, 12};
-Point(21) = {12, -12, 0, 3}; Point(22) = {12, 12, 0, 3}; Point(23) = {-12, 12, 0, 3}; Point(24) = {-12, -12, 0, 3};
-Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
-Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Curve Loop(2) = {21:24}; Curve Loop(3) = {11:14};
-Plane Surface(2) = {2, 3}; Physical Surface("pin") = {1}; Physical Surface("plate") = {2};
-Physical Curve("hole") = {11:14}; Physical Curve("left") = {23}; Physical Curve("skin") = {NAMED};
-"""
+PIN = data("truth/pin.geo")
 PINNED = "body pin E 200e3 nu 0.3\nbody plate E 200e3 nu 0.3\ncontact hole skin\nclamp left\n"
 
 
