@@ -52,12 +52,8 @@ def groups(space: bool, where: str) -> str:
         if corners:
             places = [float(number) for number in corners.split()]
             low, high = places[: 2 + space], places[2 + space :]
-            box = [
-                *(x - 0.01 for x in low),
-                *([] if space else [-1]),
-                *(x + 0.01 for x in high),
-                *([] if space else [1]),
-            ]
+            low, high = [x - 0.01 for x in low], [x + 0.01 for x in high]
+            box = [*low, *high] if space else [*low, -1, *high, 1]
             lines.append(KEPT.format(skin, ", ".join(map(str, box)), name=name))
         lines += [f"{name}() -= {other}();" for other in without]
         lines.append(f'Physical {skin}("{word}") = {name}();')

@@ -196,16 +196,10 @@ def test_tension_of_a_heated_shank(shape, tmp_path):
 BOLT_IN_SPACE = data("engineer/bolt-in-space.geo")
 
 
-ROUND = (
-    BOLT_IN_SPACE.replace(
-        "Box(1) = {0, 0, 0, 1, 1, 5}; Box(2) = {0, 0, 5, 1, 1, 5};",
-        "Cylinder(1) = {0, 0, 0, 0, 0, 5, 1, Pi/2}; Cylinder(2) = {0, 0, 5, 0, 0, 5, 1, Pi/2};",
-    )
-    .replace(
-        "level() = Surface In BoundingBox {1 - e,",
-        "joined() = Surface In BoundingBox {-e, -e, 10 - e, 1 + e, 2, 10 + e}; level() = Surface In BoundingBox {-e,",
-    )
-    .replace("level() -= seat();", "level() -= seat(); level() -= joined();")
+ROUND = re.sub(r"Box\((1|2)\) = {(.*?), 1, 1, 5};", r"Cylinder(\1) = {\2, 0, 0, 5, 1, Pi/2};", BOLT_IN_SPACE)
+ROUND = ROUND.replace("level() = Surface In BoundingBox {1 - e,", "level() = Surface In BoundingBox {-e,")
+ROUND = ROUND.replace(
+    "seat();\nPhysical", "{seat(), Surface In BoundingBox {-e, -e, 10 - e, 1 + e, 2, 10 + e}};\nPhysical"
 )
 
 

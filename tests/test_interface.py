@@ -13,10 +13,8 @@ from freefem import FREEFEM, ROOT, being_written, environment, execute, files, l
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 SCENES = [DISC, TWO_BODIES, BLOCK]
-FLAGS = (
-    "-E -nu -width -depth -u0 -gap -kappa -m -d0 -rho -h -order -T0 -eps -tol -maxNewton -maxAdaptations -steps".split()
-)
-FLAGS += ["-method", "-out"]
+FLAGS = "-E -nu -width -depth -u0 -gap -kappa -m -d0 -rho -h -order -T0 -eps -tol -maxNewton -maxAdaptations".split()
+FLAGS += ["-steps", "-method", "-out"]
 RESULTS = ["adaptations.csv", "contact.csv", "contact.vtu", "history.csv", "solution.vtu", "summary.json"]
 COARSE = ["-h", 2, "-order", 1, "-estimate", 0]
 BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment

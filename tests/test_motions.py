@@ -135,11 +135,8 @@ def test_load_away_from_the_contact(tmp_path):
     """A load that contact cannot push against shall be refused by name: there is no equilibrium."""
     problem = Problem(1, motions=1)
     problem.t *= -1
-    assert (
-        problem.solve(tmp_path, expect=10)
-        .splitlines()[-1]
-        .startswith("motion 0: a load works on it, but no contact can push")
-    )
+    said = problem.solve(tmp_path, expect=10).splitlines()[-1]
+    assert said.startswith("motion 0: a load works on it, but no contact can push")
 
 
 @pytest.mark.parametrize("seed", [7, pytest.param(8, marks=pytest.mark.long)])

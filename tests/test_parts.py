@@ -348,10 +348,8 @@ symmetry left / move bottom 1 1 | symmetry left: line 3 moves its node at (0, 0)
 @pytest.mark.parametrize("held, words", [line.split(" | ") for line in DISAGREEING.strip().splitlines()])
 def test_supports_that_disagree(tmp_path, held, words):
     """Two statements that hold one node in different places: refused with the place and both lines."""
-    assert (
-        words
-        in solve(tmp_path, block(Mesh()).text(), STEEL + held.replace(" / ", "\n") + "\n" + PLANE, expect=10).stdout
-    )
+    case = STEEL + held.replace(" / ", "\n") + "\n" + PLANE
+    assert words in solve(tmp_path, block(Mesh()).text(), case, expect=10).stdout
 
 
 def test_curved_symmetry(tmp_path):

@@ -152,9 +152,8 @@ def test_rod_in_a_bowl(solve):
     geo += "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Circle(5) = {5, 6, 7};"
     geo += 'Circle(6) = {7, 6, 1}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1}; Physical Surface("rod") = {1};\n'
     geo += 'Physical Curve("lower") = {1, 2}; Physical Curve("end") = {5, 6};\n'
-    case = (
-        "body rod E 1e9 nu 0.3\nobstacle end circle 0 0 R 5 inside\nobstacle lower circle 6 0 R 0.5\nweight rod 0 -1\n"
-    )
+    case = "body rod E 1e9 nu 0.3\nobstacle end circle 0 0 R 5 inside\nobstacle lower circle 6 0 R 0.5\n"
+    case += "weight rod 0 -1\n"
     summary, _ = solve(geo, case, "-distance", "exact")
     for number, true in enumerate((2.73605635, 1.84753534)):  # statics: the lowest place of the middle
         value, error = force(summary, number)
@@ -240,10 +239,8 @@ def slab(matrix=None):
 @pytest.mark.parametrize("turns", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_dragged_in_space(solve, tmp_path, turns):
     """A cylinder dragged over elements of a block between mirrors: hardly a force, steady energy, turned the same."""
-    case = (
-        "body block E 100 nu 0.3\nbody cylinder E 100 nu 0.3\ncontact btop cbottom interference 0.03\nclamp bbottom\n"
-    )
-    case += "symmetry bleft\nsymmetry bright\nsymmetry cleft\nsymmetry cright\nmove ctop {}\n"
+    case = "body block E 100 nu 0.3\nbody cylinder E 100 nu 0.3\ncontact btop cbottom interference 0.03\n"
+    case += "clamp bbottom\nsymmetry bleft\nsymmetry bright\nsymmetry cleft\nsymmetry cright\nmove ctop {}\n"
     flags = ("-distance", "exact", "-history", 1, "-steps", 3, "-order", 1, "-estimate", 0)
     runs = []
     for number, turned in enumerate((np.eye(3), rotation(0.8, (1, -2, 0.5)))[: 1 + turns]):

@@ -189,18 +189,7 @@ def test_faces_that_meet_become_two(tmp_path):
 def test_plane_geometry(tmp_path):
     flat = 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 4, 2};\nDisk(2) = {2, 3, 0, 1};\n'
     mesh = gmsh(tmp_path, "a.step", flat, "-0")
-    case = """group block surfaces 1
-group disc near 2 4
-group top between block disc
-group round between disc block
-group base plane 0 0  0 1
-size disc 0.2
-body block E 210e3 nu 0.3
-body disc E 210e3 nu 0.3
-contact top round
-clamp base
-"""
-    code, why, areas, volumes = readable(tmp_path, mesh, case, 0)
+    code, why, areas, volumes = readable(tmp_path, mesh, data("zoo/disc-on-block.case"), 0)
     assert code == 0, why
     assert volumes == pytest.approx([np.pi, 8], rel=0.02)
     assert areas == pytest.approx({"top": 4, "base": 4, "round": 2 * np.pi}, rel=0.01)

@@ -107,11 +107,8 @@ def timed(command: list, folder: Path) -> tuple[float, int, str]:
         env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return (
-        after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
-        done.returncode,
-        done.stdout + done.stderr,
-    )
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return seconds, done.returncode, done.stdout + done.stderr
 
 
 def surface_stresses(path: Path, count: int) -> tuple[np.ndarray, np.ndarray]:
