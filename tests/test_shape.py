@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, short_of, snippet, told
+from freefem import ROOT, data, execute, part, short_of, snippet, told
 from test_parts import Mesh, block
 from test_surfaces import ring
 
@@ -38,13 +38,7 @@ def lame(inner=7, radius=10, outer=14, overlap=0.001):
     return 2 * np.pi * overlap * 1000 / (1 - 0.3**2) / bends
 
 
-BRACKET = """
-Point(1)={0,0,0,1};Point(2)={30,0,0,1};Point(3)={30,4,0,1};Point(4)={6,4,0,1};Point(5)={6,6,0,1};Point(6)={4,6,0,1};
-Point(7)={4,20,0,1};Point(8)={0,20,0,1};
-Line(1)={1,2};Line(2)={2,3};Line(3)={3,4};Circle(4)={4,5,6};Line(5)={6,7};Line(6)={7,8};Line(7)={8,1};
-Curve Loop(1)={1:7};Plane Surface(1)={1};Physical Surface("bracket")={1};
-Physical Curve("foot")={3};Physical Curve("wall")={6};
-"""
+BRACKET = data("shape/bracket.geo")
 DISC = """
 Point(1)={0,0,0,0.5};Point(2)={1,0,0,0.5};Point(3)={0,1,0,0.5};Point(4)={-1,0,0,0.5};Point(5)={0,-1,0,0.12};
 Circle(1)={2,1,3};Circle(2)={3,1,4};Circle(3)={4,1,5};Circle(4)={5,1,2};Curve Loop(1)={1:4};Plane Surface(1)={1};

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, snippet, told
+from freefem import ROOT, data, run, snippet, told
 from test_parts import Mesh, block, solve, turn
 
 MIRROR = np.diag([-1.0, 1, 1])
@@ -28,20 +28,7 @@ def ring(mesh, inner, outer, edges, layers, name, groups, phase=0.0, at=0.0):
     return mesh
 
 
-POINTS = """
-real[int] seen(points);
-tell("x", pointX); tell("y", pointY); tell("normalX", normalX); tell("normalY", normalY);
-tell("gap", overlapBefore); tell("weight", weight); tell("along", along);
-for (int i = 0; i < points; i++) seen[i] = paired[i];
-tell("paired", seen);
-for (int i = 0; i < points; i++) seen[i] = contactOf[i];
-tell("contact", seen);
-for (int i = 0; i < points; i++) seen[i] = chainOf[i];
-tell("chain", seen);
-real[int] closed(chainClosed.n);
-for (int i = 0; i < chainClosed.n; i++) closed[i] = chainClosed[i];
-tell("closed", closed); tell("correction", correctionMost); tell("corners", sharpCorners);
-"""
+POINTS = data("surfaces/points.edp")
 
 
 def pairs(folder, mesh, case, *flags, more="", order=2):
@@ -97,27 +84,7 @@ def test_gap_of_circles(tmp_path):
     assert abs(facets["gap"] - 0.05).max() > 1e-3
 
 
-CURVED = """
-real[int] unit(ndof); real[int] resisted(ndof); real[int] worst(3);
-placeNodes(false);
-for (int k = 0; k < 3; k++)
-{
-    unit = 0;
-    for (int n = 0; n < nodes; n++)
-    {
-        if (k < 2) unit[nodeDof(n, k)] = 1;
-        if (k == 2) unit[nodeDof(n, 0)] = -nodeAt(n, 1);
-        if (k == 2) unit[nodeDof(n, 1)] = nodeAt(n, 0);
-    }
-    resisted = elasticStiffness * unit; worst[k] = resisted.linfty;
-}
-tell("rigid", worst);
-for (int n = 0; n < nodes; n++) for (int c = 0; c < 2; c++) unit[nodeDof(n, c)] = nodeAt(n, c);
-tell("swelling", wholeLoad' * unit);
-unit = 0;
-for (int n = 0; n < nodes; n++) unit[nodeDof(n, 1)] = 1;
-tell("weighs", wholeLoad' * unit); tell("curved", curvedElements); tell("stretch", leastStretch);
-"""
+CURVED = data("surfaces/curved.edp")
 
 
 @pytest.mark.parametrize("order", [2, 4])
@@ -167,14 +134,7 @@ def outlined(mesh, outline, at, tag, matrix):
     mesh.add(nodes, sides, bodies)
 
 
-PLACES = """
-real[int] px(edges); real[int] py(edges);
-int[int] e(edges);
-real[int] r(edges);
-for (int k = 0; k < edges; k++) e[k] = k;
-r = 0.3; placesAt(e, r, px, py);
-tell("px", px); tell("py", py);
-"""
+PLACES = data("surfaces/places.edp")
 
 
 def test_straight_round_and_sharp(tmp_path):
@@ -235,14 +195,7 @@ def test_what_faces_away(tmp_path):
 
 # ---------------------------------------------------------------- results
 
-PATCH = """body low E 210 nu 0.3
-body up E 70 nu 0.2
-symmetry low-bottom
-symmetry low-left
-symmetry up-left
-contact low-top up-bottom
-pressure up-top 5
-"""
+PATCH = data("surfaces/patch.case")
 
 
 @pytest.mark.parametrize(

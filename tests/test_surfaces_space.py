@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, run, scene_text, snippet, told
+from freefem import ROOT, data, execute, part, run, scene_text, snippet, told
 from shapes import moved
 from test_parts import Mesh, cube, turn_in_space
 
@@ -20,19 +20,9 @@ def vector(values):
     return " ".join(repr(float(v)) for v in values)
 
 
-BLOCKS = """body lower E 100 nu 0.3
-body upper E 100 nu 0.3
-contact lower-top upper-bottom
-symmetry lower-back
-symmetry lower-front
-symmetry lower-left
-symmetry lower-right
-symmetry upper-back
-symmetry upper-front
-symmetry upper-left
-symmetry upper-right
-clamp lower-bottom
-"""
+MIRRORS = [f"{body}-{side}" for body in ("lower", "upper") for side in ("back", "front", "left", "right")]
+BLOCKS = "body lower E 100 nu 0.3\nbody upper E 100 nu 0.3\ncontact lower-top upper-bottom\n"
+BLOCKS += "".join(f"symmetry {side}\n" for side in MIRRORS) + "clamp lower-bottom\n"
 
 
 def blocks(gap=0.01):
@@ -103,29 +93,7 @@ def test_turned_ball(tmp_path, order, distance):
         )
 
 
-SMOOTH = """
-{
-    ifstream f("triangles.txt");
-    int count;
-    f >> count;
-    real[int,int] xs(count, 3);
-    real[int,int] ys(count, 3);
-    real[int,int] zs(count, 3);
-    int[int,int] corner(count, 3);
-    int[int] which(count);
-    which = 0;
-    for (int j = 0; j < count; j++) for (int a = 0; a < 3; a++) f >> corner(j, a) >> xs(j, a) >> ys(j, a) >> zs(j, a);
-    real[int,int] none(0, 0);
-    real[int,int] bulge(0, 0);
-    real[int,int] normal(0, 0);
-    smooth(xs, ys, zs, corner, which, none, bulge, normal);
-    real[int] values(9 * count);
-    for (int k = 0; k < values.n; k++) values[k] = bulge(k % 9, k / 9);
-    tell("bulge", values);
-    for (int k = 0; k < values.n; k++) values[k] = normal(k % 9, k / 9);
-    tell("normal", values);
-}
-"""
+SMOOTH = data("surfaces-space/smooth.edp")
 
 
 def smoothed(folder, nodes, triangles):
