@@ -15,7 +15,7 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (10767, 91), "edp/parts.edp": (20598, 129), BARE: (7500, 59)}  # lines, files
+READ = {"edp/main.edp": (10767, 91), "edp/parts.edp": (20614, 129), BARE: (7500, 59)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 31,
     "of these by two other files or more": 6,
