@@ -391,6 +391,16 @@ def test_carter(tmp_path, pull, h):
     assert lost == pytest.approx(steps["shearForce"][-1] * (steps["drag"][-1] - steps["drag"][-21]), rel=5e-3)
 
 
+def test_wedge_of_a_scene_is_let_go_at_once(tmp_path):
+    """Every point slips in, and sticks when the push is gone: Newton's method starts again as if all stuck."""
+    run = rub(tmp_path, "edp/scenes/wedge.edp", {"-h": 0.2})
+    rows = series(run)
+    assert rows["stickingPoints"][0] == 0 < rows["stickingPoints"][1] and rows["force"][1] == pytest.approx(
+        2.579, abs=5e-3
+    )
+    assert run.summary["newton"] <= 14
+
+
 @pytest.mark.parametrize("share", [0.99, 1.01])
 @pytest.mark.parametrize("slope", [0.3, *(pytest.param(s, marks=pytest.mark.long) for s in (0.05, 0.6))])
 def test_wedge_of_a_scene_locks_above_its_slope(tmp_path, slope, share):

@@ -258,3 +258,57 @@ def test_moment_of_a_twisted_fit(tmp_path):
         assert slips * 8 < moments[-1] < slips * 8.05
         assert run.summary["prescribed"][0]["error"] < 2e-3 * moments[-1]
     assert moments[0] == pytest.approx(moments[1], rel=1e-4)
+
+
+BLOCKS = """
+For k In {0 : 1}
+  left = k / 2;
+  right = 2 - k / 2;
+  Point(4 * k + 1) = {left, k, 0, H}; Point(4 * k + 2) = {right, k, 0, H};
+  Point(4 * k + 3) = {right, k + 1, 0, H}; Point(4 * k + 4) = {left, k + 1, 0, H};
+  For l In {1 : 4}
+    Line(4 * k + l) = {4 * k + l, 4 * k + l % 4 + 1};
+  EndFor
+  Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
+  Plane Surface(k + 1) = {k + 1};
+EndFor
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("floor") = {3};
+Physical Curve("right") = {2}; Physical Curve("left") = {4};
+Physical Surface("slider") = {2}; Physical Curve("sole") = {5}; Physical Curve("grip") = {7};
+"""
+
+
+def test_normal_force_of_tilted_normals(tmp_path):
+    """Where surfaces bend, shears bear a part of the load: the balance alone does not tell the normal force."""
+    text = "body block E 300 nu 0.4\nbody slider E 1000 nu 0.4\nclamp base\ncontact sole floor friction 0.3\n"
+    text += "force grip 0 -8\n"
+    run = case(tmp_path, BLOCKS.replace("H", "0.25"), text, "-distance", "exact", "-estimate", 1)
+    normal = run.summary["estimates"]["contacts"][0]["normalForce"]
+    assert 1e-3 < normal["error"] < 1e-2 and abs(normal["value"] - 8.0125) < 3 * normal["error"]
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.15])
+def test_two_contacts_at_a_corner(tmp_path, friction):
+    """What one contact's shear carries there is another's normal force: forces are known to that, on any mesh."""
+    geo = re.sub("For k In .0 : 1.", "For k In {0 : 0}", BLOCKS[: BLOCKS.index('Physical Surface("slider')])
+    text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\n"
+    text += f"obstacle left plane 0 0 1 0 friction {friction}\npressure floor 1\npressure right 0.5\n"
+    errors, truth = [], None
+    for size in (0.4, 0.2, 0.1):
+        run = case(tmp_path / str(size), geo.replace("H", str(size)), text, "-estimate", 1)
+        base, left = run.summary["contacts"]
+        told = [c["normalForce"] for c in run.summary["estimates"]["contacts"]]
+        found = [np.linalg.norm(base["shearForce"]), np.linalg.norm(left["shearForce"]), *(n["value"] for n in told)]
+        errors.append([c["mesh"]["shearForce"]["error"] for c in (base, left)] + [n["error"] for n in told])
+        if truth is not None:
+            assert (abs(np.array(found) - truth) < np.array(errors[-1]) + errors[-2]).all()
+        truth = np.array(found)
+    assert 1e-4 < max(errors[-1]) < 0.02 and max(errors[-1]) < 0.5 * max(errors[0])
+
+
+def test_points_that_the_true_distance_loses(tmp_path):
+    """A warning names them, and no change of nothing."""
+    text = "body block E 1000 nu 0\nbody slider E 1000 nu 0\nmove base -0.7 0\ncontact sole floor\nforce grip 0 -1\n"
+    run = case(tmp_path, BLOCKS.replace("H", "0.25"), text, "-estimate", 1)
+    (warning,) = (text for text in run.summary["warnings"] if "linearised" in text)
+    assert re.search("[23] points in contact have nothing opposite", warning)
