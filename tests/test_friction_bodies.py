@@ -260,7 +260,7 @@ def test_moment_of_a_twisted_fit(tmp_path):
     assert moments[0] == pytest.approx(moments[1], rel=1e-4)
 
 
-BLOCKS = """
+SLIDERS = """
 For k In {0 : 1}
   left = k / 2;
   right = 2 - k / 2;
@@ -282,7 +282,7 @@ def test_normal_force_of_tilted_normals(tmp_path):
     """Where surfaces bend, shears bear a part of the load: the balance alone does not tell the normal force."""
     text = "body block E 300 nu 0.4\nbody slider E 1000 nu 0.4\nclamp base\ncontact sole floor friction 0.3\n"
     text += "force grip 0 -8\n"
-    run = case(tmp_path, BLOCKS.replace("H", "0.25"), text, "-distance", "exact", "-estimate", 1)
+    run = case(tmp_path, SLIDERS.replace("H", "0.25"), text, "-distance", "exact", "-estimate", 1)
     normal = run.summary["estimates"]["contacts"][0]["normalForce"]
     assert 1e-3 < normal["error"] < 1e-2 and abs(normal["value"] - 8.0125) < 3 * normal["error"]
 
@@ -290,7 +290,7 @@ def test_normal_force_of_tilted_normals(tmp_path):
 @pytest.mark.parametrize("friction", [0.3, 0.15])
 def test_two_contacts_at_a_corner(tmp_path, friction):
     """What one contact's shear carries there is another's normal force: forces are known to that, on any mesh."""
-    geo = re.sub("For k In .0 : 1.", "For k In {0 : 0}", BLOCKS[: BLOCKS.index('Physical Surface("slider')])
+    geo = re.sub("For k In .0 : 1.", "For k In {0 : 0}", SLIDERS[: SLIDERS.index('Physical Surface("slider')])
     text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\n"
     text += f"obstacle left plane 0 0 1 0 friction {friction}\npressure floor 1\npressure right 0.5\n"
     errors, truth = [], None
@@ -309,6 +309,6 @@ def test_two_contacts_at_a_corner(tmp_path, friction):
 def test_points_that_the_true_distance_loses(tmp_path):
     """A warning names them, and no change of nothing."""
     text = "body block E 1000 nu 0\nbody slider E 1000 nu 0\nmove base -0.7 0\ncontact sole floor\nforce grip 0 -1\n"
-    run = case(tmp_path, BLOCKS.replace("H", "0.25"), text, "-estimate", 1)
+    run = case(tmp_path, SLIDERS.replace("H", "0.25"), text, "-estimate", 1)
     (warning,) = (text for text in run.summary["warnings"] if "linearised" in text)
     assert re.search("[23] points in contact have nothing opposite", warning)
