@@ -474,6 +474,9 @@ lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
 	@$(PYTHON) tests/pages.py
 
+uses: $(VENV)/run.stamp | system ## print which names MODULE (problem/problem.idp, say) uses of which others, and who uses it
+	@$(PYTHON) tests/pages.py $(or $(MODULE),problem/problem.idp)
+
 numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, and show them
 	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/page_numbers.py
 

@@ -9,6 +9,8 @@ from text_boxes import faults
 
 from postprocess import output
 
+os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1"}  # of what tests start in ways of their own, too
+
 
 def pytest_addoption(parser):
     parser.addoption("--no-skips", action="store_true", help="a test that is skipped is named and fails the session")

@@ -38,20 +38,6 @@ CHAPTERS = {
 HIDDEN = ["edp/labs/*/ANSWERS.md"]  # reached by links alone
 LINK = re.compile(r"(!?\[(?:[^\][]|`[^`]*`|!?\[[^\]]*\](?:\([^)]*\))?)*\])\(([^)\s]+)\)")
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
-STYLE = """
-math {
-  font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", "DejaVu Math TeX Gyre", math;
-  font-size: 1.08em;
-}
-.equation {
-  display: flex; flex-wrap: wrap; justify-content: safe center; align-items: center;
-  gap: 0.5em 2em; margin: 0.6em 0; padding: 0.3em 0; overflow: auto hidden;
-}
-.content { width: 52em; }
-mtext { font-family: var(--font-stack); font-size: 0.9em; }
-table { font-size: 0.88em; }
-article img { background: #fff; }
-"""
 SETTINGS = {
     "project": "Stiff normal contact in FreeFEM",
     "extensions": "myst_parser",
@@ -221,7 +207,7 @@ class Site:
             file.write_text(typeset(body))
         static = self.folder / "_static"
         static.mkdir()
-        (static / "site.css").write_text(STYLE)
+        shutil.copy(ROOT / "tests/data/site.css", static)
 
 
 def build(out, root=ROOT, chapters=CHAPTERS):

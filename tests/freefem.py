@@ -60,9 +60,9 @@ def script(scene):
 
 
 def environment(**changes):
-    """The environment of a run: one BLAS thread, and nothing of an enclosing make."""
+    """The environment of a run: one thread, of CHOLMOD's OpenMP as well, and nothing of an enclosing make."""
     kept = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-    return {**kept, "OPENBLAS_NUM_THREADS": "1", **changes}
+    return {**kept, "OPENBLAS_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1", **changes}
 
 
 def table(path):
@@ -122,6 +122,11 @@ def flag_text(value):
     if isinstance(value, float):
         return repr(float(value))
     return str(value)
+
+
+def data(name):
+    """The text of a file of tests/data: a geometry, lines of FreeFEM."""
+    return (ROOT / "tests/data" / name).read_text()
 
 
 def named(value):
@@ -252,20 +257,7 @@ def snippet(folder, text, *flags, expect=0):
 
 
 # tell("name", values) prints a line that told() reads
-TELL = """cout.precision(17);
-func int tell(string name, real[int] & values)
-{
-    cout << "told " << name;
-    for (int i = 0; i < values.n; i++) cout << " " << values[i];
-    cout << endl;
-    return 0;
-}
-func int tell(string name, real value)
-{
-    real[int] one(1); one = value;
-    return tell(name, one);
-}
-"""
+TELL = data("tell.edp")
 
 
 def told(stdout):
@@ -405,10 +397,8 @@ def check_equilibrium(run):
     if summary["scene"] in ("patch-test", "confined-block"):
         return  # the sliding sides carry too
     if "friction" in summary:
-        assert (
-            abs(summary["reactionX"] + summary["contacts"][0]["shearForce"][0])
-            <= 10 * summary["parameters"]["tol"] * size
-        )
+        balance = summary["reactionX"] + summary["contacts"][0]["shearForce"][0]
+        assert abs(balance) <= 10 * summary["parameters"]["tol"] * size
         return
     assert abs(summary["reactionX"]) <= 1e-9 * size or summary.get("rounds", 1) > 1
     assert abs(summary["reactionMoment"] + summary["contactMoment"]) <= 1e-9 * size * reach

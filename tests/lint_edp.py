@@ -64,7 +64,7 @@ def header_problems(lines, is_module):
         block.append(line)
     return [
         f"the header needs a line that starts with '// {word}'"
-        for word in ("Needs", "Gives")
+        for word in ("Gives",)
         if is_module and not any(line.startswith(f"// {word}") for line in block)
     ]
 

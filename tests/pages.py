@@ -16,11 +16,14 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
 
+import test_contracts
+
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 ASKED = "scenes/asked/parts-asked.edp", "scenes/asked/parts-3d-asked.edp"  # with all that a case may ask for
 EXAMPLES = ["scenes/slurm.sh"]
+EVERYWHERE = "case/flags", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
 PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
@@ -41,6 +44,25 @@ def table(kind, names):
         first = (EDP / name).read_text().split("\n")[0]
         rows.append(f"| `{name}` | {re.sub(r': sh .*', '', first.split(': ', 1)[1])} |")
     return "\n".join(rows) + "\n"
+
+
+def modules():
+    """A row a module: its name, its first line, and the modules that it uses, but those that nearly all use."""
+    taken = test_contracts.taken()
+    rows = table("module", sources(".idp")).splitlines()
+    for number, row in enumerate(rows[2:], 2):
+        used = sorted(path[:-4] for path in taken[row.split("`")[1]] if path.endswith(".idp"))
+        rows[number] = f"{row} {', '.join(path for path in used if path not in EVERYWHERE)} |"
+    return "\n".join([f"{rows[0]} uses |", "|---|---|---|", *rows[2:]]) + "\n"
+
+
+def relations(name):
+    """The names that a module uses of which others, and which others use of it, a line each."""
+    taken = test_contracts.taken()
+    uses = [f"uses {other}: {', '.join(sorted(words))}" for other, words in sorted(taken[name].items())]
+    return uses + [
+        f"used by {other}: {', '.join(sorted(of[name]))}" for other, of in sorted(taken.items()) if name in of
+    ]
 
 
 EACH = re.compile(r"^macro (?:eachOption|moreOptions|askedOptions|inSpace)\(do, what\) (.*?)//", re.M | re.S)
@@ -355,7 +377,7 @@ def statements():
 
 
 TABLES = {
-    "modules": lambda: table("module", sources(".idp")),
+    "modules": modules,
     "options": options,
     "programs": lambda: table("program", sources(".sh")),
     "flags": flags,
@@ -377,6 +399,9 @@ def stale():
 
 
 if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        print("\n".join(relations(sys.argv[1])))
+        sys.exit()
     for page, text in stale().items():
         page.write_text(text)
         print(page.relative_to(ROOT), file=sys.stderr)

@@ -13,8 +13,6 @@ from pathlib import Path
 
 import numpy as np
 
-STEEL = "E 210e3 nu 0.3"
-
 
 @dataclass(frozen=True)
 class Shape:
@@ -54,24 +52,25 @@ def groups(space: bool, where: str) -> str:
         if corners:
             places = [float(number) for number in corners.split()]
             low, high = places[: 2 + space], places[2 + space :]
-            box = [
-                *(x - 0.01 for x in low),
-                *([] if space else [-1]),
-                *(x + 0.01 for x in high),
-                *([] if space else [1]),
-            ]
+            low, high = [x - 0.01 for x in low], [x + 0.01 for x in high]
+            box = [*low, *high] if space else [*low, -1, *high, 1]
             lines.append(KEPT.format(skin, ", ".join(map(str, box)), name=name))
         lines += [f"{name}() -= {other}();" for other in without]
         lines.append(f'Physical {skin}("{word}") = {name}();')
     return "\n".join(lines)
 
 
-def plane(geo: str, case: str, where: str, size: float = 0.5) -> Shape:
-    return Shape(f"{geo}\n{groups(False, where)}", f"state strain\n{case}", size)
-
-
-def solid(geo: str, case: str, where: str, size: float = 1.0) -> Shape:
-    return Shape(f"{geo}\n{groups(True, where)}", case, size, True)
+def shape(text: str) -> tuple[str, Shape]:
+    """A paragraph of data/shapes.txt: name and kind, gmsh's lines, groups, lines of the case."""
+    head, *lines = text.strip().split("\n  ")
+    name, kind = head.split(", ")
+    word = {
+        start: [line.removeprefix(start) for line in lines if line.startswith(start)] for start in ("group ", "case ")
+    }
+    geo = "\n".join(line for line in lines if not line.startswith(tuple(word)))
+    space, case = kind == "space", "\n".join(word["case "])
+    geo += "\n" + groups(space, "; ".join(word["group "]))
+    return name, Shape(geo, case if space else f"state strain\n{case}", 1.0 if space else 0.5, space)
 
 
 def polygon(body, size, corners, names, first=1):
@@ -88,113 +87,7 @@ def polygon(body, size, corners, names, first=1):
     return "\n".join([*lines, f'Physical Surface("{body}") = {{{first}}};\n'])
 
 
-BLOCK = "Rectangle(1) = {-10, -8, 0, 20, 8};"
-ON_BLOCK = "LOWER 1; UPPER 2; base 1:-10 -8 10 -8; top 1:-10 0 10 0; "
-TWO = f"body lower {STEEL}\nbody upper {STEEL}\nclamp base\n"
-SLAB = "Box(1) = {-8, -8, -6, 16, 16, 6};"
-ON_SLAB = "LOWER 1; UPPER 2; base 1:-8 -8 -6 8 8 -6; top 1:-8 -8 0 8 8 0; "
-
-
-def on_block(geo: str, skin: str = "round") -> Shape:
-    """A body that rests on the block by its weight."""
-    return plane(f"{BLOCK} {geo}", TWO + f"contact top {skin}\nweight upper <0 -20>", ON_BLOCK + f"{skin} 2")
-
-
-def on_slab(geo: str, skin: str = "round") -> Shape:
-    return solid(f"{SLAB} {geo}", TWO + f"contact top {skin}\nweight upper <0 0 -20>", ON_SLAB + f"{skin} 2")
-
-
-SHAPES = {
-    "disc": on_block("Disk(2) = {0, 5, 0, 5};"),
-    "ellipse": on_block("Disk(2) = {0, 3, 0, 6, 3};"),
-    "cushion": on_block("Rectangle(2) = {-4, 0, 0, 8, 6, 1.5};", "shell"),
-    "pin": plane(
-        "Rectangle(1) = {-10, -10, 0, 20, 20}; Disk(3) = {0, 0, 0, 4.1};\n"
-        "BooleanDifference(4) = { Surface{1}; Delete; }{ Surface{3}; Delete; }; Disk(2) = {0, 0, 0, 4};",
-        TWO + "contact bore round\nweight upper <0 -20>",
-        "LOWER 4; UPPER 2; base 4:-10 -10 10 -10; bore 4:-4.1 -4.1 4.1 4.1; round 2",
-    ),
-    "groove": plane(
-        "Rectangle(1) = {-10, -8, 0, 20, 8}; Disk(3) = {0, 2, 0, 5};\n"
-        "BooleanDifference(4) = { Surface{1}; Delete; }{ Surface{3}; Delete; }; Disk(2) = {0, 2, 0, 4.9};",
-        TWO + "contact groove round\nweight upper <0 -20>",
-        "LOWER 4; UPPER 2; base 4:-10 -8 10 -8; groove 4:-5 -3 5 0; round 2",
-    ),
-    "ring": plane(
-        "Disk(1) = {0, 0, 0, 10}; Disk(3) = {0, 0, 0, 5}; \n"
-        "BooleanDifference(4) = { Surface{1}; Delete; }{ Surface{3}; Delete; };\n"
-        "Disk(5) = {0, -0.9, 0, 4.1}; Disk(6) = {0, -0.9, 0, 2};\n"
-        "BooleanDifference(2) = { Surface{5}; Delete; }{ Surface{6}; Delete; };",
-        TWO + "contact bore outside\nweight upper <0 -20>",
-        "LOWER 4; UPPER 2; bore 4:-5 -5 5 5; base 4:/bore; eye 2:-2 -2.9 2 1.1; outside 2:/eye",
-    ),
-    "stack": plane(
-        f"{BLOCK} Disk(2) = {{0, 4, 0, 4}}; Rectangle(3) = {{-9, 8, 0, 18, 4}};",
-        f"{TWO}body lid {STEEL}\ncontact top round\ncontact round under\nforce grip <0 -200>",
-        ON_BLOCK + "LID 3; round 2; under 3:-9 8 9 8; grip 3:-9 12 9 12",
-    ),
-    "teeth": plane(
-        "Rectangle(1) = {-10, -8, 0, 20, 8}; Rectangle(5) = {-8, -1, 0, 3, 4}; Rectangle(6) = {-1.5, -1, 0, 3, 4};\n"
-        "Rectangle(7) = {5, -1, 0, 3, 4}; BooleanUnion(4) = { Surface{1}; Delete; }{ Surface{5, 6, 7}; Delete; };\n"
-        "Rectangle(2) = {-12, 3, 0, 24, 5};",
-        TWO + "contact tips under law power kappa 1e8 m 2 d0 -0.01\nmove grip <0 -0.02>",
-        "LOWER 4; UPPER 2; base 4:-10 -8 10 -8; tips 4:-8 3 8 3; under 2:-12 3 12 3; grip 2:-12 8 12 8",
-    ),
-    "fork": plane(
-        "Rectangle(1) = {-8, -8, 0, 16, 18}; Rectangle(5) = {-4, 0, 0, 8, 11}; Disk(6) = {0, 0, 0, 4};\n"
-        "BooleanDifference(4) = { Surface{1}; Delete; }{ Surface{5, 6}; Delete; }; Disk(2) = {0, 0, 0, 3.95};",
-        TWO + "contact cradle round\nweight upper <0 -20>",
-        "LOWER 4; UPPER 2; base 4:-8 -8 8 -8; cradle 4:-4 -4 4 9.9; round 2",
-    ),
-    "stamp": plane(
-        BLOCK,
-        f"body lower {STEEL}\nclamp base\nobstacle top circle <0 30> R 30 force <0 -400>",
-        "LOWER 1; base 1:-10 -8 10 -8; top 1:-10 0 10 0",
-    ),
-    "ball": on_slab("Sphere(2) = {0, 0, 4, 4};"),
-    "log": on_slab("Cylinder(2) = {-5, 0, 3, 10, 0, 0, 3};", "shell"),
-    "socket": solid(
-        f"{SLAB} Sphere(3) = {{0, 0, 2, 5}};\n"
-        "BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{3}; Delete; };\n"
-        "Sphere(2) = {0, 0, 2, 4.8};",
-        TWO + "contact cup round\nweight upper <0 0 -20>",
-        "LOWER 4; UPPER 2; base 4:-8 -8 -6 8 8 -6; cup 4:-5 -5 -3 5 5 0; round 2",
-    ),
-    "axle": solid(
-        "Box(1) = {-8, -4, -8, 16, 8, 16}; Cylinder(3) = {0, -5, 0, 0, 10, 0, 4.1};\n"
-        "BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{3}; Delete; }; Cylinder(2) = {0, -6, 0, 0, 12, 0, 4};",
-        TWO + "contact bore shell\nsymmetry left\nweight upper <0 0 -20>",
-        "LOWER 4; UPPER 2; base 4:-8 -4 -8 8 4 -8; bore 4:-4.1 -4 -4.1 4.1 4 4.1; "
-        "left 2:-4 -6 -4 4 -6 4; shell 2:/left",
-    ),
-    "torus": on_slab("Torus(2) = {0, 0, 1.5, 4, 1.5};"),
-    "cone": solid(
-        f"{SLAB} Cone(2) = {{0, 0, 0, 0, 0, 6, 1.5, 4}};",
-        TWO + "contact top shell law power kappa 1e8 m 2 d0 -0.01\nmove lid <0 0 -0.01>",
-        ON_SLAB + "lid 2:-4 -4 6 4 4 6; shell 2:/lid",
-    ),
-    "cross": solid(
-        "Cylinder(1) = {-8, 0, -4, 16, 0, 0, 4}; Cylinder(2) = {0, -8, 3, 0, 16, 0, 3};",
-        f"body lower {STEEL}\nbody upper {STEEL}\nclamp ends\ncontact under over\nforce caps <0 0 -400>",
-        "LOWER 1; UPPER 2; ends 1:-8 -4 -8 -8 4 0; under 1:/ends; caps 2:-3 8 0 3 8 6; over 2:/caps",
-    ),
-    "pillow": on_slab(
-        "Box(2) = {-3, -3, 0, 6, 6, 5}; \n"
-        "b() = Curve In BoundingBox {-3.1, -3.1, -0.1, 3.1, 3.1, 0.1}; Fillet{2}{b()}{1.2}",
-        "shell",
-    ),
-    "plate": solid(
-        SLAB,
-        f"body lower {STEEL}\nclamp base\nobstacle top sphere <0 0 20> R 20 move <0 0 -0.05>",
-        "LOWER 1; base 1:-8 -8 -6 8 8 -6; top 1:-8 -8 0 8 8 0",
-    ),
-    "egg": solid(
-        f"{SLAB} Sphere(2) = {{0, 0, 3, 3}}; Dilate {{{{0, 0, 3}}, {{1.5, 1.2, 1}}}} {{ Volume{{2}}; }}\n"
-        "Box(3) = {-8, -8, 6, 16, 16, 4};",
-        f"{TWO}body lid {STEEL}\ncontact top round\ncontact round under\nforce grip <0 0 -400>",
-        ON_SLAB + "LID 3; round 2; under 3:-8 -8 6 8 8 6; grip 3:-8 -8 10 8 8 10",
-    ),
-}
+SHAPES = dict(map(shape, (Path(__file__).parent / "data/shapes.txt").read_text().split("\n\n")))
 NAMES = sorted(SHAPES)
 SPACE = [name for name in NAMES if SHAPES[name].space]
 

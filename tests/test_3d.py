@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import reference
-from freefem import MULTIGRID, ROOT, Run, run, run_in, scene_text, script, short_of, snippet, stored, told, tree
+from freefem import MULTIGRID, ROOT, Run, data, run, run_in, scene_text, script, short_of, snippet, stored, told, tree
 from test_two_bodies import confined
 
 built = pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
@@ -20,21 +20,8 @@ FINE_HALF = [*FINE, "-h", 0.1, "-layers", 4, "-symmetry", "half"]
 )
 def test_stiffness_and_points(tmp_path, symmetry, points):
     """Energies of linear displacements, and the weights of the points, shall be exact, and those of the whole."""
-    code = """
-{
-    fespace Uh(Th, [P1, P1, P1]);
-    Uh [ax, ay, az] = [0, 0, z];
-    Uh [bx, by, bz] = [0, z, 0];
-    real[int] K = stiffness * ax[]; tell("stretch", K' * ax[]);
-    K = stiffness * bx[]; tell("shear", K' * bx[]); tell("area", weight.sum);
-    real[int] off = pointX .* weight; tell("middle", off.sum); tell("top", pointZ);
-    Uh [cx, cy, cz] = [0, 0, x + 3 * y + z];
-    real[int] trace = cx[](pointDof); trace -= pointX; trace -= pointZ; trace -= 3 * pointY;
-    tell("trace", trace.linfty);
-}
-"""
     flags = ["-order", 1, "-h", 1, "-patch", 3, "-layers", 2, "-symmetry", symmetry]
-    values = told(snippet(tmp_path, scene_text(SCENE) + code, *flags))
+    values = told(snippet(tmp_path, scene_text(SCENE) + data("3d/displacements.edp"), *flags))
     volume, shear = 40 * 40 * 20, E / (2 * (1 + NU))
     np.testing.assert_allclose(values["stretch"], volume * 2 * shear * (1 - NU) / (1 - 2 * NU), rtol=1e-11)
     if symmetry != "quarter":  # the displacement does not keep to the mirror y = 0
@@ -71,12 +58,10 @@ LAWS = [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1, 1e12) for m
 
 @pytest.mark.parametrize(
     "law, symmetry",
-    [
-        *((law, "quarter") for law in (LAWS[0], LAWS[2], LAWS[3])),
-        *(pytest.param(law, "quarter", marks=pytest.mark.long) for law in (LAWS[1], LAWS[4])),
-        (LAWS[4], "half"),
-        pytest.param(LAWS[4], "whole", marks=pytest.mark.long),
-    ],
+    short_of(
+        [*((law, "quarter") for law in (LAWS[0], LAWS[2], LAWS[3])), (LAWS[4], "half")],
+        [(LAWS[1], "quarter"), (LAWS[4], "quarter"), (LAWS[4], "whole")],
+    ),
 )
 def test_counts(law, symmetry):
     """At most 5 linearisations and 20 back-substitutions, one factorisation, whatever the law's stiffness."""
@@ -290,12 +275,10 @@ def test_patch_in_space_nodal_fails():
 
 @pytest.mark.parametrize(
     "scene, flags, points",
-    [
-        ("patch-test-3d", [], "nodal"),
-        ("two-spheres", ["-h", 0.3, "-layers", 1], "segment"),
-        pytest.param("patch-test-3d", [], "segment", marks=pytest.mark.long),
-        pytest.param("two-spheres", ["-h", 0.3, "-layers", 1], "nodal", marks=pytest.mark.long),
-    ],
+    short_of(
+        [("patch-test-3d", [], "nodal"), ("two-spheres", ["-h", 0.3, "-layers", 1], "segment")],
+        [("patch-test-3d", [], "segment"), ("two-spheres", ["-h", 0.3, "-layers", 1], "nodal")],
+    ),
 )
 def test_action_is_reaction(scene, flags, points):
     """Contact forces on the two bodies shall be equal and opposite to 1e-12, their moments to 1e-8."""

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, snippet, table, told
+from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, short_of, snippet, table, told
 from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
 from postprocess import style
@@ -129,10 +129,7 @@ def test_change_of_units():
 
 @pytest.mark.parametrize(
     "mu, approach",
-    [
-        *((0.05, 0.0), (0.3, -0.3), (1, -1.2), (1, 1.0), (3, -4)),
-        *(pytest.param(*far, marks=pytest.mark.long) for far in ((1, -3.0), (2, 1.0), (5, 1.5))),
-    ],
+    short_of([(0.05, 0.0), (0.3, -0.3), (1, -1.2), (1, 1.0), (3, -4)], [(1, -3.0), (2, 1.0), (5, 1.5)]),
 )
 def test_from_rest_in_one_step(mu, approach):
     """From no forces the step shall come to a stable state, in few linearisations of few back-substitutions."""
@@ -187,9 +184,7 @@ def test_two_bodies():
 # ---------------------------------------------------------------- paths
 
 
-@pytest.mark.parametrize(
-    "mu", [0.05, pytest.param(0.3, marks=pytest.mark.long), pytest.param(1, marks=pytest.mark.long), 2]
-)
+@pytest.mark.parametrize("mu", short_of([0.05, 2], [0.3, 1]))
 def test_pull_off(mu):
     """The least force on the whole path shall be that of the half-space to 0.5 %, with five increments each way."""
     done, _, unit = follow(mu)

@@ -1,9 +1,8 @@
-"""The heads of the modules against their code: what crosses files is in "Needs" here and in "Gives" there.
+"""The heads of the modules against their code: what other files use of a module is in its Gives.
 
-Needs may name an identifier, or the module that gives it (`problem/problem.idp`), or a folder with two algorithms
-behind one contract (`operator/`). A word of a head is an identifier if it stands alone between commas and the like,
-behind its type if that is said, or is written in camelCase; a function's arguments are none. Lines that go on are
-indented.
+A word of a head is an identifier if it stands alone between commas and the like, behind its type if that is said, or
+is written in camelCase; a function's arguments are none. Lines that go on are indented. Who uses what, which is read
+here, `make pages` writes into edp/README.md, and `make uses MODULE=...` prints.
 """
 
 import re
@@ -163,31 +162,24 @@ def uses(name):
     return {word for word in read(name)[1] if word in owners()} - EVERYWHERE
 
 
-def includes(name):
-    """The sources that a source includes, or has a macro include, twins both; what `make mpi` writes is not there."""
-    text = (EDP / name).read_text()
-    found = re.findall(r'^\s*(?:macro \w+\(\) )?include "([^"]+)"', text, flags=re.M)
-    twins = re.findall(r"^\s*(?:macro \w+\(\) )?readTwin\(([\w/-]+)\)", text, flags=re.M)
-    found += [f"{twin}-{which}.idp" for twin in twins for which in ("plane", "space")]
-    return [inner for inner in found if (EDP / inner).exists()]
-
-
 @cache
-def reached(name):
-    """The words that a source uses itself or by what it includes."""
-    return read(name)[1].union(*(reached(inner) for inner in includes(name)))
-
-
-@cache
-def provided(name):
-    """What a source or what it includes declares outside braces, and its macros anywhere."""
-    macros = re.findall(r"\bmacro\s+(\w+)", source(name)[1])
-    return read(name)[0].union(macros, *(provided(inner) for inner in includes(name)))
+def taken():
+    """{source: {other source: the identifiers that it uses of that}}; of what twins share the one of the same kind."""
+    found = {}
+    for name in MODULES + SCRIPTS:
+        found[name] = {}
+        for word in uses(name):
+            kin = [
+                path for path in owners()[word] if path[-9:] == name[-9:] and name[-9:] in ("plane.idp", "space.idp")
+            ]
+            for path in kin or owners()[word] - {name}:
+                found[name].setdefault(path, set()).add(word)
+    return found
 
 
 @cache
 def part(name, title):
-    """The text of Needs or Gives in a module's head: the line and what is indented below it.
+    """The text of Gives in a module's head: the line and what is indented below it.
 
     A module of the same folder may be named without it."""
     found = re.search(rf"^// {title}: (.*\n(?://   .*\n)*)", source(name)[0], flags=re.M)
@@ -213,16 +205,6 @@ def paths(text):
     return re.findall(r"(?<![\w/<>.-])(?:[a-z][\w-]{2,}/)+(?:[\w-]+\.\w+|(?![\w<*]))", text)
 
 
-@cache
-def gives(path, word):
-    """Whether a module, or one in a folder, declares an identifier and says so."""
-    return any(
-        word in named(part(owner, "Gives"))
-        for owner in owners()[word]
-        if owner == path or (path.endswith("/") and owner.startswith(path))
-    )
-
-
 def checked(sources):
     """The sources whose heads are checked: the labs are lessons."""
     return [name for name in sources if not name.startswith("labs/")]
@@ -235,42 +217,29 @@ def test_the_code_is_read():
     assert len(owners()) > 300
 
 
-def test_needs():
-    """What a module uses of other files shall be in its Needs, and nothing else."""
-    wrong = []
-    for name in checked(MODULES):
-        needs, used = part(name, "Needs"), uses(name)
-        missing = {word for word in used - named(needs) if not any(gives(path, word) for path in paths(needs))}
-        wrong += [f"{name}: {word} of {', '.join(owners()[word])} is not in Needs" for word in sorted(missing)]
-        idle = sorted(named(needs) - reached(name) - read(name)[0])
-        found = {path: [module for module in MODULES if module.startswith(path)] for path in paths(needs)}
-        idle += [
-            path for path, inside in found.items() if inside and not any(provided(m) & reached(name) for m in inside)
-        ]
-        wrong += [f"{name}: {word} is in Needs, but not used" for word in idle]
-    assert not wrong, "\n".join(wrong)
-
-
-def takes(user, word, owner):
-    """Whether a source that uses a word takes it from this owner, as far as its Needs says from where."""
-    named_paths = [path for path in paths(part(user, "Needs")) if gives(path, word)]
-    return not named_paths or any(owner.startswith(path) for path in named_paths)
+@cache
+def described(name):
+    """The names whose definitions have a comment: a function's below its head, a variable's behind it or above."""
+    text = (EDP / name).read_text()
+    functions = re.findall(r"^func [^\n(]*?(\w+)\s*\([^{]*?\)\n//", text, flags=re.M)
+    behind = re.findall(r"^(?:int|real|bool|string|matrix)(?:\[[a-z,]*\])* (\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
+    above = re.findall(r"^// [^\n]*\n(?:int|real|bool|string|matrix)(?:\[[a-z,]*\])* (\w+)", text, flags=re.M)
+    return {*functions, *behind, *above}
 
 
 def test_gives():
-    """What other files use of a module shall be in its Gives."""
+    """What other files use of a module shall be in its Gives, or described where it is defined."""
     wrong = []
-    for name in checked(MODULES):
-        silent = read(name)[0] - named(part(name, "Gives")) - EVERYWHERE
-        users = {
-            word: [other for other in MODULES + SCRIPTS if other != name and word in uses(other)] for word in silent
-        }
-        wrong += [
-            f"{name}: {word} is not in Gives"
-            for word in sorted(silent)
-            if any(takes(o, word, name) for o in users[word])
-        ]
-    assert not wrong, "\n".join(wrong)
+    for word, paths_of in owners().items():
+        users = {user for user in MODULES + SCRIPTS if word in uses(user)} - paths_of
+        of_modules = checked(path for path in paths_of if path.endswith(".idp"))
+        if (
+            users
+            and of_modules
+            and not any(word in named(part(path, "Gives")) | described(path) for path in of_modules)
+        ):
+            wrong.append(f"{', '.join(of_modules)}: {word} is not described, {min(users)} uses it")
+    assert not wrong, "\n".join(sorted(wrong))
 
 
 def test_paths():
@@ -281,3 +250,14 @@ def test_paths():
         named_paths = [path for path in paths(comments) if not path.startswith(("results/", "build/"))]
         wrong += [f"{name}: {path}" for path in named_paths if not (EDP / path).exists() and not (ROOT / path).exists()]
     assert not wrong, "\n".join(wrong)
+
+
+def test_glossary():
+    """Names of the code in the glossary shall be there, and each term shall stand in it once."""
+    rows = [row.split(" | ") for row in (EDP / "GLOSSARY.md").read_text().splitlines() if row.startswith("| ")]
+    terms = [row[0].removeprefix("| ") for row in rows if row[0] != "| term"]
+    assert len(set(terms)) == len(terms) > 50
+    names = {name for row in rows for name in re.findall(r"`([a-zA-Z]\w*)`", row[1])}
+    summary, laws_and_words = {"backsolves", "estimates"}, {"signorini", "leg", "tie"}
+    options = {path.name for path in (EDP / "options").iterdir()}
+    assert names - set(owners()) - summary - laws_and_words - options == set()

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, flag_text, part, run, run_in, short_of, table
+from freefem import FREEFEM, ROOT, data, execute, flag_text, part, run, run_in, short_of, table
 from shapes import moved, polygon
 from test_parts import UNTURNED, Mesh, block, turn
 
@@ -42,16 +42,7 @@ def stack(aside=0.0, above=1.0):
 
 
 GLUED = "body low E 100 nu 0.3\nbody up E 100 nu 0.3\ntie foot head\n"
-BOXES = """
-SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 0.5}; Box(2) = {0, 0, 0.5, 1, 1, 0.5};
-Mesh.MeshSizeMax = 0.34;
-MeshSize{ PointsOf{ Volume{2}; } } = 0.24;
-Physical Volume("low") = {1}; Physical Volume("up") = {2};
-Physical Surface("base") = {5}; Physical Surface("head") = {6};
-Physical Surface("foot") = {11}; Physical Surface("top") = {12};
-Physical Surface("lx") = {1}; Physical Surface("ly") = {3}; Physical Surface("ux") = {7}; Physical Surface("uy") = {9};
-"""
+BOXES = data("friction/boxes.geo")
 BEAM = (
     'DefineConstant[ h = {0.1, Name "h"} ];\n'
     + polygon("left", "h", ["0, 0", "2, 0", "2, 1", "0, 1"], {2: "end1", 4: "wall"})
@@ -97,17 +88,7 @@ Box(1) = {0, 0, 0, 8, 6, 2}; Box(2) = {1, 1, 2, 6, 4, 1.5};
 Physical Volume("A") = {1}; Physical Volume("B") = {2};
 MeshSize{PointsOf{Volume{1};}} = 2; MeshSize{PointsOf{Volume{2};}} = 1.5;
 """
-PRESSED_LOOSE = """units mm MPa
-group low between B A
-group high between A B
-group base plane 1 1 0 0 0 1
-group top plane 4 3 3.5 0 0 1
-body A E 200e3 nu 0.3
-body B E 70e3 nu 0.33
-contact low high friction 0.3
-clamp base
-pressure top 25
-"""
+PRESSED_LOOSE = data("friction/pressed-loose.case")
 
 
 def test_way_of_a_load_that_friction_holds(tmp_path):
@@ -410,6 +391,16 @@ def test_carter(tmp_path, pull, h):
     assert lost == pytest.approx(steps["shearForce"][-1] * (steps["drag"][-1] - steps["drag"][-21]), rel=5e-3)
 
 
+def test_wedge_of_a_scene_is_let_go_at_once(tmp_path):
+    """Every point slips in, and sticks when the push is gone: Newton's method starts again as if all stuck."""
+    run = rub(tmp_path, "edp/scenes/wedge.edp", {"-h": 0.2})
+    rows = series(run)
+    assert rows["stickingPoints"][0] == 0 < rows["stickingPoints"][1] and rows["force"][1] == pytest.approx(
+        2.579, abs=5e-3
+    )
+    assert run.summary["newton"] <= 14
+
+
 @pytest.mark.parametrize("share", [0.99, 1.01])
 @pytest.mark.parametrize("slope", [0.3, *(pytest.param(s, marks=pytest.mark.long) for s in (0.05, 0.6))])
 def test_wedge_of_a_scene_locks_above_its_slope(tmp_path, slope, share):
@@ -541,9 +532,8 @@ def test_error_of_the_load_steps(tmp_path):
     error = contact["loadSteps"]["shearForce"]["error"]
     assert 1 <= off(error, contact["shearForce"][0], many["shearForce"][0]) < 100
     odd = fretting(tmp_path / "odd", steps=1, stepErrors=1, **flags)
-    assert (
-        "an odd number of load steps" in odd.summary["loadStepsError"] and "loadSteps" not in odd.summary["contacts"][0]
-    )
+    assert "an odd number of load steps" in odd.summary["loadStepsError"]
+    assert "loadSteps" not in odd.summary["contacts"][0]
     assert list(series(odd)["newton"]) == list(series(fretting(tmp_path / "as", steps=1, **flags))["newton"])
 
 
@@ -593,10 +583,8 @@ def test_interrupted_path_goes_on(tmp_path, monkeypatch):
 )
 def test_several_solutions_are_said(tmp_path, friction, lifted, several):
     """A block wedged by its friction while its head is lifted: it might as well be free."""
-    text = (
-        f"body block E 100 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\nleg 1\nmove head 0 -0.01\nleg 2\n"
-    )
-    text += f"move head 0.03 -0.01\nleg 2\nmove head 0.05 {lifted}\n"
+    text = f"body block E 100 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\nleg 1\nmove head 0 -0.01\n"
+    text += f"leg 2\nmove head 0.03 -0.01\nleg 2\nmove head 0.05 {lifted}\n"
     run = case(tmp_path, SQUARE, text)
     assert ("several solutions" in run.stdout) is several
     assert run.summary["contacts"][0]["normalForce"] > 0
@@ -653,16 +641,12 @@ def test_cantilever_of_two_glued_pieces(tmp_path):
     assert two.summary["contacts"][0]["force"][1] == pytest.approx(1, rel=1e-6)
 
 
+LOOP = {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}
+
+
 @pytest.mark.parametrize(
-    ("scene", "flags"),
-    [
-        ("fretting", {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}),
-        pytest.param(
-            "fretting-3d",
-            {"-u0": 0.5, "-h": 2, **HARD, "-drag": 0.1},
-            marks=pytest.mark.long,
-        ),
-    ],
+    "scene, flags",
+    short_of([("fretting", LOOP)], [("fretting-3d", {"-u0": 0.5, "-h": 2, **HARD, "-drag": 0.1})]),
 )
 def test_pictures(tmp_path, scene, flags):
     """The shear beside the pressure; the loop, and what sticks over the load steps."""

@@ -7,65 +7,26 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, execute, part, run_in, table
+from freefem import ROOT, data, execute, part, run_in, short_of, table
 from test_friction import case, series
 from test_paraview import Grid
 
-FIT = """
-SetFactory("OpenCASCADE");
-radius() = {3, 8, 8, 12};
-For k In {0 : 3}
-  Circle(k + 1) = {0, 0, 0, radius(k)};
-  Curve Loop(k + 1) = {k + 1};
-EndFor
-Plane Surface(1) = {2, 1}; Plane Surface(2) = {4, 3};
-Physical Surface("shaft") = {1}; Physical Surface("hub") = {2}; Physical Curve("bore") = {1};
-Physical Curve("seat") = {2}; Physical Curve("hole") = {3}; Physical Curve("rim") = {4};
-MeshSize{:} = 2;
-MeshSize{3} = 1.4;
-"""
+FIT = data("friction-bodies/fit.geo")
 FITTED = """state stress
 body shaft E 200e3 nu 0.3
 body hub E 100e3 nu 0.3
 contact hole seat interference 0.01 friction 0.2
 clamp bore
 """
-SLEEVE = """
-For k In {0 : 1}
-  inner = k ? 4 : 1;
-  outer = k ? 6 : 4;
-  Point(4 * k + 1) = {inner, k, 0, 0.8}; Point(4 * k + 2) = {outer, k, 0, 0.8};
-  Point(4 * k + 3) = {outer, 6 - k, 0, 0.6}; Point(4 * k + 4) = {inner, 6 - k, 0, 0.6};
-  For l In {1 : 4}
-    Line(4 * k + l) = {4 * k + l, 4 * k + l % 4 + 1};
-  EndFor
-  Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
-  Plane Surface(k + 1) = {k + 1};
-EndFor
-Physical Surface("shaft") = {1}; Physical Surface("hub") = {2}; Physical Curve("foot") = {1};
-Physical Curve("seat") = {2}; Physical Curve("hole") = {8}; Physical Curve("rim") = {6};
-"""
+SLEEVE = data("friction-bodies/sleeve.geo")
 SLEEVED = """state axisymmetric
 body shaft E 200e3 nu 0.3
 body hub E 100e3 nu 0.3
 contact hole seat interference 0.01 friction 0.2
 clamp foot
 """
-SPACE_FIT = """
-SetFactory("OpenCASCADE");
-Cylinder(1) = {0, 0, 0, 0, 0, 6, 4}; Cylinder(2) = {0, 0, 1, 0, 0, 4, 6}; Cylinder(3) = {0, 0, 1, 0, 0, 4, 4};
-BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
-Physical Volume("shaft") = {1}; Physical Volume("hub") = {4};
-Mesh.MeshSizeMax = 3;
-"""
-SPACE_FITTED = """group hole between hub shaft
-group seat between shaft hub
-group foot plane 0 0 0 0 0 1
-body shaft E 200e3 nu 0.3
-body hub E 100e3 nu 0.3
-contact hole seat interference 0.01 friction 0.2
-clamp foot
-"""
+SPACE_FIT = data("friction-bodies/space-fit.geo")
+SPACE_FITTED = data("friction-bodies/space-fitted.case")
 
 
 def test_press_fit_without_other_loads(tmp_path):
@@ -107,21 +68,7 @@ def test_sleeve_pulled_off(tmp_path, pull, code):
 
 # ---------------------------------------------------------------- symmetry planes
 
-QUARTER = """
-Point(1) = {0, -20, 0, 8}; Point(2) = {20, -20, 0, 8}; Point(3) = {20, 0, 0, 4}; Point(4) = {0, 0, 0, 0.3};
-Point(5) = {0, 10, 0, 4}; Point(6) = {10, 10, 0, 4};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
-Curve Loop(1) = {1 : 4};
-Plane Surface(1) = {1};
-Point(7) = {0, 0, 0, 0.22};
-Circle(5) = {7, 5, 6};
-Line(6) = {6, 5}; Line(7) = {5, 7};
-Curve Loop(2) = {5 : 7};
-Plane Surface(2) = {2};
-Physical Surface("block") = {1}; Physical Surface("disc") = {2}; Physical Curve("base") = {1};
-Physical Curve("top") = {3}; Physical Curve("middle") = {4, 7}; Physical Curve("round") = {5};
-Physical Curve("load") = {6};
-"""
+QUARTER = data("friction-bodies/quarter.geo")
 PRESSED = """body block E 70e3 nu 0.3
 body disc E 210e3 nu 0.3
 contact top round friction 0.1
@@ -153,29 +100,14 @@ def test_greatest_pressures_of_two_meshes(tmp_path):
     assert abs(one - other) < first + second < 0.02 * one
 
 
-ARM = """
-Point(1) = {0, 0, 0, 0.3};
-Point(2) = {3, 0, 0, 0.15};
-Point(3) = {5, 0, 0, 0.15};
-Point(4) = {5, 1, 0, 0.3};
-Point(5) = {0, 1, 0, 0.3};
-For k In {1 : 5}
-  Line(k) = {k, k % 5 + 1};
-EndFor
-Curve Loop(1) = {1 : 5};
-Plane Surface(1) = {1};
-Physical Surface("arm") = {1};
-Physical Curve("wall") = {5};
-Physical Curve("sole") = {2};
-Physical Curve("back") = {4};
-"""
+ARM = data("friction-bodies/arm.geo")
 ROD = """body arm E 1000 nu 0.3
 obstacle sole circle 4 -5 R 5RUBS
 clamp wall
 """
 
 
-@pytest.mark.parametrize("rubs", ["", " friction 0.3"])
+@pytest.mark.parametrize("rubs", short_of([" friction 0.3"], [""]))
 def test_way_of_a_load_by_differences(tmp_path, rubs):
     """An arm that a traction presses: what a unit of the load moves it by, of the adjoint, as a greater load does."""
     ways = []
@@ -187,19 +119,7 @@ def test_way_of_a_load_by_differences(tmp_path, rubs):
     assert found["contactStiffness"] == pytest.approx((ways[1] - ways[0]) / (0.01 * 5 * sqrt(1.09)), rel=1e-5)
 
 
-HALVES = """
-SetFactory("OpenCASCADE");
-Box(1) = {-2, 0, -1, 4, 2, 1};
-Box(2) = {-1, 0, 0, 2, 1, 0.6};
-Physical Volume("low") = {1};
-Physical Volume("up") = {2};
-Physical Surface("base") = {5};
-Physical Surface("top") = {6};
-Physical Surface("foot") = {11};
-Physical Surface("head") = {12};
-Physical Surface("mirror") = {3, 9};
-Mesh.MeshSizeMax = 0.9;
-"""
+HALVES = data("friction-bodies/halves.geo")
 BLOCKS = """body low E 1000 nu 0.3
 body up E 3000 nu 0.3
 contact foot top friction 0.3
@@ -273,23 +193,7 @@ def test_all_fields_of_a_contact(tmp_path):
 
 # ---------------------------------------------------------------- slender bodies
 
-BELT = """
-Point(1) = {0, 0, 0};
-For k In {0 : 1}
-  r = 10 + 0.2 * k;
-  Point(10 * k + 2) = {r, -6, 0}; Point(10 * k + 3) = {r, 0, 0}; Point(10 * k + 4) = {0, r, 0};
-  Point(10 * k + 5) = {-r, 0, 0}; Point(10 * k + 6) = {-r, -6, 0};
-  Line(10 * k + 2) = {10 * k + 2, 10 * k + 3};
-  Circle(10 * k + 3) = {10 * k + 3, 1, 10 * k + 4}; Circle(10 * k + 4) = {10 * k + 4, 1, 10 * k + 5};
-  Line(10 * k + 5) = {10 * k + 5, 10 * k + 6};
-EndFor
-Line(6) = {6, 16}; Line(7) = {12, 2};
-Curve Loop(1) = {2 : 5, 6, -15, -14, -13, -12, 7};
-Plane Surface(1) = {1};
-Physical Surface("belt") = {1}; Physical Curve("inner") = {3, 4}; Physical Curve("slack") = {7};
-Physical Curve("tight") = {6};
-Mesh.MeshSizeMax = 0.9;
-"""
+BELT = data("friction-bodies/belt.geo")
 BELTED = """body belt E 2000 nu 0.3
 obstacle inner circle 0 0 R 10 friction MU
 traction slack 0 -1
@@ -297,7 +201,7 @@ move tight 0 -0.3
 """
 
 
-@pytest.mark.parametrize("friction, thick", [(0.8, 0.2), (0.8, 0.04), pytest.param(0.3, 0.2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("friction, thick", short_of([(0.8, 0.04)], [(0.8, 0.2), (0.3, 0.2)]))
 def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """It slips: the tensions' ratio is Euler's, of a belt that is pulled in its middle and rubs at its inner side.
 
@@ -316,22 +220,7 @@ def test_belt_over_half_a_turn(tmp_path, friction, thick):
     assert belt.summary["outOfBalance"] < 1e-8
 
 
-WEDGE = """
-Point(1) = {0, 0, 0};
-Point(2) = {0.5, 0, 0};
-Point(3) = {0.75149, 1, 0};
-Point(4) = {0, 1, 0};
-For k In {1 : 4}
-  Line(k) = {k, k % 4 + 1};
-EndFor
-Curve Loop(1) = {1 : 4};
-Plane Surface(1) = {1};
-Physical Surface("wedge") = {1};
-Physical Curve("flank") = {2};
-Physical Curve("head") = {3};
-Physical Curve("mirror") = {4};
-Mesh.MeshSizeMax = 0.1047;
-"""
+WEDGE = data("friction-bodies/wedge.geo")
 WEDGED = """body wedge E 2503.75 nu 0.04
 obstacle flank plane 0.5 0 -1 0.25149 friction 0.2575
 symmetry mirror
@@ -348,9 +237,9 @@ def test_wedge_let_go(tmp_path):
     assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
-def test_sample_of_the_campaign(tmp_path):
+@pytest.mark.parametrize("kinds", short_of([("block",)], [(("fit", "wedge", "belt"),)]))
+def test_sample_of_the_campaign(tmp_path, kinds):
     """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
-    kinds = "fit", "block", "wedge", "belt"
     command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]
     code, stdout = execute(command)
     assert code == 0 and stdout.count(" 0 failed") == len(kinds), stdout
@@ -369,3 +258,57 @@ def test_moment_of_a_twisted_fit(tmp_path):
         assert slips * 8 < moments[-1] < slips * 8.05
         assert run.summary["prescribed"][0]["error"] < 2e-3 * moments[-1]
     assert moments[0] == pytest.approx(moments[1], rel=1e-4)
+
+
+SLIDERS = """
+For k In {0 : 1}
+  left = k / 2;
+  right = 2 - k / 2;
+  Point(4 * k + 1) = {left, k, 0, H}; Point(4 * k + 2) = {right, k, 0, H};
+  Point(4 * k + 3) = {right, k + 1, 0, H}; Point(4 * k + 4) = {left, k + 1, 0, H};
+  For l In {1 : 4}
+    Line(4 * k + l) = {4 * k + l, 4 * k + l % 4 + 1};
+  EndFor
+  Curve Loop(k + 1) = {4 * k + 1 : 4 * k + 4};
+  Plane Surface(k + 1) = {k + 1};
+EndFor
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("floor") = {3};
+Physical Curve("right") = {2}; Physical Curve("left") = {4};
+Physical Surface("slider") = {2}; Physical Curve("sole") = {5}; Physical Curve("grip") = {7};
+"""
+
+
+def test_normal_force_of_tilted_normals(tmp_path):
+    """Where surfaces bend, shears bear a part of the load: the balance alone does not tell the normal force."""
+    text = "body block E 300 nu 0.4\nbody slider E 1000 nu 0.4\nclamp base\ncontact sole floor friction 0.3\n"
+    text += "force grip 0 -8\n"
+    run = case(tmp_path, SLIDERS.replace("H", "0.25"), text, "-distance", "exact", "-estimate", 1)
+    normal = run.summary["estimates"]["contacts"][0]["normalForce"]
+    assert 1e-3 < normal["error"] < 1e-2 and abs(normal["value"] - 8.0125) < 3 * normal["error"]
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.15])
+def test_two_contacts_at_a_corner(tmp_path, friction):
+    """What one contact's shear carries there is another's normal force: forces are known to that, on any mesh."""
+    geo = re.sub("For k In .0 : 1.", "For k In {0 : 0}", SLIDERS[: SLIDERS.index('Physical Surface("slider')])
+    text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\n"
+    text += f"obstacle left plane 0 0 1 0 friction {friction}\npressure floor 1\npressure right 0.5\n"
+    errors, truth = [], None
+    for size in (0.4, 0.2, 0.1):
+        run = case(tmp_path / str(size), geo.replace("H", str(size)), text, "-estimate", 1)
+        base, left = run.summary["contacts"]
+        told = [c["normalForce"] for c in run.summary["estimates"]["contacts"]]
+        found = [np.linalg.norm(base["shearForce"]), np.linalg.norm(left["shearForce"]), *(n["value"] for n in told)]
+        errors.append([c["mesh"]["shearForce"]["error"] for c in (base, left)] + [n["error"] for n in told])
+        if truth is not None:
+            assert (abs(np.array(found) - truth) < np.array(errors[-1]) + errors[-2]).all()
+        truth = np.array(found)
+    assert 1e-4 < max(errors[-1]) < 0.02 and max(errors[-1]) < 0.5 * max(errors[0])
+
+
+def test_points_that_the_true_distance_loses(tmp_path):
+    """A warning names them, and no change of nothing."""
+    text = "body block E 1000 nu 0\nbody slider E 1000 nu 0\nmove base -0.7 0\ncontact sole floor\nforce grip 0 -1\n"
+    run = case(tmp_path, SLIDERS.replace("H", "0.25"), text, "-estimate", 1)
+    (warning,) = (text for text in run.summary["warnings"] if "linearised" in text)
+    assert re.search("[23] points in contact have nothing opposite", warning)

@@ -9,14 +9,12 @@ import subprocess
 import time
 
 import pytest
-from freefem import FREEFEM, ROOT, being_written, environment, execute, files, listing, run_in, script, tree
+from freefem import FREEFEM, ROOT, being_written, environment, execute, files, listing, run_in, script, short_of, tree
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
 SCENES = [DISC, TWO_BODIES, BLOCK]
-FLAGS = (
-    "-E -nu -width -depth -u0 -gap -kappa -m -d0 -rho -h -order -T0 -eps -tol -maxNewton -maxAdaptations -steps".split()
-)
-FLAGS += ["-method", "-out"]
+FLAGS = "-E -nu -width -depth -u0 -gap -kappa -m -d0 -rho -h -order -T0 -eps -tol -maxNewton -maxAdaptations".split()
+FLAGS += ["-steps", "-method", "-out"]
 RESULTS = ["adaptations.csv", "contact.csv", "contact.vtu", "history.csv", "solution.vtu", "summary.json"]
 COARSE = ["-h", 2, "-order", 1, "-estimate", 0]
 BARE = {"PATH": "/usr/bin:/bin"}  # nothing else in the environment
@@ -147,14 +145,7 @@ def test_from_any_folder(name, package, tmp_path):
 
 def test_modules_are_the_package_s(package, tmp_path):
     """The starter shall read no module, script or Python module of the present folder in place of the package's."""
-    for name in (
-        "case/flags.idp",
-        "case/scene.idp",
-        "laws/power.idp",
-        "case/laws/power.idp",
-        "main.edp",
-        "scenes/wavy.edp",
-    ):
+    for name in "case/flags.idp case/scene.idp laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
         (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
         (tmp_path / name).write_text('cout << "not the package" << endl; exit(3);\n')
     for name in ("numpy", "argparse", "csv", "matplotlib"):
@@ -349,16 +340,10 @@ def test_folder_moved_during_a_run(flags, tmp_path):
 
 @pytest.mark.parametrize(
     "limit, flags",
-    [
-        (0, []),
-        (20000, []),
-        (1000, ["-states", "1"]),
-        (60000, ["-states", "1"]),
-        *(
-            pytest.param(limit, flags, marks=pytest.mark.long)
-            for limit, flags in ((700, []), (5000, []), (40000, ["-states", "1"]))
-        ),
-    ],
+    short_of(
+        [(0, []), (20000, []), (1000, ["-states", "1"]), (60000, ["-states", "1"])],
+        [(700, []), (5000, []), (40000, ["-states", "1"])],
+    ),
 )
 def test_disk_full(tmp_path, limit, flags):
     """When files cannot be written to their end, the run shall fail, say so, and keep none of them."""

@@ -6,43 +6,15 @@ from itertools import product
 
 import numpy as np
 import pytest
-from freefem import LAW, OPEN, WALL, snippet, told
+from freefem import LAW, OPEN, WALL, data, snippet, told
 
 getcontext().prec = 40
 
-PRELUDE = """
-string scene = "unit";
-include "case/flags.idp"
-include "case/output.idp"
-include "laws/all.idp"
-include "solve/methods/all.idp"
-include "case/scheme.idp"
-flagsDone("unit");
-int rows;
-ifstream in("rows.txt");
-in >> rows;
-"""
+PRELUDE = data("laws/prelude.edp")
 
-LAW_ROWS = """
-real[int] given(rows), found(rows), gradient(rows), energy(rows), back(rows);
-for (int i = 0; i < rows; i++) in >> given[i];
-lawPressure(given, found, gradient);
-tell("pressure", found); tell("slope", gradient);
-lawPotential(given, energy);
-tell("potential", energy);
-lawInverse(found, back);
-tell("inverse", back);
-"""
+LAW_ROWS = data("laws/law-rows.edp")
 
-GRAPH_ROWS = """
-real[int] shats(rows), phats(rows), ks(rows), taus(rows), sg(rows), pg(rows), dg(rows);
-int[int] stateg(rows);
-for (int i = 0; i < rows; i++) in >> shats[i] >> phats[i] >> ks[i] >> taus[i];
-graphPoint(shats, phats, ks, taus, sg, pg, dg, stateg);
-tell("s", sg); tell("p", pg); tell("slope", dg);
-for (int i = 0; i < rows; i++) dg[i] = stateg[i];
-tell("state", dg);
-"""
+GRAPH_ROWS = data("laws/graph-rows.edp")
 
 
 # stiffness and exponent: the ends of their ranges and the usual ones; between them in the long run

@@ -1,32 +1,9 @@
 """Products with the kernel of many points without its matrix: against the matrix, and whole runs."""
 
 import pytest
-from freefem import ROOT, run, run_in, scene_text, script, snippet, told, tree
+from freefem import ROOT, data, run, run_in, scene_text, script, short_of, snippet, told, tree
 
-PRODUCTS = """
-topNodes = 100;                               // three grids of few points
-setUpContact();
-{
-    int[int] all(points);
-    for (int i = 0; i < points; i++) all[i] = i;
-    real[int] v(points); real[int] column(points); real[int] fast(points); real[int] slow(points);
-    for (int test = 0; test < 2; test++)
-    {
-        kernelTest(0, v);
-        if (test == 1) v = 0;
-        v[points / 2] += test;
-        levelsTimes(v, fast);
-        slow = 0;
-        for (int j = 0; j < points; j++)
-        {
-            kernelColumn(all, kernelCell, j, column);
-            slow += v[j] * column;
-        }
-        fast -= slow; tell("off" + test, fast.l2 / slow.l2);
-    }
-    tell("levels", levels);
-}
-"""
+PRODUCTS = data("levels/products.edp")
 
 
 @pytest.mark.parametrize(
@@ -48,21 +25,8 @@ def test_products(scene, flags, tmp_path):
     assert values["off1"][0] < 0.02
 
 
-TURNED = """SetFactory("OpenCASCADE");
-Box(1) = {0, 0, -1, 3, 2, 1};
-Rotate {{0, 0, 1}, {0, 0, 0}, Atan(0.75)} { Volume{1}; }
-f() = Abs(Boundary{ Volume{1}; });
-Physical Volume("block") = {1}; Physical Surface("left") = {f(0)}; Physical Surface("side") = {f(1)};
-Physical Surface("front") = {f(2)}; Physical Surface("base") = {f(4)}; Physical Surface("top") = {f(5)};
-Mesh.MeshSizeMax = 0.22;
-"""
-TURNED_CASE = """body block E 1 nu 0.3
-obstacle top plane 0 0 1 0 0 -1
-obstacle side plane 1.8 2.6 0 -0.8 -0.6 0
-symmetry left
-symmetry front
-clamp base
-"""
+TURNED = data("levels/turned.geo")
+TURNED_CASE = data("levels/turned-case.case")
 
 
 def test_products_of_a_case(tmp_path):
@@ -80,43 +44,7 @@ def test_products_of_a_case(tmp_path):
     assert values["off1"][0] < 0.02
 
 
-SYNTHETIC = """
-int side = countFlag("-side", 60, "points a side", 2, 1000);
-flagsDone("a grid of points on a half-space, in a quarter");
-macro grown(field) field.resize(points);
-field = 0; //
-points = side * side;
-grown(pointX) grown(pointY) grown(pointZ) grown(normalX) grown(normalY) grown(normalZ)
-grown(weight) grown(overlapBefore) grown(immobile) grown(paired) grown(contactOf)
-paired = 1; normalZ = 1; verticalGaps = true; mirrorX = true; mirrorY = true; copies = 4; patch = 6;
-contactLength = patch; weight = 4 * (patch / (side - 1.))^2;
-for (int i = 0; i < points; i++)
-{
-    int place = (7919 * i) % points;          // in no order
-    int row = place / side; int column = place % side; pointX[i] = patch * column / (side - 1.);
-    pointY[i] = patch * row / (side - 1.);
-    if (column == 0 || column == side - 1) weight[i] *= 0.5;
-    if (row == 0 || row == side - 1) weight[i] *= 0.5;
-    overlapBefore[i] = -(pointX[i]^2 + pointY[i]^2) / (2 * radius);
-}
-localCompliance = (1 - nu * nu) / (pi * youngModulus);
-pressBy(u0);
-tell("hertz", 4. / 3 * youngModulus / (1 - nu * nu) * sqrt(radius) * (u0 - d0)^1.5);
-setUpContact();
-setUpPreconditioner();
-noteKernel(true);
-kernelC = 0; preconditionerInUse = "kernel";
-applyLoad(1.);
-sFree = sRest;
-firstThreshold();
-solveOnCoarse();
-tell("stride", startStride);
-solveOnFine();
-modelInPlace = true;
-productsOf(q, Cq, 0, true);
-presentOverlaps();
-real[int] forces = q; tell("residual", residualNow()); tell("force", forces.sum);
-"""
+SYNTHETIC = data("levels/synthetic.edp")
 
 
 @pytest.mark.parametrize("side", [pytest.param(45, marks=pytest.mark.long), pytest.param(224, marks=pytest.mark.long)])
@@ -129,13 +57,10 @@ def test_start(side, tmp_path):
     assert values["force"][0] == pytest.approx(values["hertz"][0], rel=0.02)
 
 
-@pytest.mark.parametrize(
-    "scene, flags",
-    [
-        ("rough", ["-order", 1, "-h", 0.2]),
-        pytest.param("sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9], marks=pytest.mark.long),
-    ],
-)
+STIFF = "sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9]
+
+
+@pytest.mark.parametrize("scene, flags", short_of([("rough", ["-order", 1, "-h", 0.2])], [STIFF]))
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")

@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from freefem import ROOT, being_written, files, named, run, scene_text, snippet, told
+from freefem import ROOT, being_written, data, files, named, run, scene_text, snippet, told
 
 E, NU = 100.0, 0.3
 LAME = E * NU / ((1 + NU) * (1 - 2 * NU))
@@ -14,16 +14,7 @@ CONFINED = LAME + 2 * SHEAR  # M = E (1 - nu) / ((1 + nu) (1 - 2 nu))
 
 # ---------------------------------------------------------------- case/flags.idp
 
-FLAGS = """
-include "case/flags.idp"
-real alpha = numberFlag("-alpha", 1.5, "length", "a real number", 0, 10);
-int count = countFlag("-count", 3, "a whole number", 1, 5);
-string word = wordFlag("-word", "one", "a word", "one two");
-string text = textFlag("-text", "any", "a text", "any text");
-flagsDone("What the script is for.");
-tell("alpha", alpha); tell("count", count);
-cout << "word " << word << endl << "text " << text << endl;
-"""
+FLAGS = data("modules/flags.edp")
 
 
 @pytest.mark.parametrize("text", ["0.12345678901234567", "+2", "1E-30", ".5", "5."])
@@ -77,19 +68,7 @@ def test_help(tmp_path, help_flag):
 
 # ---------------------------------------------------------------- case/output.idp
 
-OUTPUT = """
-include "case/flags.idp"
-include "case/output.idp"
-cout << "root [" << repositoryRoot << "]" << endl;
-cout << "quoted [" << quoted("it's") << "]" << endl;
-openOutput("folder of results", "");
-{
-    ofstream f(temporary("history.csv"));
-    f << "a,b" << endl << "1,2" << endl;
-    wholeAt("history.csv", f.tellp + CUT);
-}
-publish();
-"""
+OUTPUT = data("modules/output.edp")
 
 
 def test_output_cut_off_is_not_published(tmp_path):
@@ -115,13 +94,7 @@ real[int] values = [0.5, 0.25, 0.75, 0.125, 0];
 Th = gmshMesh("block", names, values, 40.);
 """
 
-GROUPS = """
-real area = int2d(Th)(1.); tell("area", area);
-int contactLine = group("contact"); int clampedLine = group("clamped");
-real contactLength = int1d(Th, contactLine)(1.); real contactY = int1d(Th, contactLine)(y) / contactLength;
-real clampedLength = int1d(Th, clampedLine)(1.); real[int] lines = [contactLength, contactY, clampedLength];
-tell("lines", lines);
-"""
+GROUPS = data("modules/groups.edp")
 
 
 def test_mesh_has_its_named_groups(tmp_path):
@@ -142,17 +115,7 @@ def test_unknown_group_is_refused(tmp_path):
 # the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
 BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]
 
-ENERGY = """
-func real energyOf(real[int] & v)
-{
-    real[int] free = v .* released;        // held dofs are held on the diagonal
-    real[int] product = stiffness * free;
-    return 0.5 * (v' * product);
-}
-fespace Uh(Th, ELEMENT);
-Uh [a1, a2] = [0, -0.01 * y]; tell("pressed", energyOf(a1[]));
-Uh [b1, b2] = [0, 0.01 * x * y]; tell("sheared", energyOf(b1[]));
-"""
+ENERGY = data("modules/energy.edp")
 
 
 @pytest.mark.parametrize("order", [1, 2, 4])
@@ -191,28 +154,7 @@ def test_body_load(tmp_path):
 
 # ---------------------------------------------------------------- bodies/half.idp
 
-HALVES = """include "case/flags.idp"
-include "bodies/half.idp"
-Th = square(3, 2);
-fespace Vh(Th, [P2, P2]);
-varf form([u, v], [a, b]) = int2d(Th)(dx(u) * dx(a) + dy(v) * dy(b) + u * a + v * b + dx(u) * dy(b) + dy(v) * dx(a));
-matrix full = form(Vh, Vh);
-matrix assembled = form(Vh, Vh, sym = 1);
-if (!assembledHalf()) halve(assembled);
-matrix halved = full;
-halve(halved);
-tell("stored", real(assembled.nnz) - halved.nnz);
-real[int] b(Vh.ndof);
-for (int i = 0; i < b.n; i++) b[i] = cos(2. * i);
-real[int] product = full * b; real[int] difference = halved * b; difference -= product;
-tell("product", difference.linfty);
-halved += assembled; difference = halved * b; difference -= product; difference -= product;
-tell("sum", difference.linfty);
-set(full, solver = "UMFPACK");
-set(halved, solver = "CHOLMOD", sym = 1, positive = 1);
-difference = halved^-1 * b; difference *= 2;
-real[int] solved = full^-1 * b; difference -= solved; tell("solution", difference.linfty / solved.linfty);
-"""
+HALVES = data("modules/halves.edp")
 
 
 def test_half_matrices(tmp_path):
@@ -223,14 +165,7 @@ def test_half_matrices(tmp_path):
 
 # ---------------------------------------------------------------- surface/slave.idp
 
-POINTS = """
-tell("x", pointX); tell("y", pointY); tell("weight", weight);
-fespace Uh(Th, ELEMENT);
-Uh [a1, a2] = [100 + x, 10 * x + y];
-real[int] trace(points);
-overlapOf(a1[], trace);
-tell("trace", trace);
-"""
+POINTS = data("modules/points.edp")
 # points inside an edge from -1 to 1
 INSIDE = {1: [], 2: [0], 3: [-np.sqrt(1 / 5), np.sqrt(1 / 5)], 4: [-np.sqrt(3 / 7), 0, np.sqrt(3 / 7)]}
 
@@ -259,22 +194,7 @@ def test_slave_points(tmp_path, order, element, weights):
 
 # ---------------------------------------------------------------- surface/pair-plane.idp
 
-MASTER = """
-fespace Uh(Th, ELEMENT);
-real[int] seen(points);
-tell("x", pointX);
-for (int i = 0; i < points; i++) seen[i] = paired[i];
-tell("paired", seen); tell("unpaired", pointsUnpaired);
-Uh [a1, a2] = [7, 3]; seen = overlapMap * a1[]; tell("rigid", seen);
-Uh [b1, b2] = [x * y, 0]; seen = overlapMap * b1[]; tell("sideways", seen);
-Uh [s1, s2] = [0, 0];
-for (int n = 0; n < nodes; n++) s1[][nodeDof(n, 0)] = nodeAt(n, 0);
-Uh [c1, c2] = [0, (region == disc) * (2 - 3 * s1)]; seen = overlapMap * c1[]; tell("linear", seen);
-Uh [d1, d2] = [0, (region == disc) * (2 - 3 * x + 0.5 * x^2)]; seen = overlapMap * d1[];
-tell("quadratic", seen);
-Uh [e1, e2] = [0, (region == block) * (2 - 3 * x + 0.5 * x^2)]; seen = overlapMap * e1[];
-tell("slave", seen);
-"""
+MASTER = data("modules/master.edp")
 
 
 @pytest.mark.parametrize(
@@ -304,14 +224,7 @@ def test_master_map(tmp_path, order, element, h, surface):
         np.testing.assert_allclose(values["quadratic"], -(2 - 3 * x + 0.5 * x**2), **near)
 
 
-COVERED = """
-fespace Uh(Th, ELEMENT);
-tell("weight", weight);
-real[int] seen(points);
-for (int i = 0; i < points; i++) seen[i] = paired[i];
-tell("paired", seen);
-Uh [c1, c2] = [0, (region == upper) * (2 - 3 * x)]; seen = overlapMap * c1[]; tell("linear", seen);
-"""
+COVERED = data("modules/covered.edp")
 
 
 SHORT, LONG = (0.62, 1), (0.35, 0.56, 0.74, 0.8)
@@ -342,29 +255,7 @@ def test_partly_covered(tmp_path, share, order, element):
 # ---------------------------------------------------------------- problem/problem.idp
 
 # The solver's overlaps are made wrong by a share of the greatest one, and the displacement by a share of itself.
-SPOILT = """
-include "solve/solve.idp"
-real[int] right = Cq; real[int] overlaps = shat; real[int] u = displacement;
-func int tellAgain(string name)
-{
-    goOn();
-    judgeOverlaps();
-    tell(name, converged);
-    Cq = right; shat = overlaps; displacement = u;
-    return 0;
-}
-tellAgain("right");
-real share = 1e-5 * max(right.linfty, approach); int most = 0;
-for (int i = 0; i < points; i++) if (paired[i] && q[i] > q[most]) most = i;
-Cq[most] += 0.5 * share; shat[most] += 0.5 * share;
-tellAgain("little");
-Cq[most] += 2 * share; shat[most] += 2 * share;
-tellAgain("much");
-Cq[most] -= 2 * share; shat[most] -= 2 * share;
-tellAgain("less");
-displacement *= 1.001;
-tellAgain("moved");
-"""
+SPOILT = data("modules/spoilt.edp")
 
 
 @pytest.mark.parametrize("flags", ["", "-method paper", "-force 80", "-law signorini -tol 1e-12"])
@@ -386,44 +277,7 @@ def test_overlaps_of_the_displacement(flags, tmp_path):
 # ---------------------------------------------------------------- solve/full-system.idp
 
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
-TANGENT = """
-applyLoad(1.);
-walled = false; lambda = 0;
-func int traceOf(real[int] & u, real[int] & trace)
-{
-    if (selection) trace = u(pointDof);
-    else trace = overlapMap * u;
-    return 0;
-}
-func int imbalance(real[int] & u, real[int] & G)
-{
-    real[int] overlap(points), pressure(points), unused(points);
-    traceOf(u, overlap);
-    overlap += sRest; lawPressure(overlap, pressure, unused);
-    pressure = pressure .* weight; G = stiffness * u; G -= bodyLoad; real[int] spread(ndof); spread = 0;
-    if (selection) spread(pointDof) += pressure;
-    else spread = overlapMap' * pressure;
-    G += spread;
-    return 0;
-}
-real[int] uBefore(ndof), fullStep(ndof), G0(ndof), Gplus(ndof), Gminus(ndof), trace(points); displacement = 0;
-for (int k = 1; k <= 5; k++)
-{
-    uBefore = displacement; traceOf(uBefore, trace);
-    s = sRest + trace; lawPressure(s, p, slope);
-    for (int i = 0; i < points; i++) state[i] = slope[i] > 0 ? compliant : open;
-    solveLinearised();
-    if (k != 2 && k != 5) continue;
-    fullStep = displacement - uBefore;
-    imbalance(uBefore, G0);
-    real smallness = 1e-5; real[int] uForward = uBefore + smallness * fullStep;
-    real[int] uBackward = uBefore - smallness * fullStep;
-    imbalance(uForward, Gplus);
-    imbalance(uBackward, Gminus);
-    real[int] JfullStep = Gplus - Gminus; JfullStep /= 2 * smallness; real[int] tangentError = JfullStep + G0;
-    tell("imbalance" + k, G0.l2); tell("error" + k, tangentError.l2);
-}
-"""
+TANGENT = data("modules/tangent.edp")
 
 
 TANGENTS = [("disc-on-block", 4), ("meshed-disc", 2), ("confined-block", 1)]

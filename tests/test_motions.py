@@ -2,86 +2,13 @@
 
 import numpy as np
 import pytest
-from freefem import short_of, snippet, told
+from freefem import data, short_of, snippet, told
 
-BEGIN = """
-string scene = "synthetic";
-macro lawsByContact() 1 //
-macro eachOption(do, what) do(floating, what) //
-macro deformableMaster() 1 //
-include "case/flags.idp"
-include "case/output.idp"
-preset("-law", "signorini");
-preset("-d0", "0");
-include "laws/all.idp"
-include "solve/methods/all.idp"
-include "case/scheme.idp"
-include "solve/solver.idp"
-flagsDone("A contact problem of given matrices.");
-localCompliance = 1;
-real[int] read(0);
-func int readAll(string name)
-{
-    int n = 0;
-    {
-        ifstream f(name);
-        f >> n;
-    }
-    read.resize(n);
-    ifstream f(name);
-    f >> read;
-    return n;
-}
-macro readInto(field) readAll(Stringification(field)); field.resize(read.n); field = read; //
-points = readAll("pointX");
-ndof = points + 1;             // the last moves no point
-readInto(pointX)
-readInto(weight)
-readInto(overlapBefore)
-macro zero(field, n) field.resize(n); field = 0; //
-macro none(field) zero(field, points) //
-none(pointY) none(pointZ) none(normalX) none(normalY) none(normalZ) none(placeOnEdge) none(immobile) none(paired)
-zero(displacement, ndof) zero(bodyLoad, ndof) zero(wholeLoad, ndof) zero(chainClosed, CONTACTS)
-normalY = 1; paired = 1; along.resize(points); along = pointX; contactOf.resize(points); chainOf.resize(points);
-readAll("contactOf");
-for (int i = 0; i < points; i++) contactOf[i] = lrint(read[i]);
-chainOf = contactOf;
-for (int c = 0; c < CONTACTS; c++) addContact("contact " + c, "", 0, 0, -1, false, localCompliance);
-contactLength = pointX.max - pointX.min;
-{
-    real[int,int] K(ndof, ndof);
-    K = 0;
-    K(points, points) = 1;
-    readAll("K");
-    for (int i = 0; i < points; i++) for (int j = 0; j < points; j++) K(i, j) = read[i * points + j];
-    stiffness = K;
-    halfStorage = false;
-    real[int] one(points);
-    one = 1;
-    overlapMap = [one];
-    overlapMap.resize(points, ndof);
-    selection = false;
-}
-"""
+BEGIN = data("motions/begin.edp")
 
-MOTIONS = """
-for (int k = 0; k < MOTIONS; k++) addMotion("motion " + k);
-readAll("field");
-for (int k = 0; k < motions; k++) for (int i = 0; i < ndof; i++) motionField(i, k) = read[i * motions + k];
-readInto(motionTarget)
-readAll("motionStiffness");
-for (int k = 0; k < motions; k++) for (int l = 0; l < motions; l++) motionStiffness(k, l) = read[k * motions + l];
-"""
+MOTIONS = data("motions/motions.edp")
 
-END = """
-include "solve/solve.idp"
-tell("q", q); tell("overlap", shat); tell("Cq", Cq);
-if (motions > 0) tell("motion", motion);
-real[int] fixed(motions);
-for (int k = 0; k < motions; k++) fixed[k] = motionFixed[k];
-if (motions > 0) tell("fixed", fixed);
-tell("converged", converged); tell("newton", newtonSteps); tell("backsolves", backsolves);
-"""
+END = data("motions/end.edp")
 
 
 class Problem:
@@ -208,11 +135,8 @@ def test_load_away_from_the_contact(tmp_path):
     """A load that contact cannot push against shall be refused by name: there is no equilibrium."""
     problem = Problem(1, motions=1)
     problem.t *= -1
-    assert (
-        problem.solve(tmp_path, expect=10)
-        .splitlines()[-1]
-        .startswith("motion 0: a load works on it, but no contact can push")
-    )
+    said = problem.solve(tmp_path, expect=10).splitlines()[-1]
+    assert said.startswith("motion 0: a load works on it, but no contact can push")
 
 
 @pytest.mark.parametrize("seed", [7, pytest.param(8, marks=pytest.mark.long)])

@@ -65,7 +65,7 @@ CASES = [
     ["patch-test-3d"],
     ["patch-test-3d", "-order", 2, "-lower", 3, "-upper", 4],
 ]
-QUICK = {(1, 1), (8, 2)}
+QUICK = {(8, 2)}
 RUNS = [
     pytest.param(CASES[k], ranks, marks=[] if (k, ranks) in QUICK else [pytest.mark.long])
     for k in range(len(CASES))
@@ -104,6 +104,7 @@ sys.exit(code)
 
 
 @built
+@pytest.mark.long
 def test_products_are_freed(tmp_path):
     """Two ranks: what PETSc's products of matrices keep is freed; the peak falls, no digit changes, PETSc is silent."""
     peaks, found = [], []

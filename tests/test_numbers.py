@@ -8,7 +8,7 @@ import campaign
 import pytest
 import stability
 import tables
-from freefem import short_of
+from freefem import data, short_of
 from page_numbers import PAGES, ROOT, differing, like, renewed, run, units
 
 TEXTS = {path: path.read_text() for path in PAGES}
@@ -48,24 +48,7 @@ def test_written_alike(old, value, new):
     assert like(old, value) == new
 
 
-PAGE = """
-```sh
-FreeFem++ -nw -v 0 edp/scenes/confined-block.edp -h 10 -tol 1e-12
-```
-
-<!-- let: twice = 2 * force -->
-In all 540.0<!--= twice --> of 270.80<!--= force -->, less than < 1e-9<!--= residual --> and < 0.1 %<!--= 0.002 -->.
-
-<!-- run: edp/scenes/confined-block.edp -h {c[1]} -tol 1e-12 -->
-| flags | h | `newton` | exit code |
-|---|---|---|---|
-| any | `10` 5 | 7 | 0 |
-<!-- run: edp/scenes/confined-block.edp {c[0]} -tol 1e-12 -->
-<!-- columns: force / 10; force / 20; _ | -->
-| flags | a | b |
-|---|---|---|
-| `-h 10` | 27.1 (14.1) of 7 | 5 |
-"""
+PAGE = data("numbers/page.txt")
 
 
 def test_a_page():
@@ -102,7 +85,7 @@ def as_if(item, further):
     return {name: "" if value is None else str(value) for name, value in {**row, **dict.fromkeys(further, 7)}.items()}
 
 
-@pytest.mark.parametrize("name", short_of(["paper", "newton-map", "counts-map"], SAMPLED))
+@pytest.mark.parametrize("name", short_of(["paper", "newton-map"], SAMPLED))
 def test_sample_of_a_campaign(name, tmp_path):
     """Six of the runs that a table is made of, three of a short test, shall give the cells that stand there."""
     file, made = tables.TABLES[name]

@@ -4,7 +4,7 @@ import re
 
 import pages
 from freefem import ROOT, run, run_in, snippet
-from test_contracts import EDP, MODULES, owners, part, uses
+from test_contracts import EDP, MODULES, owners, uses
 
 LIST = (EDP / "case/hooks.idp").read_text()
 OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
@@ -23,9 +23,10 @@ def flags_of(name):
 
 
 def beside(option):
-    """The options whose names an option may use: those in the Needs of its files."""
-    needs = " ".join(part(name, "Needs") for name in MODULES if option_of(name) == option)
-    return set(re.findall(r"\boptions/(\w+)/", needs)) - {option}
+    """The options whose names an option uses, unless the core or itself has them too."""
+    users = [name for name in MODULES if option_of(name) == option]
+    found = [set(map(option_of, owners()[word])) for name in users for word in uses(name)]
+    return set().union(*(of for of in found if not of & {"", option}))
 
 
 def test_list():

@@ -5,7 +5,7 @@ import os
 import freefem
 import numpy as np
 import pytest
-from freefem import ROOT, execute, run, run_in, script
+from freefem import ROOT, execute, run, run_in, script, short_of
 
 PUNCH = ROOT / "edp/examples/punch"
 LAW = "law power kappa 1e3 m 3 d0 -0.05"
@@ -168,15 +168,11 @@ def narrow(name, keep):
     return change
 
 
-@pytest.mark.parametrize(
-    "curve, keep, points",
-    [
-        ("contact", lambda x: x > 0.5, []),
-        pytest.param("contact", lambda x: x < 0.5, ["-points", "nodal"], marks=pytest.mark.long),
-        pytest.param("master", lambda x: abs(x) < 1, [], marks=pytest.mark.long),
-        pytest.param("master", lambda x: abs(x) < 1, ["-points", "nodal"], marks=pytest.mark.long),
-    ],
-)
+NODAL = ["-points", "nodal"]
+OTHERS = [("contact", lambda x: x < 0.5, NODAL), *(("master", lambda x: abs(x) < 1, more) for more in ([], NODAL))]
+
+
+@pytest.mark.parametrize("curve, keep, points", short_of([("contact", lambda x: x > 0.5, [])], OTHERS))
 def test_contact_cut_off(mesh, tmp_path, curve, keep, points):
     """Contact that reaches the end of a curve that stops in the middle of the body's side shall be said."""
     short = spoilt(mesh, tmp_path, narrow(curve, keep))

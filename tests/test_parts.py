@@ -8,11 +8,10 @@ import subprocess
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, MOVED, ROOT, Run, execute, flag_text, part, script, snippet, told
+from freefem import FREEFEM, MOVED, ROOT, Run, data, execute, flag_text, part, script, snippet, told
 
 from postprocess.closed_forms import pin_angle, pin_pressure, plane_modulus
 
-PLANE_GROUPS = {1: "bottom", 2: "right", 3: "top", 4: "left"}
 SPACE_GROUPS = {1: "back", 2: "front", 3: "left", 4: "right", 5: "bottom", 6: "top"}
 UNTURNED = np.eye(3)
 STEEL = "body block E 100 nu 0.3\n"
@@ -170,52 +169,7 @@ def refusals(text, good=GOOD):
         yield {"+ ": good + lines, "- ": f"{lines}\n{good}"}.get(kind, good.replace(old, other)), words
 
 
-REFUSED = """
-+ clampp left | line 4: clampp: unknown statement; did you mean clamp (no displacement)? allowed:
-+ clamp lfet | line 4: lfet: no physical curve of the mesh; did you mean left? allowed: bottom right top left
-+ clamp block | block: a surface of the mesh; allowed for clamp: its curves: bottom right top left
-+ weight left 0 1 | left: a curve of the mesh; allowed for weight: its surfaces: block
-+ clamp | a name is missing after clamp; allowed: clamp NAME
-+ clamp left 3 | 3: more than the statement takes; allowed: clamp NAME
-+ clamp "left | a quote that does not end
-+ clamp "" | an empty name
-+ clamp "left"x | no blank after the quote
-+ clamp bottom | line 4: bottom: clamp after clamp in line 2; allowed: one of clamp, symmetry, move, rotate, force
-+ move bottom 0 1 | bottom: move after clamp in line 2
-+ body block E 3 nu 0 | body block: stated before, in line 1; allowed: once
-+ units mm | units: 1 words after it
-+ units mm MPa / units m Pa | line 5: units: stated before, in line 4
-+ state strain | state: after line 1; allowed: before all statements
-- state strian | strian: unknown; did you mean strain? allowed: state strain, stress or axisymmetric
-- thickness -1 | -1: the thickness is out of range; allowed: above 0
-- state axisymmetric / thickness 2 | line 2: thickness with state axisymmetric
-+ force left 0 0 | the force is 0 in every direction
-+ obstacle top circle 1.5 5 R 3 | this obstacle of top: stated before, in line 3
-+ contact left left | left: slave and master are the same; allowed: two groups
-+ contact left right / contact right left | contact of right and left: stated before, in line 4
-+ contact left right law powr | powr: unknown law; did you mean power? allowed: power kappa m d0
-+ contact left right law power kappa 1 m 3 | law power: d0 is missing; allowed: law power with kappa m d0
-+ contact left right law power kappa 1 m 0.5 d0 -1 | 0.5: m is out of range; allowed: above 1 and below 1000
-+ contact left right law barrier kappa 1 | kappa: not a parameter of the law barrier; allowed: p0 d0
-+ contact left right law barrier p0 1 p0 2 d0 -1 | p0: given twice
-+ contact left right law table none.csv d0 -1 | none.csv: no such file, or empty
-+ contact left right kappa 3 | kappa: not allowed here; allowed: contact SLAVE MASTER [gap vertical]
-+ contact bottom right | line 4: bottom: a slave that line 2 holds (clamp); allowed: the other surface as slave
-+ pressure bottom 3 | line 4: bottom: a pressure on what line 2 holds (clamp) does nothing
-E 100 => E -1 | -1: Young's modulus is out of range; allowed: above 0
-0.3 => 0.5 | 0.5: Poisson's ratio is out of range; allowed: above -1 and below 0.5
-E 100 => E 1e5x | 1e5x: Young's modulus is no number; allowed: body NAME E number nu number
-E 100 => E 0x10 | 0x10: Young's modulus is no number
-E 100 => E 1e50 | 1e50: Young's modulus cannot be computed with; allowed: 0, and magnitudes
-E 100 => E 1e-400 | 1e-400: Young's modulus cannot be computed with
-E 100 => 100 | 100: not allowed here; allowed: body NAME E number nu number
-circle => circel | circel: unknown shape; did you mean circle? allowed: plane x y nx ny, circle x y R r
-circle 1.5 5 R 3 => sphere 0 0 0 R 3 | sphere: unknown shape
-R 3 => 3 | 3: not allowed here; allowed: obstacle SLAVE SHAPE
-R 3 => R 0 | 0: the radius is out of range; allowed: above 0
-circle 1.5 5 R 3 => plane 0 3 0 0 | the obstacle's direction is 0 in every direction
-move 0 -0.1 => move 0 | the obstacle's move is missing after 0
-"""
+REFUSED = data("parts/refused.txt")
 RING_CASE = "state axisymmetric\n" + GOOD
 REFUSED = [
     *refusals(REFUSED),
@@ -266,32 +220,7 @@ def solve(folder, mesh, case, *flags, expect=0, script="parts.edp"):
 
 # ---------------------------------------------------------------- supports and loads, on the bodies alone
 
-BODIES = """
-include "options/parts/case-file.idp"
-include "discretisation/discretise.idp"
-elasticSolve(bodyLoad, displacement);
-real[int] none(ndof); real[int] R(ndof); none = 0; tell("balance", supportForces(none, R));
-internalForces(displacement, none);
-real[int] energy(parts + 1); energy = 0;
-for (int i = 0; i < nodes; i++)
-    for (int c = 0; c < components; c++)
-        energy[nodeParts[i]] += 0.5 * none[nodeDof(i, c)] * displacement[nodeDof(i, c)];
-for (int p = 1; p <= parts; p++) tell("energy-" + partName[p], energy[p]);
-real[int] six(6);
-partForces(0, R, six);
-tell("reaction", six);
-partForces(0, wholeLoad, six);
-tell("load", six); tell("target", motionTarget);
-for (int m = 0; m < motions; m++) tell("stiffness" + m, motionStiffness(m, m));
-real[int] place(3);
-for (int i = 0; i < nodes; i++)
-{
-    place = 0;
-    for (int c = 0; c < components; c++) place[c] = displacement[nodeDof(i, c)];
-    tell("node-" + partName[nodeParts[i]] + "-" + i, place);
-}
-for (int m = 0; m < motions; m++) cout << "free: " << motionName[m] << endl;
-"""
+BODIES = data("parts/bodies.edp")
 
 
 def bodies(folder, mesh, case, *flags, space=False):
@@ -419,10 +348,8 @@ symmetry left / move bottom 1 1 | symmetry left: line 3 moves its node at (0, 0)
 @pytest.mark.parametrize("held, words", [line.split(" | ") for line in DISAGREEING.strip().splitlines()])
 def test_supports_that_disagree(tmp_path, held, words):
     """Two statements that hold one node in different places: refused with the place and both lines."""
-    assert (
-        words
-        in solve(tmp_path, block(Mesh()).text(), STEEL + held.replace(" / ", "\n") + "\n" + PLANE, expect=10).stdout
-    )
+    case = STEEL + held.replace(" / ", "\n") + "\n" + PLANE
+    assert words in solve(tmp_path, block(Mesh()).text(), case, expect=10).stdout
 
 
 def test_curved_symmetry(tmp_path):
@@ -769,10 +696,7 @@ def test_states_change_nothing(tmp_path):
 def test_methods(tmp_path):
     """Every method of a scene's shall find the same pressures; with -steps some load only grazes."""
     flags = ("-order", 1, "-tol", 1e-9)
-    for law, methods in (
-        (SOFT, ("paper", "newton", "incremental")),
-        ("", ("signorini", "paper")),
-    ):
+    for law, methods in ((SOFT, ("paper", "newton", "incremental")), ("", ("signorini", "paper"))):
         runs = [
             punch(tmp_path / f"{method}{len(law)}", "-method", method, *flags, exchanged=[(SOFT, law)], size=0.6)
             for method in ("xnewton", *methods)

@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from freefem import environment, listing, run_in, short_of, tree
+from freefem import environment, flag_lists, listing, run_in, short_of, tree
 
 DISC, TWO_BODIES, BLOCK = "edp/main.edp", "edp/scenes/meshed-disc.edp", "edp/scenes/confined-block.edp"
 
@@ -58,18 +58,10 @@ def test_refused_by_every_scene(package, script, flag, value, allowed):
     assert allowed in line.split("allowed", 1)[1]
 
 
-@pytest.mark.parametrize(
-    "script, flag, value",
-    [
-        (DISC, "-R", "0"),
-        (DISC, "-R", "-10"),
-        (TWO_BODIES, "-R", "0"),
-        (TWO_BODIES, "-Eratio", "0"),
-        (TWO_BODIES, "-gap", "-1"),
-        (BLOCK, "-R", "10"),
-        (DISC, "-Eratio", "1e6"),
-    ],
-)
+OWN = {DISC: "-R 0 | -R -10 | -Eratio 1e6", TWO_BODIES: "-R 0 | -Eratio 0 | -gap -1", BLOCK: "-R 10"}
+
+
+@pytest.mark.parametrize("script, flag, value", [(name, *one) for name in OWN for one in flag_lists(OWN[name])])
 def test_refused_by_one_scene(package, script, flag, value):
     """A scene's own flags shall be refused outside their range, and where the scene does not have them."""
     line = refused(package, script, "-method", "newton", flag, value)

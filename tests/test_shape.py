@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, short_of, snippet, told
+from freefem import ROOT, data, execute, part, short_of, snippet, told
 from test_parts import Mesh, block
 from test_surfaces import ring
 
@@ -39,43 +39,8 @@ def lame(inner=7, radius=10, outer=14, overlap=0.001):
     return 2 * np.pi * overlap * 1000 / (1 - 0.3**2) / bends
 
 
-FIELDS = """
-real[int] given(ndof);
-real[int,int] E(0, 0);
-real[int,int] X(0, 0);
-real[int,int] Y(0, 0);
-placeNodes(false);
-for (int k = 0; k < 2; k++)
-{
-    for (int n = 0; n < nodes; n++)
-    {
-        given[nodeDof(n, 0)] = k == 0 ? nodeAt(n, 0) : 2 * nodeAt(n, 0) + 3 * nodeAt(n, 1);
-        given[nodeDof(n, 1)] = k == 0 ? nodeAt(n, 1) : 5 * nodeAt(n, 0) + 7 * nodeAt(n, 1);
-    }
-    sideFields(given, E, X, Y);
-    real[int] seen(E.n * E.m);
-    for (int i = 0; i < seen.n; i++) seen[i] = E(i / E.m, i % E.m);
-    tell("strain" + k, seen);
-    seen.resize(X.n * X.m);
-    for (int i = 0; i < seen.n; i++) seen[i] = X(i / X.m, i % X.m);
-    tell("x" + k, seen);
-    for (int i = 0; i < seen.n; i++) seen[i] = Y(i / X.m, i % X.m);
-    tell("y" + k, seen);
-}
-doubtSplines();
-tell("doubt", splineDoubt);
-"""
-PEAK = """
-real[int] ofU(0);
-real[int] withU(0);
-real[int] rate(0);
-energyOf(displacement, ofU);
-energyWith(displacement, withU, rate);
-tell("of", ofU); tell("with", withU); tell("lack", hertzLack(peakOf(0)));
-real[int] mixture = motionUnfelt(:, 0);
-real[int] rolled = motionField * mixture;
-tell("rolled", rolled' * displacement / (rolled.l2 * displacement.l2));
-"""
+FIELDS = data("shape/fields.edp")
+PEAK = data("shape/peak.edp")
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -110,13 +75,7 @@ def test_fields_on_sides(tmp_path):
     np.testing.assert_allclose(of["doubt"][:24], turn**2 * (10 * turn) ** 4 / 384 / 10**3, rtol=1e-3)
 
 
-BRACKET = """
-Point(1)={0,0,0,1};Point(2)={30,0,0,1};Point(3)={30,4,0,1};Point(4)={6,4,0,1};Point(5)={6,6,0,1};Point(6)={4,6,0,1};
-Point(7)={4,20,0,1};Point(8)={0,20,0,1};
-Line(1)={1,2};Line(2)={2,3};Line(3)={3,4};Circle(4)={4,5,6};Line(5)={6,7};Line(6)={7,8};Line(7)={8,1};
-Curve Loop(1)={1:7};Plane Surface(1)={1};Physical Surface("bracket")={1};
-Physical Curve("foot")={3};Physical Curve("wall")={6};
-"""
+BRACKET = data("shape/bracket.geo")
 DISC = """
 Point(1)={0,0,0,0.5};Point(2)={1,0,0,0.5};Point(3)={0,1,0,0.5};Point(4)={-1,0,0,0.5};Point(5)={0,-1,0,0.12};
 Circle(1)={2,1,3};Circle(2)={3,1,4};Circle(3)={4,1,5};Circle(4)={5,1,2};Curve Loop(1)={1:4};Plane Surface(1)={1};

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, snippet, told
+from freefem import ROOT, data, run, snippet, told
 from test_parts import Mesh, block, solve, turn
 
 MIRROR = np.diag([-1.0, 1, 1])
@@ -30,20 +30,7 @@ def ring(mesh, inner, outer, edges, layers, name, groups, phase=0.0, at=0.0):
     return mesh
 
 
-POINTS = """
-real[int] seen(points);
-tell("x", pointX); tell("y", pointY); tell("normalX", normalX); tell("normalY", normalY);
-tell("gap", overlapBefore); tell("weight", weight); tell("along", along);
-for (int i = 0; i < points; i++) seen[i] = paired[i];
-tell("paired", seen);
-for (int i = 0; i < points; i++) seen[i] = contactOf[i];
-tell("contact", seen);
-for (int i = 0; i < points; i++) seen[i] = chainOf[i];
-tell("chain", seen);
-real[int] closed(chainClosed.n);
-for (int i = 0; i < chainClosed.n; i++) closed[i] = chainClosed[i];
-tell("closed", closed); tell("correction", correctionMost); tell("corners", sharpCorners);
-"""
+POINTS = data("surfaces/points.edp")
 
 
 def pairs(folder, mesh, case, *flags, more="", order=2):
@@ -99,26 +86,7 @@ def test_gap_of_circles(tmp_path):
     assert abs(facets["gap"] - 0.05).max() > 1e-3
 
 
-RUNS = """
-ifstream file("before.txt");
-for (int c = 0; c < 3; c++)
-{
-    file >> spans;
-    spanBefore.resize(spans + 1);
-    spanLine.resize(spans + 1);
-    spanBefore = spans;
-    spanLine = 0;
-    for (int k = 0; k < spans; k++) file >> spanBefore[k] >> spanLine[k];
-    numberRuns();
-    real[int] number(spans);
-    real[int] before(spans);
-    for (int k = 0; k < spans; k++) number[k] = outlineRun[k];
-    for (int k = 0; k < spans; k++) before[k] = outlinePlace[k];
-    real[int] size(runSize.n);
-    for (int k = 0; k < size.n; k++) size[k] = runSize[k];
-    tell("run" + c, number); tell("before" + c, before); tell("size" + c, size);
-}
-"""
+RUNS = data("surfaces/runs.edp")
 
 
 def test_runs(tmp_path):
@@ -149,27 +117,7 @@ def test_runs(tmp_path):
     assert [values[f"{name}{c}"].tolist() for c in range(3) for name in ("run", "before", "size")] == known
 
 
-CURVED = """
-real[int] unit(ndof); real[int] resisted(ndof); real[int] worst(3);
-placeNodes(false);
-for (int k = 0; k < 3; k++)
-{
-    unit = 0;
-    for (int n = 0; n < nodes; n++)
-    {
-        if (k < 2) unit[nodeDof(n, k)] = 1;
-        if (k == 2) unit[nodeDof(n, 0)] = -nodeAt(n, 1);
-        if (k == 2) unit[nodeDof(n, 1)] = nodeAt(n, 0);
-    }
-    resisted = elasticStiffness * unit; worst[k] = resisted.linfty;
-}
-tell("rigid", worst);
-for (int n = 0; n < nodes; n++) for (int c = 0; c < 2; c++) unit[nodeDof(n, c)] = nodeAt(n, c);
-tell("swelling", wholeLoad' * unit);
-unit = 0;
-for (int n = 0; n < nodes; n++) unit[nodeDof(n, 1)] = 1;
-tell("weighs", wholeLoad' * unit); tell("curved", curvedElements); tell("stretch", leastStretch);
-"""
+CURVED = data("surfaces/curved.edp")
 
 
 @pytest.mark.parametrize("order", [2, 4])
@@ -219,14 +167,7 @@ def outlined(mesh, outline, at, tag, matrix):
     mesh.add(nodes, sides, bodies)
 
 
-PLACES = """
-real[int] px(edges); real[int] py(edges);
-int[int] e(edges);
-real[int] r(edges);
-for (int k = 0; k < edges; k++) e[k] = k;
-r = 0.3; placesAt(e, r, px, py);
-tell("px", px); tell("py", py);
-"""
+PLACES = data("surfaces/places.edp")
 
 
 def test_straight_round_and_sharp(tmp_path):
@@ -287,14 +228,7 @@ def test_what_faces_away(tmp_path):
 
 # ---------------------------------------------------------------- results
 
-PATCH = """body low E 210 nu 0.3
-body up E 70 nu 0.2
-symmetry low-bottom
-symmetry low-left
-symmetry up-left
-contact low-top up-bottom
-pressure up-top 5
-"""
+PATCH = data("surfaces/patch.case")
 
 
 @pytest.mark.parametrize(

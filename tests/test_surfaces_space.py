@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, run, scene_text, snippet, told
+from freefem import ROOT, data, execute, part, run, scene_text, snippet, told
 from shapes import moved
 from test_parts import Mesh, cube, turn_in_space
 
@@ -20,19 +20,9 @@ def vector(values):
     return " ".join(repr(float(v)) for v in values)
 
 
-BLOCKS = """body lower E 100 nu 0.3
-body upper E 100 nu 0.3
-contact lower-top upper-bottom
-symmetry lower-back
-symmetry lower-front
-symmetry lower-left
-symmetry lower-right
-symmetry upper-back
-symmetry upper-front
-symmetry upper-left
-symmetry upper-right
-clamp lower-bottom
-"""
+MIRRORS = [f"{body}-{side}" for body in ("lower", "upper") for side in ("back", "front", "left", "right")]
+BLOCKS = "body lower E 100 nu 0.3\nbody upper E 100 nu 0.3\ncontact lower-top upper-bottom\n"
+BLOCKS += "".join(f"symmetry {side}\n" for side in MIRRORS) + "clamp lower-bottom\n"
 
 
 def blocks(gap=0.01):
@@ -103,29 +93,7 @@ def test_turned_ball(tmp_path, order, distance):
         )
 
 
-SMOOTH = """
-{
-    ifstream f("triangles.txt");
-    int count;
-    f >> count;
-    real[int,int] xs(count, 3);
-    real[int,int] ys(count, 3);
-    real[int,int] zs(count, 3);
-    int[int,int] corner(count, 3);
-    int[int] which(count);
-    which = 0;
-    for (int j = 0; j < count; j++) for (int a = 0; a < 3; a++) f >> corner(j, a) >> xs(j, a) >> ys(j, a) >> zs(j, a);
-    real[int,int] none(0, 0);
-    real[int,int] bulge(0, 0);
-    real[int,int] normal(0, 0);
-    smooth(xs, ys, zs, corner, which, none, bulge, normal);
-    real[int] values(9 * count);
-    for (int k = 0; k < values.n; k++) values[k] = bulge(k % 9, k / 9);
-    tell("bulge", values);
-    for (int k = 0; k < values.n; k++) values[k] = normal(k % 9, k / 9);
-    tell("normal", values);
-}
-"""
+SMOOTH = data("surfaces-space/smooth.edp")
 
 
 def smoothed(folder, nodes, triangles):
@@ -248,28 +216,13 @@ def test_gap_of_spheres(tmp_path, surface, points):
     assert error < 0.01 * facets if surface == "smooth" else error > facets
 
 
-PLACES = """
-real[int,int] place(3, facePlace.n * slaves);
-facedNormal.resize(3, place.m);
-smoothPlaces(place);
-real[int] away(place.m);
-for (int k = 0; k < away.n; k++) away[k] = sqrt(place(0, k)^2 + place(1, k)^2 + place(2, k)^2);
-tell("away", away);
-samplePoints();
-real[int] off(samples);
-for (int k = 0; k < samples; k++)
-{
-    off[k] = -pointX[samplePair[k]];
-    for (int b = 0; b < 3; b++) off[k] += sampleOn(b, k) * slaveX(sampleSlave[k], b);
-}
-tell("off", off);
-"""
+PLACES = data("surfaces-space/places.edp")
 
 
 def test_places_of_spheres(tmp_path):
     """What the estimates and the true distance call places on the slave lies on its sphere; the points are points."""
     text = general((ROOT / "edp/scenes/two-spheres.edp").read_text()) + PLACES
-    flags = ["-order", 1, "-h", 0.5, "-layers", 1, "-distance", "exact", "-vtu", 0, "-out", tmp_path / "out"]
+    flags = ["-order", 1, *EXACT, "-force", 0, "-u0", 0.5, "-vtu", 0, "-out", tmp_path / "out"]
     values = told(snippet(tmp_path, text, *flags))
     assert len(values["away"]) > 100 and abs(values["away"] - 10).max() < 0.01 * 0.5**2 / 80
     assert len(values["off"]) > 9 and abs(values["off"]).max() < 1e-12

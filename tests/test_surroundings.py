@@ -24,6 +24,7 @@ from freefem import (
     interruptible,
     listing,
     run_in,
+    short_of,
     snippet,
     table,
     tree,
@@ -540,13 +541,7 @@ def test_series_that_is_complete(tmp_path):
     assert files(out) == ["adaptations.csv", "contact.csv", "history.csv", "summary.json"]
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [
-        "disc-on-block",
-        *(pytest.param(scene, marks=pytest.mark.long) for scene in ("two-cylinders", "hertz-line", "meshed-disc")),
-    ],
-)
+@pytest.mark.parametrize("scene", short_of(["disc-on-block"], ["two-cylinders", "hertz-line", "meshed-disc"]))
 def test_series_of_the_exact_distance(tmp_path, scene):
     """A load series with the true distance shall end where one step does, its steps in the table."""
     flags = ["-distance", "exact", "-order", 1, "-estimate", 0, "-vtu", 0, "-h", 2]

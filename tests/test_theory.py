@@ -7,30 +7,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, scene_text, short_of, snippet, told
+from freefem import ROOT, data, run, scene_text, short_of, snippet, told
 
 THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 DISC, SPHERE = "disc-on-block", "sphere-on-block"
-COMPLIANCE = """
-setUpContact();
-int[int] all(points);
-for (int i = 0; i < points; i++) all[i] = i;
-real[int,int] half(0, 0);
-kernelMatrix(all, kernelCell, half);
-fitKernel();
-real[int,int] fitted(0, 0);
-kernelMatrix(all, kernelCell, fitted);
-tell("x", pointX); tell("weight", weight); tell("cell", kernelCell); tell("k", bodyStiffness);
-tell("alpha", localCompliance); tell("scale", kernelLength);
-real[int] unit(points); real[int] column(points);
-for (int i = 0; i < points; i++)
-{
-    unit = 0; unit[i] = 1; complianceTimes(unit, column, 0);
-    tell("C", column);
-    column = half(:, i); tell("G", column);
-    column = fitted(:, i); tell("M", column);
-}
-"""
+COMPLIANCE = data("theory/compliance.edp")
 
 
 class Problem:

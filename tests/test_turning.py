@@ -6,7 +6,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from freefem import ROOT, part
+from freefem import ROOT, data, part
 from test_linear_gaps import PLANK, STANDING
 from test_parts import Mesh, block, cube, vector
 
@@ -152,9 +152,8 @@ def test_rod_in_a_bowl(solve):
     geo += "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Circle(5) = {5, 6, 7};"
     geo += 'Circle(6) = {7, 6, 1}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1}; Physical Surface("rod") = {1};\n'
     geo += 'Physical Curve("lower") = {1, 2}; Physical Curve("end") = {5, 6};\n'
-    case = (
-        "body rod E 1e9 nu 0.3\nobstacle end circle 0 0 R 5 inside\nobstacle lower circle 6 0 R 0.5\nweight rod 0 -1\n"
-    )
+    case = "body rod E 1e9 nu 0.3\nobstacle end circle 0 0 R 5 inside\nobstacle lower circle 6 0 R 0.5\n"
+    case += "weight rod 0 -1\n"
     summary, _ = solve(geo, case, "-distance", "exact")
     for number, true in enumerate((2.73605635, 1.84753534)):  # statics: the lowest place of the middle
         value, error = force(summary, number)
@@ -203,23 +202,7 @@ def test_gears(solve, angle):
     assert moments[10] == pytest.approx(moments[1], rel=1e-5)
 
 
-HOOK = """
-Point(1) = {0, 0, 0}; Point(2) = {0, 0.8, 0}; Point(3) = {10, 0.8, 0}; Point(4) = {10, 0, 0}; Point(5) = {9, 0, 0};
-Point(6) = {9.5, 0, 0}; Point(7) = {9.5, -0.5, 0};
-Line(1) = {2, 1}; Line(2) = {1, 5}; Circle(3) = {5, 6, 7}; Circle(4) = {7, 6, 4}; Line(5) = {4, 3}; Line(6) = {3, 2};
-Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};
-Point(11) = {11, -0.9, 0}; Point(12) = {12, -1.5, 0}; Point(13) = {13, -0.9, 0}; Point(14) = {12, -0.33380962, 0};
-Point(15) = {11, -2, 0}; Point(16) = {13, -2, 0};
-Circle(11) = {13, 12, 14}; Circle(12) = {14, 12, 11}; Line(13) = {11, 15}; Line(14) = {15, 16}; Line(15) = {16, 13};
-Curve Loop(2) = {11, 12, 13, 14, 15}; Plane Surface(2) = {2};
-Physical Surface("hook") = {1}; Physical Surface("catch") = {2};
-Physical Curve("root") = {1}; Physical Curve("nose") = {3, 4}; Physical Curve("bump") = {11, 12};
-Physical Curve("base") = {14};
-Field[1] = Distance; Field[1].CurvesList = {3, 4, 11, 12}; Field[1].NumPointsPerCurve = 100;
-Field[2] = Threshold; Field[2].InField = 1; Field[2].SizeMin = 0.1; Field[2].SizeMax = 0.4; Field[2].DistMin = 0.2;
-Field[2].DistMax = 1.5; Background Field = 2;
-Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 0.4;
-"""
+HOOK = data("turning/hook.geo")
 
 
 def series(folder):
@@ -256,10 +239,8 @@ def slab(matrix=None):
 @pytest.mark.parametrize("turns", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_dragged_in_space(solve, tmp_path, turns):
     """A cylinder dragged over elements of a block between mirrors: hardly a force, steady energy, turned the same."""
-    case = (
-        "body block E 100 nu 0.3\nbody cylinder E 100 nu 0.3\ncontact btop cbottom interference 0.03\nclamp bbottom\n"
-    )
-    case += "symmetry bleft\nsymmetry bright\nsymmetry cleft\nsymmetry cright\nmove ctop {}\n"
+    case = "body block E 100 nu 0.3\nbody cylinder E 100 nu 0.3\ncontact btop cbottom interference 0.03\n"
+    case += "clamp bbottom\nsymmetry bleft\nsymmetry bright\nsymmetry cleft\nsymmetry cright\nmove ctop {}\n"
     flags = ("-distance", "exact", "-history", 1, "-steps", 3, "-order", 1, "-estimate", 0)
     runs = []
     for number, turned in enumerate((np.eye(3), rotation(0.8, (1, -2, 0.5)))[: 1 + turns]):

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, run, script, snippet
+from freefem import ROOT, data, execute, part, run, script, snippet
 from test_scene_figures import draw
 from text_boxes import faults
 
@@ -254,22 +254,7 @@ def test_units_of_any_magnitude(length, pressure):
 
 # A pin (R = 10) in a hole (R = 10.05) of a large plate: their gap is the difference of two nearly equal curves, and the
 # meshes' facets are as large as it. `PIN` is the pin's element size, the hole's is 0.25.
-PIN_IN_HOLE = """
-R = 10; Ro = 10.05; W = 40; c = -0.049; t = 1.2; s = 0.98 * t;
-Point(1) = {-W, -W, 0, 6}; Point(2) = {W, -W, 0, 6}; Point(3) = {W, 0, 0, 6}; Point(4) = {Ro, 0, 0, 0.5};
-Point(5) = {0, -Ro, 0, 0.25}; Point(6) = {-Ro, 0, 0, 0.5}; Point(7) = {-W, 0, 0, 6}; Point(8) = {0, 0, 0, 1};
-Point(9) = {Ro * Sin(t), -Ro * Cos(t), 0, 0.25}; Point(10) = {-Ro * Sin(t), -Ro * Cos(t), 0, 0.25};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Circle(4) = {4, 8, 9}; Circle(5) = {9, 8, 5};
-Circle(6) = {5, 8, 10}; Circle(7) = {10, 8, 6}; Line(8) = {6, 7}; Line(9) = {7, 1};
-Curve Loop(1) = {1 : 9}; Plane Surface(1) = {1};
-Point(21) = {0, c, 0, 2}; Point(22) = {R, c, 0, 2}; Point(23) = {-R, c, 0, 2}; Point(24) = {0, c - R, 0, PIN};
-Point(25) = {R * Sin(s), c - R * Cos(s), 0, PIN}; Point(26) = {-R * Sin(s), c - R * Cos(s), 0, PIN};
-Circle(21) = {23, 21, 26}; Circle(22) = {26, 21, 24}; Circle(23) = {24, 21, 25}; Circle(24) = {25, 21, 22};
-Line(25) = {22, 23}; Curve Loop(2) = {21 : 25}; Plane Surface(2) = {2};
-Physical Curve("contact") = {5, 6}; Physical Curve("master") = {22, 23}; Physical Curve("clamped") = {1};
-Physical Curve("pushed") = {25}; Physical Curve("free") = {2, 3, 4, 7, 8, 9, 21, 24};
-Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
-"""
+PIN_IN_HOLE = data("warnings/pin-in-hole.geo")
 TRUE_CIRCLES = 227.1  # greatest pressure, from the true circles' gap, another code
 
 

@@ -8,59 +8,12 @@ import subprocess
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, part, short_of
+from freefem import FREEFEM, ROOT, data, execute, part, short_of
 
 from postprocess.__main__ import main
 
-FACE = """  For k In {1 : 4}
-    Line(at + k) = {at + k, at + k % 4 + 1};
-  EndFor
-  Curve Loop(at + 1) = {at + 1 : at + 4}; Plane Surface(at + 1) = {at + 1};
-  Transfinite Curve{at + 1 : at + 4} = parts + 1; Transfinite Surface{at + 1};
-"""  # on four points
-CUBOIDS = (
-    """
-DefineConstant[ brick = {0, Name "1: bricks"} ];
-Macro Cuboid
-  Point(at + 1) = {from, from, low}; Point(at + 2) = {to, from, low};
-  Point(at + 3) = {to, to, low}; Point(at + 4) = {from, to, low};
-"""
-    + FACE
-    + """  If (brick)
-    Recombine Surface{at + 1};
-    out() = Extrude{0, 0, high}{ Surface{at + 1}; Layers{2}; Recombine; };
-  Else
-    out() = Extrude{0, 0, high}{ Surface{at + 1}; Layers{2}; };
-  EndIf
-Return
-at = 0; from = 0; to = 4; low = 0; high = 2; parts = 4;
-Call Cuboid;
-Physical Volume("lower") = {out(1)}; Physical Surface("top") = {out(0)}; Physical Surface("base") = {1};
-at = 100; from = 1; to = 3; low = 2.01; high = 1; parts = 3;
-Call Cuboid;
-Physical Volume("upper") = {out(1)}; Physical Surface("grip") = {out(0)}; Physical Surface("foot") = {101};
-"""
-)
-RECTANGLES = (
-    """
-DefineConstant[ brick = {0, Name "1: quadrangles"} ];
-Macro Flat
-  Point(at + 1) = {from, low, 0}; Point(at + 2) = {to, low, 0};
-  Point(at + 3) = {to, low + high, 0}; Point(at + 4) = {from, low + high, 0};
-"""
-    + FACE
-    + """  If (brick)
-    Recombine Surface{at + 1};
-  EndIf
-Return
-at = 0; from = 0; to = 4; low = 0; high = 2; parts = 4;
-Call Flat;
-Physical Surface("lower") = {1}; Physical Curve("top") = {3}; Physical Curve("base") = {1};
-at = 100; from = 1; to = 3; low = 2.01; high = 1; parts = 3;
-Call Flat;
-Physical Surface("upper") = {101}; Physical Curve("grip") = {103}; Physical Curve("foot") = {101};
-"""
-)
+CUBOIDS = data("zoo/cuboids.geo")
+RECTANGLES = data("zoo/rectangles.geo")
 NAMED = """body lower E 210e3 nu 0.3
 body upper E 210e3 nu 0.3
 contact foot top
@@ -69,15 +22,7 @@ move grip 0 {} -0.011
 """
 BOXES = 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 4, 4, 2}; Box(2) = {1, 1, 2.01, 2, 2, 1};\n'
 JOINED = BOXES.replace("2.01", "2") + "BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n"
-PICKED = """group lower volumes 1
-group upper near 2 2 3
-group foot between upper lower
-group top between lower upper
-group base plane 0 0 0  0 0 1
-group grip box 0.9 0.9 3  3.1 3.1 3.02
-size lower 1
-size contact 0.7
-"""
+PICKED = data("zoo/picked.case")
 AREAS = {"base": 16.0, "foot": 4.0, "grip": 4.0}
 
 
@@ -176,34 +121,7 @@ def test_meshes(tmp_path, space, form, order, brick):
     assert {name: areas[name] for name in AREAS} == pytest.approx(AREAS if space else {"base": 4, "foot": 2, "grip": 2})
 
 
-INP = """*HEADING
-a block by hand, as CalculiX and Abaqus write it
-*NODE, NSET=ALL
-1, 0., 0., 0.
-2, 1., 0., 0.
-3, 1., 1., 0.
-4, 0., 1., 0.
-5, 0., 0., 2.
-6, 1., 0., 2.
-7, 1., 1., 2.
-8, 0., 1., 2.
-** a comment
-*Element, type=C3D8R, elset=PART
-1, 1, 2, 3, 4,
-5, 6, 7, 8
-*ELSET, ELSET=EVERY
-PART
-*NSET, NSET=BASE, GENERATE
-1, 4, 1
-*SURFACE, NAME=TOP, TYPE=ELEMENT
-EVERY, S2
-*MATERIAL, NAME=STEEL
-*ELASTIC
-210000., 0.3
-*STEP
-*STATIC
-*END STEP
-"""
+INP = data("zoo/block.inp")
 PRESSED = "body PART E 210e3 nu 0.3\nclamp BASE\nobstacle TOP plane 0 0 1.999 0 0 -1\n"
 
 
@@ -271,18 +189,7 @@ def test_faces_that_meet_become_two(tmp_path):
 def test_plane_geometry(tmp_path):
     flat = 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 4, 2};\nDisk(2) = {2, 3, 0, 1};\n'
     mesh = gmsh(tmp_path, "a.step", flat, "-0")
-    case = """group block surfaces 1
-group disc near 2 4
-group top between block disc
-group round between disc block
-group base plane 0 0  0 1
-size disc 0.2
-body block E 210e3 nu 0.3
-body disc E 210e3 nu 0.3
-contact top round
-clamp base
-"""
-    code, why, areas, volumes = readable(tmp_path, mesh, case, 0)
+    code, why, areas, volumes = readable(tmp_path, mesh, data("zoo/disc-on-block.case"), 0)
     assert code == 0, why
     assert volumes == pytest.approx([np.pi, 8], rel=0.02)
     assert areas == pytest.approx({"top": 4, "base": 4, "round": 2 * np.pi}, rel=0.01)

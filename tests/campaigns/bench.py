@@ -286,16 +286,10 @@ def crossed_geometry(root: Path, size: float) -> str:
     """The example's geometry with another size of elements.
 
     The finest is fine far away too, and has the surfaces' own nodes in the middles of sides."""
-    text = (
-        (root / "edp" / "examples" / CROSSED / f"{CROSSED}.geo")
-        .read_text()
-        .replace("size = {0.08", f"size = {{{size:g}")
-    )
+    text = (root / f"edp/examples/{CROSSED}/{CROSSED}.geo").read_text().replace("size = {0.08", f"size = {{{size:g}")
     if size == CROSSED_FINE:
-        text = (
-            text.replace("growth = {0.5", "growth = {0.3").replace("extent / 3", "extent / 10")
-            + "Mesh.ElementOrder = 2;\n"
-        )
+        text = text.replace("growth = {0.5", "growth = {0.3").replace("extent / 3", "extent / 10")
+        text += "Mesh.ElementOrder = 2;\n"
     return text
 
 

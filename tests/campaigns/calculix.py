@@ -27,23 +27,7 @@ FILE = campaign.RESULTS_FOLDER / "bench" / "calculix.csv"
 FILE_SPACE = FILE.with_name("calculix-space.csv")
 YOUNG, POISSON, FRICTION, PRESS, DRAG = 100.0, 0.3, 0.3, 0.02, 0.009
 LONGEST = 60  # CPU seconds of a run
-GEO = """
-SetFactory("Built-in");
-Point(1) = {-2, -2, 0, 0.4}; Point(2) = {2, -2, 0, 0.4}; Point(3) = {2, 0, 0, 0.4}; Point(4) = {0.25, 0, 0, H};
-Point(5) = {-0.25, 0, 0, H}; Point(6) = {-2, 0, 0, 0.4};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};
-Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};
-B = 1.37 * H;
-Point(11) = {0, 1, 0, 0.1}; Point(12) = {-0.25, 1 - Sqrt(1 - 0.0625), 0, B};
-Point(13) = {0.25, 1 - Sqrt(1 - 0.0625), 0, B};
-Point(14) = {1, 1, 0, 0.1}; Point(15) = {1, 2, 0, 0.2}; Point(16) = {-1, 2, 0, 0.2}; Point(17) = {-1, 1, 0, 0.1};
-Circle(11) = {12, 11, 13}; Circle(12) = {13, 11, 14}; Line(13) = {14, 15}; Line(14) = {15, 16}; Line(15) = {16, 17};
-Circle(16) = {17, 11, 12};
-Curve Loop(2) = {11, 12, 13, 14, 15, 16}; Plane Surface(2) = {2};
-Physical Curve("clamped") = {1}; Physical Curve("flat") = {4}; Physical Curve("round") = {11};
-Physical Curve("pushed") = {14}; Physical Curve("rest") = {2, 3, 5, 6, 12, 13, 15, 16};
-Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
-"""
+GEO = (Path(__file__).parent / "disc-on-block.geo").read_text()
 CASE = f"""body lower E {YOUNG} nu {POISSON}
 body upper E {YOUNG} nu {POISSON}
 contact flat round friction {FRICTION}
@@ -55,30 +39,7 @@ move pushed {DRAG} -{PRESS}
 """
 
 
-GEO_SPACE = """
-SetFactory("OpenCASCADE");
-Box(1) = {0, 0, -2, 2, 2, 2};
-Sphere(2) = {0, 0, 1, 1};
-Box(3) = {0, 0, 0, 1, 1, 1};
-BooleanIntersection(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
-e = 1e-6;
-Physical Volume("lower") = {1}; Physical Volume("upper") = {4};
-Physical Surface("clamped") = Surface In BoundingBox{-e, -e, -2 - e, 2 + e, 2 + e, -2 + e};
-Physical Surface("flat") = Surface In BoundingBox{-e, -e, -e, 2 + e, 2 + e, e};
-Physical Surface("pushed") = Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 1 + e, 1 + e};
-Physical Surface("xs") = Surface In BoundingBox{-e, -e, -2 - e, e, 2 + e, 1 + e};
-Physical Surface("ys") = Surface In BoundingBox{-e, -e, -2 - e, 2 + e, e, 1 + e};
-every[] = Abs(Boundary{ Volume{4}; });
-named[] = {Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 1 + e, 1 + e},
-    Surface In BoundingBox{-e, -e, -e, e, 1 + e, 1 + e}, Surface In BoundingBox{-e, -e, -e, 1 + e, e, 1 + e}};
-every[] -= named[];
-Physical Surface("round") = every[];
-Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
-Field[1] = MathEval;
-r = "(Sqrt(x*x+y*y+z*z)-0.2)";
-Field[1].F = StrCat(Sprintf("%g*(1+0.15*(1+z/(Fabs(z)+1e-9)))+0.25*(", H), r, "+Fabs", r, ")");
-Background Field = 1;
-"""
+GEO_SPACE = (Path(__file__).parent / "ball-on-block.geo").read_text()
 CASE_SPACE = f"""body lower E {YOUNG} nu {POISSON}
 body upper E {YOUNG} nu {POISSON}
 contact flat round
@@ -146,11 +107,8 @@ def timed(command: list, folder: Path) -> tuple[float, int, str]:
         env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return (
-        after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
-        done.returncode,
-        done.stdout + done.stderr,
-    )
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return seconds, done.returncode, done.stdout + done.stderr
 
 
 def surface_stresses(path: Path, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -43,10 +43,8 @@ STATUS = {0: "converged", 20: "not converged", 10: "refused"}  # by exit code; e
 
 # Columns of every campaign: what was asked for, how it ended, what it cost and what it gave.
 CASE = "name script flags sources".split()
-PARAMETERS = (
-    "method law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset T0 tol eps steps "
-    "threshold inner start preconditioner".split()
-)
+PARAMETERS = "method law kappa m p0 beta d0 E nu R gap u0 h order grading aspect offset T0 tol eps steps".split()
+PARAMETERS += "threshold inner start preconditioner".split()
 ENDED = "status message repeats".split()
 COUNTS = "adaptations newton kernelNewton factorisations backsolves contactPoints wallPoints ndof points".split()
 RESULTS = "residual modelError force pressureMax overlapMax halfWidth energy".split()

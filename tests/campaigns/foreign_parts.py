@@ -85,14 +85,10 @@ class Sketch:
         share = np.cumsum([0, *counts[:3]]) / sides if sides and a == b and not bottom else np.arange(4) / 4
         size = min(size, 2 * np.pi * max(a, b) / sides) if sides else size
         angles = 2 * np.pi * share - np.pi / 2
-        ends = [
-            self.point(
-                x + a * np.cos(t),
-                y + b * np.sin(t),
-                self.on_circle(bottom if bottom and k == 0 else size, (a * a / b, b * b / a)[k % 2]),
-            )
-            for k, t in enumerate(angles)
-        ]
+        ends = []
+        for k, t in enumerate(angles):
+            near = self.on_circle(bottom if bottom and k == 0 else size, (a * a / b, b * b / a)[k % 2])
+            ends.append(self.point(x + a * np.cos(t), y + b * np.sin(t), near))
         centre, far = self.point(x, y, size), self.point(x + 1.01 * max(a, b) * (a >= b), y + 1.01 * b * (a < b), size)
         found = []
         for k in range(4):
@@ -222,9 +218,8 @@ def press_fit(name: str, random: Random) -> Part:
     e1, e2, n1, n2 = E1, E2, nu1, nu2
     if strain:
         e1, e2, n1, n2 = E1 / (1 - nu1**2), E2 / (1 - nu2**2), nu1 / (1 - nu1), nu2 / (1 - nu2)
-    case = (
-        f"state {'strain' if strain else 'stress'}\n{body('inner', E1, nu1)}{body('outer', E2, nu2)}contact hub shaft"
-    )
+    case = f"state {'strain' if strain else 'stress'}\n{body('inner', E1, nu1)}{body('outer', E2, nu2)}"
+    case += "contact hub shaft"
 
     def give(e: float, n: float, held: float) -> float:
         """Displacement over pressure and radius of a ring that is held at this share of the radius."""
@@ -721,14 +716,8 @@ def punch(name: str, random: Random) -> Part:
         tool, _ = sketch.outline([(0, 0, a / 12), (a, 0, a / 45), (a, 2 * a, a / 4), (0, 2 * a, a / 4)])
         sketch.body("block", block)
         sketch.body("tool", tool)
-        return sketch.named(
-            base=[block[0]],
-            top=[block[2], block[3]],
-            axis=[block[4]],
-            end=[tool[0]],
-            cap=[tool[2]],
-            tool_axis=[tool[3]],
-        )
+        groups = {"base": [block[0]], "top": [block[2], block[3]], "axis": [block[4]]}
+        return sketch.named(**groups, end=[tool[0]], cap=[tool[2]], tool_axis=[tool[3]])
 
     mirror = "" if state == "axisymmetric" else "symmetry axis\nsymmetry tool-axis\n"
     case = f"state {state}\n{body('block', E1, nu1)}{body('tool', E2, nu2)}clamp base\n{mirror}contact top end\n"
@@ -883,11 +872,8 @@ FAMILIES: dict[str, tuple[Callable[[str, Random], Part], int]] = {
     **{"o-ring": (squeezed, 2), "polygon": (polygon, 3), "hip": (hip, 2), "seat": (seat, 3), "punch": (punch, 2)},
     **{"prism": (prism, 4), "press fit in space": (press_fit_in_space, 2), "ball in space": (ball_in_space, 2)},
     **{"wheel": (wheel, 2), "shrink fit": (press_fit, 3), "twisted fit": (press_fit, 6), "shank": (shank, 3)},
-    **{
-        "rubbed head": (rubbing(two_bodies), 4),
-        "rubbed bracket": (rubbing(bracket), 3),
-        "rubbed seat": (rubbing(seat), 2),
-    },
+    **{"rubbed head": (rubbing(two_bodies), 4), "rubbed bracket": (rubbing(bracket), 3)},
+    "rubbed seat": (rubbing(seat), 2),
 }
 
 

@@ -1,0 +1,22 @@
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, -2, 2, 2, 2};
+Sphere(2) = {0, 0, 1, 1};
+Box(3) = {0, 0, 0, 1, 1, 1};
+BooleanIntersection(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+e = 1e-6;
+Physical Volume("lower") = {1}; Physical Volume("upper") = {4};
+Physical Surface("clamped") = Surface In BoundingBox{-e, -e, -2 - e, 2 + e, 2 + e, -2 + e};
+Physical Surface("flat") = Surface In BoundingBox{-e, -e, -e, 2 + e, 2 + e, e};
+Physical Surface("pushed") = Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 1 + e, 1 + e};
+Physical Surface("xs") = Surface In BoundingBox{-e, -e, -2 - e, e, 2 + e, 1 + e};
+Physical Surface("ys") = Surface In BoundingBox{-e, -e, -2 - e, 2 + e, e, 1 + e};
+every[] = Abs(Boundary{ Volume{4}; });
+named[] = {Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 1 + e, 1 + e},
+    Surface In BoundingBox{-e, -e, -e, e, 1 + e, 1 + e}, Surface In BoundingBox{-e, -e, -e, 1 + e, e, 1 + e}};
+every[] -= named[];
+Physical Surface("round") = every[];
+Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
+Field[1] = MathEval;
+r = "(Sqrt(x*x+y*y+z*z)-0.2)";
+Field[1].F = StrCat(Sprintf("%g*(1+0.15*(1+z/(Fabs(z)+1e-9)))+0.25*(", H), r, "+Fabs", r, ")");
+Background Field = 1;

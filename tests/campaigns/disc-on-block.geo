@@ -1,0 +1,15 @@
+SetFactory("Built-in");
+Point(1) = {-2, -2, 0, 0.4}; Point(2) = {2, -2, 0, 0.4}; Point(3) = {2, 0, 0, 0.4}; Point(4) = {0.25, 0, 0, H};
+Point(5) = {-0.25, 0, 0, H}; Point(6) = {-2, 0, 0, 0.4};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};
+B = 1.37 * H;
+Point(11) = {0, 1, 0, 0.1}; Point(12) = {-0.25, 1 - Sqrt(1 - 0.0625), 0, B};
+Point(13) = {0.25, 1 - Sqrt(1 - 0.0625), 0, B};
+Point(14) = {1, 1, 0, 0.1}; Point(15) = {1, 2, 0, 0.2}; Point(16) = {-1, 2, 0, 0.2}; Point(17) = {-1, 1, 0, 0.1};
+Circle(11) = {12, 11, 13}; Circle(12) = {13, 11, 14}; Line(13) = {14, 15}; Line(14) = {15, 16}; Line(15) = {16, 17};
+Circle(16) = {17, 11, 12};
+Curve Loop(2) = {11, 12, 13, 14, 15, 16}; Plane Surface(2) = {2};
+Physical Curve("clamped") = {1}; Physical Curve("flat") = {4}; Physical Curve("round") = {11};
+Physical Curve("pushed") = {14}; Physical Curve("rest") = {2, 3, 5, 6, 12, 13, 15, 16};
+Physical Surface("lower") = {1}; Physical Surface("upper") = {2};

@@ -1,0 +1,10 @@
+h = SIZE;
+Point(1) = {0, 0, 0}; Point(2) = {10, 0, 0, h}; Point(3) = {20, 0, 0, h}; Point(4) = {0, 20, 0, h};
+Point(5) = {0, 10, 0, h};
+Point(6) = {20, 0, 0, h}; Point(7) = {30, 0, 0, h}; Point(8) = {0, 30, 0, h}; Point(9) = {0, 20, 0, h};
+Line(1) = {2, 3}; Circle(2) = {3, 1, 4}; Line(3) = {4, 5}; Circle(4) = {5, 1, 2};
+Line(5) = {6, 7}; Circle(6) = {7, 1, 8}; Line(7) = {8, 9}; Circle(8) = {9, 1, 6};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1}; Curve Loop(2) = {5, 6, 7, 8}; Plane Surface(2) = {2};
+Physical Surface("hub") = {1}; Physical Surface("ring") = {2};
+Physical Curve("below") = {1, 5}; Physical Curve("left") = {3, 7};
+Physical Curve("seat") = {2}; Physical Curve("bore") = {8}; Physical Curve("inner") = {4};

@@ -1,0 +1,11 @@
+SetFactory("OpenCASCADE");
+Box(1) = {-2, 0, -1, 4, 2, 1};
+Box(2) = {-1, 0, 0, 2, 1, 0.6};
+Physical Volume("low") = {1};
+Physical Volume("up") = {2};
+Physical Surface("base") = {5};
+Physical Surface("top") = {6};
+Physical Surface("foot") = {11};
+Physical Surface("head") = {12};
+Physical Surface("mirror") = {3, 9};
+Mesh.MeshSizeMax = 0.9;

@@ -1,0 +1,13 @@
+Point(1) = {0, -20, 0, 8}; Point(2) = {20, -20, 0, 8}; Point(3) = {20, 0, 0, 4}; Point(4) = {0, 0, 0, 0.3};
+Point(5) = {0, 10, 0, 4}; Point(6) = {10, 10, 0, 4};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Point(7) = {0, 0, 0, 0.22};
+Circle(5) = {7, 5, 6};
+Line(6) = {6, 5}; Line(7) = {5, 7};
+Curve Loop(2) = {5 : 7};
+Plane Surface(2) = {2};
+Physical Surface("block") = {1}; Physical Surface("disc") = {2}; Physical Curve("base") = {1};
+Physical Curve("top") = {3}; Physical Curve("middle") = {4, 7}; Physical Curve("round") = {5};
+Physical Curve("load") = {6};

@@ -1,0 +1,11 @@
+SetFactory("OpenCASCADE");
+Point(1) = {0, 0, 0}; Point(2) = {14, 0, 0}; Point(3) = {0, -14, 0};
+Circle(1) = {2, 1, 3}; Line(2) = {3, 1}; Line(3) = {1, 2}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Point(10) = {0, 0.1, 0}; Point(11) = {14.1, 0.1, 0}; Point(12) = {0, -14, 0}; Point(13) = {24, 0.1, 0};
+Point(14) = {0, -23.9, 0}; Circle(10) = {11, 10, 12}; Circle(11) = {13, 10, 14};
+Line(12) = {12, 14}; Line(13) = {11, 13};
+Curve Loop(2) = {10, 12, -11, -13}; Plane Surface(2) = {2};
+Physical Surface("head") = {1}; Physical Surface("cup") = {2}; Physical Curve("head-surface") = {1};
+Physical Curve("grip") = {3}; Physical Curve("cup-bore") = {10}; Physical Curve("shell") = {11};
+Field[1] = MathEval; Field[1].F = "0.5 * (1 + 0.25 * Abs(Sqrt(x * x + y * y) - 14) / 0.5)";
+Background Field = 1; Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 2;

@@ -1,0 +1,10 @@
+h = 0.05;
+Point(1) = {-6, -5, 0, 1}; Point(2) = {6, -5, 0, 1}; Point(3) = {6, 0, 0, 1}; Point(4) = {-6, 0, 0, 1};
+Point(20) = {0, 0, 0, h}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 20}; Line(30) = {20, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 30, 4}; Plane Surface(1) = {1};
+Point(5) = {0, 0, 0, h}; Point(6) = {0, 5, 0, 1}; Point(7) = {4, 2, 0, 1}; Point(8) = {-4, 2, 0, 1};
+Point(9) = {1.4, 5 - Sqrt(25 - 1.96), 0, h}; Point(10) = {-1.4, 5 - Sqrt(25 - 1.96), 0, h};
+Circle(5) = {8, 6, 10}; Circle(6) = {10, 6, 5}; Circle(7) = {5, 6, 9}; Circle(8) = {9, 6, 7}; Line(9) = {7, 8};
+Curve Loop(2) = {5:9}; Plane Surface(2) = {2};
+Physical Curve("base") = {1}; Physical Curve("floor") = {3, 30}; Physical Curve("nose") = {5:8};
+Physical Curve("head") = {9}; Physical Surface("low") = {1}; Physical Surface("up") = {2};

@@ -1,0 +1,10 @@
+Point(1) = {0, 0, 0}; Point(2) = {4.98, 0, 0, 0.5}; Point(3) = {0, 4.98, 0, 0.5}; Point(4) = {-4.98, 0, 0, 0.5};
+Point(5) = {0, -4.98, 0, 0.5};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
+Point(12) = {5, 0, 0, 0.5}; Point(13) = {0, 5, 0, 0.5}; Point(14) = {-5, 0, 0, 0.5}; Point(15) = {0, -5, 0, 0.5};
+Circle(11) = {12, 1, 13}; Circle(12) = {13, 1, 14}; Circle(13) = {14, 1, 15}; Circle(14) = {15, 1, 12};
+Point(21) = {12, -12, 0, 3}; Point(22) = {12, 12, 0, 3}; Point(23) = {-12, 12, 0, 3}; Point(24) = {-12, -12, 0, 3};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Curve Loop(2) = {21:24}; Curve Loop(3) = {11:14};
+Plane Surface(2) = {2, 3}; Physical Surface("pin") = {1}; Physical Surface("plate") = {2};
+Physical Curve("hole") = {11:14}; Physical Curve("left") = {23}; Physical Curve("skin") = {NAMED};

@@ -1,0 +1,15 @@
+Point(1) = {0, 0, 0}; Point(2) = {0, 0.8, 0}; Point(3) = {10, 0.8, 0}; Point(4) = {10, 0, 0}; Point(5) = {9, 0, 0};
+Point(6) = {9.5, 0, 0}; Point(7) = {9.5, -0.5, 0};
+Line(1) = {2, 1}; Line(2) = {1, 5}; Circle(3) = {5, 6, 7}; Circle(4) = {7, 6, 4}; Line(5) = {4, 3}; Line(6) = {3, 2};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};
+Point(11) = {11, -0.9, 0}; Point(12) = {12, -1.5, 0}; Point(13) = {13, -0.9, 0}; Point(14) = {12, -0.33380962, 0};
+Point(15) = {11, -2, 0}; Point(16) = {13, -2, 0};
+Circle(11) = {13, 12, 14}; Circle(12) = {14, 12, 11}; Line(13) = {11, 15}; Line(14) = {15, 16}; Line(15) = {16, 13};
+Curve Loop(2) = {11, 12, 13, 14, 15}; Plane Surface(2) = {2};
+Physical Surface("hook") = {1}; Physical Surface("catch") = {2};
+Physical Curve("root") = {1}; Physical Curve("nose") = {3, 4}; Physical Curve("bump") = {11, 12};
+Physical Curve("base") = {14};
+Field[1] = Distance; Field[1].CurvesList = {3, 4, 11, 12}; Field[1].NumPointsPerCurve = 100;
+Field[2] = Threshold; Field[2].InField = 1; Field[2].SizeMin = 0.1; Field[2].SizeMax = 0.4; Field[2].DistMin = 0.2;
+Field[2].DistMax = 1.5; Background Field = 2;
+Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeMax = 0.4;
