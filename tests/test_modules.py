@@ -319,6 +319,7 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
         "solve/methods",
         "solve/methods/newton",
         "kernel/half-plane",
+        "kernel/level-plane",
     }
     assert summary["method"] == "newton"
     exact = run("confined-block", "-h", 5, "-method", "newton").summary["force"]
