@@ -211,7 +211,8 @@ def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """
     belt = case(tmp_path, BELT.replace("0.2 * k", f"{thick} * k"), BELTED.replace("MU", str(friction)))
     assert belt.summary["newton"] <= 3 and belt.summary["backsolves"] < 300
-    assert belt.summary["contacts"][0]["stickShare"] == 0
+    contact = belt.summary["contacts"][0]
+    assert contact["stickShare"] == 0 and belt.history[-1]["force"] == pytest.approx(contact["normalForce"], rel=1e-9)
     middle = 10 + thick / 2
     rate = (sqrt(middle**2 + 20 * friction**2 * thick) - middle) / (friction * thick)
     tight = -belt.summary["supports"][0]["force"][1]
@@ -303,7 +304,7 @@ def test_two_contacts_at_a_corner(tmp_path, friction):
         if truth is not None:
             assert (abs(np.array(found) - truth) < np.array(errors[-1]) + errors[-2]).all()
         truth = np.array(found)
-    assert 1e-4 < max(errors[-1]) < 0.02 and max(errors[-1]) < 0.5 * max(errors[0])
+    assert 4e-3 < min(errors[-1]) and max(errors[-1]) < 0.02 and max(errors[-1]) < 0.5 * max(errors[0])
 
 
 def test_points_that_the_true_distance_loses(tmp_path):
