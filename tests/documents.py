@@ -31,7 +31,7 @@ CHAPTERS = {
     "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#"],
     "Scenes": ["edp/scenes/README.md", "edp/scenes/README.md#"],
     "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
-    "The paper and the theory": ["edp/PAPER.md", "edp/PAPER.md#", "edp/THEORY.md", "edp/THEORY.md#"],
+    "The paper and the theory": ["edp/PAPER.md", "edp/PAPER.md#", "edp/THEORY.md", "edp/THEORY.md#", "edp/GLOSSARY.md"],
     "Write your own": ["template/README.md", "edp/WRITING.md", "edp/WRITING.md#", "CONTRIBUTING.md"],
     "The code": ["edp/README.md", "edp/README.md#", "tests/data/README.md", "CHANGELOG.md"],
 }
