@@ -147,18 +147,6 @@ def flag_lists(text):
     return [part.split() for part in text.split("|")]
 
 
-RUBS = re.compile(r"^\s*(leg\s|tie\s|(contact|obstacle)\s.*\sfriction(\s|$))", re.M)
-ASKS = re.compile(r"^\s*(rotate|stresses|line|body\s.*\syield|expand|preload)(\s|$)", re.M)
-
-
-def parts_script(case, words, space=False):
-    """The script of a case's text: the one that edp/parts.edp would hand it over to, which starts only once."""
-    name, given = f"parts{'-3d' * space}", set(map(str, words))
-    asks = ASKS.search(case) or given & {"exact", "-history", "-accuracy", "-axis"}
-    kind = ("slides" if "exact" in given else "friction") if RUBS.search(case) else "asked" if asks else ""
-    return f"edp/scenes/asked/{name}-{kind}.edp" if kind else f"edp/{name}.edp"
-
-
 def interruptible():
     """A preexec_fn: Ctrl-C works as in a terminal; a job in the background is started with it ignored."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -242,7 +230,7 @@ def part(folder, mesh, case, *flags, space=False, script=None, expect=0):
         mesh.write_text(text)
     (folder / "a.case").write_text(case)
     words = ["-mesh", mesh, "-case", folder / "a.case", *([] if "-vtu" in flags else ["-vtu", 0]), *flags]
-    return run_in(ROOT, script or parts_script(case, words, space), *words, out=folder / "out", expect=expect)
+    return run_in(ROOT, script or f"edp/parts{'-3d' * space}.edp", *words, out=folder / "out", expect=expect)
 
 
 def snippet(folder, text, *flags, expect=0):

@@ -21,7 +21,6 @@ import test_contracts
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
-ASKED = "scenes/asked/parts-asked.edp", "scenes/asked/parts-3d-asked.edp"  # with all that a case may ask for
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "case/flags", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
 PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
@@ -65,7 +64,7 @@ def relations(name):
     ]
 
 
-EACH = re.compile(r"^macro (?:eachOption|moreOptions|askedOptions|inSpace)\(do, what\) (.*?)//", re.M | re.S)
+EACH = re.compile(r"^macro (?:eachOption|moreOptions|inSpace)\(do, what\) (.*?)//", re.M | re.S)
 
 
 def reads(script, space=False):
@@ -74,7 +73,7 @@ def reads(script, space=False):
     space = space or "macro threeDimensional" in text
     without = "!" if space else ""
     text = re.sub(rf"^IFMACRO\({without}threeDimensional\)\n.*?^ENDIFMACRO\n", "", text, flags=re.M | re.S)
-    own = re.findall(r"do\((\w+), what\)", "".join(EACH.findall(text)))
+    own = re.findall(r"(?:do\(|whenAsked\()(\w+), (?:do, )?what\)", "".join(EACH.findall(text)))
     inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
     return set(own).union(*(reads(name, space) for name in inner))
 
@@ -84,7 +83,7 @@ def scripts():
     found = {path.stem: str(path.relative_to(EDP)) for path in sorted(EDP.glob("scenes/*.edp"))}
     del found["two-bodies"]  # a script that says what became of it
     found["disc-on-block-ipopt"] = "scenes/ipopt/disc-on-block.edp"
-    return {"disc-on-block": "main.edp", **found, "parts": ASKED[0], "parts-3d": ASKED[1]}
+    return {"disc-on-block": "main.edp", **found, "parts": "parts.edp", "parts-3d": "parts-3d.edp"}
 
 
 def options():

@@ -28,10 +28,11 @@ MPIEXEC = ["mpiexec", "-n"]
 SAME = ("force", "pressureMax", "halfWidthMoment", "energy", "reactionZ", "approach")
 
 
-def on_ranks(ranks, name, *flags, cwd=ROOT):
-    """(exit code, output) of a script on so many processes; 1: FreeFem++ without mpirun."""
+def on_ranks(ranks, name, *flags, cwd=ROOT, asked=""):
+    """(exit code, output) of a script on so many processes; 1: FreeFem++ without mpirun; asked: CONTACT_REQUEST."""
     start = ["FreeFem++"] if ranks == 1 else [*MPIEXEC, ranks, "FreeFem++-mpi"]
-    return execute([*start, "-nw", "-v", 0, name, *map(flag_text, flags)], cwd, environment(**AS_ROOT))
+    start = [*MPIEXEC, ranks, "sh", "edp/freefem.sh"] if asked else [*start, "-nw", "-v", 0]
+    return execute([*start, name, *map(flag_text, flags)], cwd, environment(**AS_ROOT, CONTACT_REQUEST=asked))
 
 
 def said(output):
@@ -240,12 +241,15 @@ def test_case(case, ways, flags, ranks, tmp_path):
     (tmp_path / "a.case").write_text(case.format(*(vector(way, matrix, 3) for way in ways)))
     given = ["-mesh", tmp_path / "a.msh", "-case", tmp_path / "a.case", "-tol", 1e-8, "-vtu", 0, *flags]
     given += [] if "-estimate" in flags else ["-estimate", 0]
-    handed = "-history" in flags or "exact" in flags or "friction" in case or "stresses" in case
-    asked = f"scenes/asked/parts-3d-{'friction' if 'friction' in case else 'asked'}"
-    name = f"edp/{asked if handed else 'parts-3d'}.edp"
+    words = {"-history": "seriesOnRequest turningOnRequest", "exact": "turningOnRequest", "friction": "frictionOnRequest", "stresses": "stressesOnRequest"}
+    asked = " ".join(words[word] for word in words if word in flags or word in case)
     found = []
     for solver, count in (("direct", 1), ("multigrid", ranks)):
-        code, output = on_ranks(count, name, *given, "-solver", solver, "-out", tmp_path / solver)
+        flags = [*given, "-solver", solver, "-out", tmp_path / solver]
+        if asked and count > 1:  # ranks cannot start anew: they say how to be started
+            code, output = on_ranks(count, "edp/parts-3d.edp", *flags)
+            assert code == 10 and f"CONTACT_REQUEST='{asked}' mpiexec" in said(output)[-1]
+        code, output = on_ranks(count, "edp/parts-3d.edp", *flags, asked=asked if count > 1 else "")
         assert code == 0, output[-2000:]
         found.append(Run(code, output, tmp_path / solver))
     one, other = found

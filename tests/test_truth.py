@@ -11,7 +11,7 @@ import foreign
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
-from freefem import FREEFEM, ROOT, data, execute, parts_script, short_of
+from freefem import FREEFEM, ROOT, data, execute, short_of
 from test_parts import Mesh, block, turn
 
 MEMORY = 3_000_000  # kB: a run that wants more shall end, not the machine
@@ -25,7 +25,7 @@ class Told:
         mesh = mesh if "Point" in geo or "OpenCASCADE" in geo else mesh.with_suffix(".msh")
         mesh.write_text(geo)
         case_file.write_text(case)
-        script = parts_script(case, flags, space)
+        script = f"edp/parts{'-3d' * space}.edp"
         command = [*FREEFEM, script, "-mesh", mesh, "-case", case_file, "-out", out, "-vtu", vtu, *flags]
         code, self.stdout = execute(["sh", "-c", f'ulimit -v {MEMORY}; exec "$@"', "sh", *command])
         assert code == expect, f"exit code {code}:\n{self.stdout[-2000:]}"

@@ -1,0 +1,9 @@
+# case-asks.awk: what a case file asks for beside contact without friction: awk -f case-asks.awk CASE
+# Exit code: the sum of 1 friction, legs or ties; 2 heat or preload; 4 turns; 8 stresses, lines, yield; 16 a law that is not always read.
+BEGIN { end = "([ \t\r]|$)" }
+$0 ~ "^[ \t]*(leg[ \t]|tie[ \t]|(contact|obstacle)[ \t].*[ \t]friction" end ")" { rubs = 1 }
+$0 ~ "^[ \t]*(expand|preload)" end { strained = 1 }
+$0 ~ "^[ \t]*rotate" end { turns = 1 }
+$0 ~ "^[ \t]*((stresses|line)" end "|body[ \t].*[ \t]yield" end ")" { stressed = 1 }
+/[ \t]law[ \t]+(exponential|barrier|table)/ { laws = 1 }
+END { exit rubs + 2 * strained + 4 * turns + 8 * stressed + 16 * laws }
