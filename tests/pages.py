@@ -359,7 +359,8 @@ def columns():
 
 def statements():
     """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
-    reader = (EDP / "case/case-file.awk").read_text() + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
+    tables = (EDP / "case/case-grammar.awk").read_text()
+    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
 
     def usages(space):
         environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}

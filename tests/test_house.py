@@ -288,6 +288,26 @@ def test_no_name_twice():
     assert not twice
 
 
+LONG = {  # files above 450 lines, heads above 15: named here only while they last
+    "surface/outline.idp", "surface/pieces.idp", "case/flags.idp", "problem/problem.idp", "options/parts/supports.idp",
+    "options/isoparametric/bent-forms.idp", "options/attraction/path-errors.idp", "options/estimates/shape.idp",
+    "options/estimates/shape-space.idp",
+}  # fmt: skip
+LONG_HEADS = {
+    "case/hooks.idp", "surface/smooth-plane.idp", "surface/triangles.idp", "surface/pair-plane.idp",
+    "surface/outline.idp", "options/parts/supports.idp",
+}  # fmt: skip
+
+
+def test_no_long_file():
+    """A file shall be what a person holds in mind: at most 450 lines, its head at most 15."""
+    kinds = ("idp", "edp", "awk", "cpp", "hpp", "sh")
+    lines = {path: path.read_text().splitlines() for kind in kinds for path in EDP.rglob(f"*.{kind}")}
+    heads = {path: next((n for n, line in enumerate(text) if line[:2] != "//"), 0) for path, text in lines.items()}
+    assert {path.relative_to(EDP).as_posix() for path in lines if len(lines[path]) > 450} == LONG
+    assert {path.relative_to(EDP).as_posix() for path in heads if heads[path] > 15} == LONG_HEADS
+
+
 @pytest.mark.parametrize("script", READ)
 def test_what_a_script_reads(script, tmp_path):
     """What a script reads shall not grow: FreeFEM echoes it; every file's first line says its name."""
