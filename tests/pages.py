@@ -23,7 +23,7 @@ EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 ASKED = "scenes/asked/parts-asked.edp", "scenes/asked/parts-3d-asked.edp"  # with all that a case may ask for
 EXAMPLES = ["scenes/slurm.sh"]
-EVERYWHERE = "case/flags", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
+EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
 PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
