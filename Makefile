@@ -170,8 +170,8 @@ petsc: | system
 	$(INSTALL_MISSING)
 
 # ff-c++ writes beside its source; what is built is put in place when it is whole, the .idp that names it last.
-$(MULTIGRID): edp/operator/multigrid.cpp Makefile
-	@mkdir -p $(BUILD)/new && cp $< $(BUILD)/new && cd $(BUILD)/new && \
+$(MULTIGRID): edp/operator/multigrid.cpp $(wildcard edp/operator/multigrid-*.hpp) Makefile
+	@mkdir -p $(BUILD)/new && cp $(filter-out Makefile,$^) $(BUILD)/new && cd $(BUILD)/new && \
 	ff-c++ -mpi -I$(PETSC)/include $$(mpicxx --showme:compile) -L$(PETSC)/lib -Wl,-rpath,$(PETSC)/lib \
 	  $$(if ls $(PETSC)/lib/libpetsc_real.* >/dev/null 2>&1; then echo -lpetsc_real; else echo -lpetsc; fi) \
 	  $$(mpicxx --showme:link) multigrid.cpp >../multigrid.log 2>&1 && mv multigrid.so $(abspath $(MULTIGRID:.idp=.so)) || { \

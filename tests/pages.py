@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
-EVERYWHERE = "case/flags", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
+EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
 PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
@@ -358,7 +358,8 @@ def columns():
 
 def statements():
     """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
-    reader = (EDP / "case/case-file.awk").read_text() + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
+    tables = (EDP / "case/case-grammar.awk").read_text()
+    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
 
     def usages(space):
         environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}

@@ -1,0 +1,76 @@
+# case-grammar.awk: the statements of a case file: what each takes, what it does, and the words that others use for it
+# Read by awk between case-words.awk and case-file.awk: tables, made once from SPACE, 0 in the plane, 1 in space.
+# usage[statement]: what may stand in its line; does[statement], leads[word], instead[word]: for who writes another word;
+# takes[law], parameter[name], low, high: the laws' parameters, their places and open intervals; isShape[shape]: of obstacles.
+BEGIN {
+  space = ENVIRON["SPACE"] + 0
+  dim = 2 + space
+  rubs = ENVIRON["RUBS"] != ""
+  split("curve surface volume", kind, " ")
+  kind[0] = "point"
+  at3 = space ? " z" : ""
+  usage["units"] = "units LENGTH PRESSURE, as units mm MPa"
+  usage["state"] = "state strain, stress or axisymmetric"
+  usage["thickness"] = "thickness NUMBER"
+  usage["body"] = "body NAME E number nu number [yield number]"
+  usage["stresses"] = "stresses"
+  usage["line"] = "line NAME x y" at3 " x y" at3
+  usage["expand"] = "expand NAME alpha dT, two numbers"
+  usage["preload"] = "preload NAME force"
+  lawWords = "power|exponential|barrier|table|signorini"
+  lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
+  rubbing = "[friction MU [compliance c] [limit t]]"
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [law NAME ...] " rubbing ", with its parameters: " lawNames
+  shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
+  shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
+  usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [interference number] [law NAME ...] " rubbing ", SHAPE one of: " shapeNames
+  usage["clamp"] = "clamp NAME"
+  usage["symmetry"] = "symmetry NAME"
+  usage["move"] = "move NAME x y" at3
+  usage["rotate"] = space ? "rotate NAME, centre x y z, axis x y z, angle in radians" : "rotate NAME, centre x y, angle in radians"
+  usage["force"] = "force NAME x y" at3
+  usage["pressure"] = "pressure NAME number"
+  usage["traction"] = "traction NAME x y" at3
+  usage["leg"] = "leg STEPS"
+  usage["tie"] = "tie SLAVE MASTER"
+  usage["weight"] = "weight NAME x y" at3
+  manyOf[1] = "curves"; manyOf[2] = space ? "faces" : "surfaces"; manyOf[3] = "volumes"
+  pickWords = manyOf[dim - 1] " " manyOf[dim] " box plane near between"
+  pickList = pickWords
+  gsub(/ /, "|", pickList)
+  usage["group"] = "group NAME " manyOf[dim - 1] " N ..., " manyOf[dim] " N ..., box x y" at3 " x y" at3 ", plane x y" at3 " nx ny" \
+    (space ? " nz" : "") ", near x y" at3 " or between BODY BODY"
+  usage["size"] = "size NAME number or size contact number"
+  for (k in usage) statementWords = statementWords "|" k
+  statementWords = substr(statementWords, 2)
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, clamp, symmetry, move, rotate, force, pressure, traction, weight, expand, preload, stresses, line, leg"
+  split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
+    "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
+    "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
+    "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
+    "|size of the elements|preload a shank pulled together|expand thermal strain|units of lengths and pressures" \
+    "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it" \
+    "|leg loads and motions reached in steps|tie two surfaces glued: no gap, no slip", list, "|")
+  for (k in list) { line = list[k]; sub(/ .*/, "", line); does[line] = substr(list[k], length(line) + 2) }
+  split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|gravity acceleration density dload:weight" \
+    "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
+    "|material elastic steel:body|temperature thermal heat shrink:expand|rigid wall ground:obstacle|set nset elset surface face select:group" \
+    "|mesh h elementsize refine:size|unit:units|interface pair touch:contact|interference overlap:contact|tied bond bonded glue glued mortar:tie", list, "|")
+  for (k in list) {
+    n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
+    for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
+  }
+  instead["friction"] = instead["mu"] = instead["coulomb"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER friction 0.3"
+  instead["weld"] = instead["join"] = "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
+  instead["torque"] = instead["moment"] = "a couple is not offered: rotate NAME gives an angle, and its moment is said"
+  instead["spring"] = "springs are not offered: a body of their stiffness"
+  takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
+  parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
+  low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300
+  high["kappa"] = high["p0"] = high["beta"] = 1e300; high["m"] = 1000; high["d0"] = 0
+  split(shapeWords, list, "|")
+  for (k in list) isShape[list[k]] = 1
+  units = "none"
+  state = space ? "none" : "strain"
+  thickness = 1
+}
