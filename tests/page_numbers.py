@@ -24,6 +24,7 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from decimal import ROUND_HALF_EVEN, ROUND_UP, Decimal, getcontext
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -78,18 +79,19 @@ def agrees(value, text):
     return abs(value - number(written)) <= (float(tolerance) if tolerance else 0.51 * last_digit(written))
 
 
-def like(text, value):
-    """The value written as the text is: as many digits, as it has signs and blanks."""
+def like(text, value, bound=False):
+    """The value written as the text is: as many digits, as it has signs and blanks. A bound: its size, rounded up."""
     percent = " %" * text.endswith("%")
     digits, _, exponent = text.removesuffix(" %").partition("e")
     places = len(digits.partition(".")[2])
-    size = abs(value) * (100 if percent else 1)
+    size = Decimal(abs(value)) * (100 if percent else 1)
+    getcontext().rounding = ROUND_UP if bound else ROUND_HALF_EVEN
     if exponent:
         mantissa, _, power = f"{size:.{places}e}".partition("e")
         made = f"{mantissa}e{int(power)}"
     else:
         made = f"{size:,.{places}f}".replace(",", " " * (" " in digits))
-    sign = "" if float(made.replace(" ", "")) == 0 else "−" if value < 0 else "+" if text.startswith("+") else ""
+    sign = "" if float(made.replace(" ", "")) == 0 else "−" if value < 0 and not bound else "+" * text.startswith("+")
     return sign + made + percent
 
 
@@ -194,7 +196,7 @@ def differing(text, unit):
     for start, end, expression, bound in unit.marks:
         value, old = eval(expression, names), text[start:end]
         if not (abs(value) < number(old) if bound else agrees(value, old)):
-            found.append((start, end, old, like(old, value)))
+            found.append((start, end, old, like(old, value, bound)))
     return found
 
 

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, data, execute, flag_text, part, run, run_in, short_of, table
+from freefem import FREEFEM, ROOT, data, execute, flag_text, part, run, run_in, short_of, snippet, table, told
 from shapes import moved, polygon
 from test_parts import UNTURNED, Mesh, block, turn
 
@@ -67,6 +67,16 @@ def rub(folder, script, flags, expect=0):
 
 def fretting(folder, expect=0, **flags):
     return rub(folder, "edp/scenes/fretting.edp", {f"-{name}": value for name, value in flags.items()}, expect)
+
+
+def test_work_of_parabolas(tmp_path):
+    """The work of forces and ways that are parabolas is exact from a leg's second step on, the first one's with it."""
+    text = (ROOT / "edp/scenes/fretting.edp").read_text() + data("friction/work.edp")
+    flags = {**BLOCK, "-h": 1, "-legs": "1 0", "-vtu": 0, "-out": tmp_path / "out"}
+    found = told(snippet(tmp_path, text, *(word for pair in flags.items() for word in pair)))
+    force, way = [np.poly1d([3, 2, 1]), np.poly1d([-1, 0, 2])], [np.poly1d([-0.5, 1, 0]), np.poly1d([7, 0])]
+    exact = sum((f * w.deriv()).integ() for f, w in zip(force, way, strict=True))
+    assert [found["work2"][0], found["work3"][0]] == pytest.approx([exact(2), exact(3)], rel=1e-12)
 
 
 def series(run):

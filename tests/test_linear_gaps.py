@@ -105,6 +105,7 @@ def test_levers(said, load, height, flags):
             assert abs(value - true) < 1e-3 * true and error < 0.005 * true
         else:
             assert abs(value - true) > 0.02 * true and error < 3 * abs(value - true)
+            assert plank.linear["rotation"] == pytest.approx(tilt, rel=0.01)
     assert not plank.warnings
 
 

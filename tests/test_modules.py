@@ -298,6 +298,40 @@ def test_tangent(tmp_path, scene, order):
         assert values[f"error{step}"] < 1e-7 * values[f"imbalance{step}"]
 
 
+# ---------------------------------------------------------------- kernel/
+
+SPREAD = data("modules/spread.edp")
+BODIES = "body foundation E 70e3 nu 0.3\nbody punch E 210e3 nu 0.3\nclamp base\ncontact top sole\npressure head 100\n"
+PUNCHED = ["-mesh", "punch.geo", "-case", "punch.case", "-order", 2]
+
+
+def parts_of(folder, state):
+    """A rounded punch's files and the script of its parts, up to the solution."""
+    (folder / "punch.geo").write_text(data("results/punch.geo"))
+    (folder / "punch.case").write_text(f"{state}size contact 3\nsize foundation 20\nsize punch 15\n{BODIES}")
+    return (ROOT / "edp/parts.edp").read_text().split('include "solve/solve.idp"')[0]
+
+
+@pytest.mark.parametrize("name", ["disc-on-block", "about an axis", "chords", "chords about an axis"])
+def test_of_some_points(tmp_path, name):
+    """Cells that add up to the surface, its ends' as large before as behind; pressures of some points straight between
+    these, and none beyond, whatever was there before."""
+    axis, chords = name.endswith("axis"), name.startswith("chords")
+    text = parts_of(tmp_path, "state axisymmetric\n" * axis) if chords else scene_text("disc-on-block")
+    flags = PUNCHED if chords else ["-order", 2, "-h", 1, *(["-geometry", "axisymmetric"] if axis else [])]
+    values = told(snippet(tmp_path, text + SPREAD, *flags))
+    x, cell = values["x"], values["cell"]
+    way = values["along"] if chords else x
+    between = 0.5 * (way[1:] + way[:-1])
+    edges = np.concatenate([[2 * way[0] - between[0]], between, [2 * way[-1] - between[-1]]])
+    edges[0] *= not axis  # there a circle
+    areas = np.pi * (edges[1:] ** 2 - edges[:-1] ** 2) if axis else np.diff(edges)
+    assert cell == pytest.approx(areas, rel=0.01 if chords and axis else 1e-9)  # round the corner: 2 pi r by its length
+    some = values["places"].astype(int)
+    expected = np.interp(way, way[some], values["coarse"], left=0, right=0)
+    assert values["fine"] == pytest.approx(expected, abs=1e-12) and (expected == 0).any()
+
+
 # ---------------------------------------------------------------- lists of a scene's own
 
 LISTS = """

@@ -220,12 +220,16 @@ PLACES = data("surfaces-space/places.edp")
 
 
 def test_places_of_spheres(tmp_path):
-    """What the estimates and the true distance call places on the slave lies on its sphere; the points are points."""
+    """What the estimates and the true distance call places on the slave lies on its sphere; the points are points; the
+    curvatures of the closeness are its slopes' change, by differences: those of the patch count, a fifth and more."""
     text = general((ROOT / "edp/scenes/two-spheres.edp").read_text()) + PLACES
     flags = ["-order", 1, *EXACT, "-force", 0, "-u0", 0.5, "-vtu", 0, "-out", tmp_path / "out"]
     values = told(snippet(tmp_path, text, *flags))
     assert len(values["away"]) > 100 and abs(values["away"] - 10).max() < 0.01 * 0.5**2 / 80
     assert len(values["off"]) > 9 and abs(values["off"]).max() < 1e-12
+    for curved, slope in [(0, 0), (1, 1), (1, 3), (2, 4)]:
+        change = -values[f"slope{slope}"]
+        np.testing.assert_allclose(values[f"curved{curved}"], change, atol=1e-6 * abs(change).max())
 
 
 EXACT = ["-distance", "exact", "-h", 0.5, "-layers", 1]

@@ -52,6 +52,8 @@ OFTEN += [
 OFTEN += ["-force 80 -accuracy 1e-3", "-distance exact -accuracy 1e-2", "-geometry axisymmetric -accuracy 1e-2 -u0 1"]
 EXAMPLES = {"pin-in-hole": "parts", "press-fit": "parts", "roller": "parts", "crossed-cylinders": "parts-3d"}
 EXAMPLES["ball-on-bracket"] = "parts-3d"
+PUNCH = f"-mesh {ROOT}/tests/data/results/punch.geo -case {ROOT}/tests/campaigns/punch.case -estimate 0"
+TAPER = "-mesh edp/examples/taper/taper.geo -case edp/examples/taper/taper.case"
 STUCK = ["-u0 -0.0005", "-u0 0.0005 -order 2", "-h 0.08", "-h 0.08 -force-coarse 1", "-geometry stress", "-vtu 0"]
 STUCK += ["-geometry axisymmetric", "-method paper", "-method linesearch", "-method newton", "-start none", "-force 1"]
 STUCK += ["-eps0 0.002 -gap 0.002"]
@@ -126,6 +128,9 @@ def runs() -> Iterator[tuple[str, str, str]]:
             yield example + " P4", f"edp/{scene}.edp", f"{parts} -order 4"
             yield example + " 1e-2", f"edp/{scene}.edp", f"{parts} -accuracy 1e-2"
             yield example + " check", f"edp/{scene}.edp", f"{parts} -check 1"
+    yield "rounded punch, about an axis", "edp/parts.edp", f"{PUNCH} -order 4"
+    yield "taper, with friction", "edp/parts.edp", TAPER
+    yield one("wedge", "-order 2 -h 0.2")
     for lab in ["1-law", "2-newton", "3-threshold", "4-own-law", "5-cost", "6-sphere", "8-error", "9-own-part"]:
         yield f"lab {lab}", f"edp/labs/{lab}/{lab[2:]}.edp", ""
 
