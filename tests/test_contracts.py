@@ -213,7 +213,7 @@ def checked(sources):
 def test_the_code_is_read():
     """What this test takes for declarations and uses shall be what is meant."""
     assert {"sRest", "approach", "applyLoad", "setUpProblem"} <= read("problem/problem.idp")[0]
-    assert {"graphPoint", "forceControl", "threeDimensional"} <= uses("problem/problem.idp")
+    assert {"graphPoint", "forceControl", "condensed"} <= uses("problem/problem.idp")
     assert len(owners()) > 300
 
 
