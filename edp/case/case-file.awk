@@ -218,7 +218,7 @@ function readOther(   g, v, what) {
   base[key_] = statements + 1
   put(g, 0, "none", "none", "none", v)
 }
-# stresses, line, expand, preload: read by the scripts of scenes/asked/
+# stresses, line, expand, preload: read by options on request
 function readAsked(   g, v, name) {
   name = "none"
   if (word[1] == "stresses") once("stresses", "stresses")
