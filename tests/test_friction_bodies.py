@@ -295,7 +295,7 @@ def test_two_contacts_at_a_corner(tmp_path, friction):
     text = f"body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\n"
     text += f"obstacle left plane 0 0 1 0 friction {friction}\npressure floor 1\npressure right 0.5\n"
     errors, truth = [], None
-    for size in (0.2, 0.1):
+    for size in (0.4, 0.2, 0.1):
         run = case(tmp_path / str(size), geo.replace("H", str(size)), text, "-estimate", 1)
         base, left = run.summary["contacts"]
         told = [c["normalForce"] for c in run.summary["estimates"]["contacts"]]
@@ -305,6 +305,18 @@ def test_two_contacts_at_a_corner(tmp_path, friction):
             assert (abs(np.array(found) - truth) < np.array(errors[-1]) + errors[-2]).all()
         truth = np.array(found)
     assert min(errors[-1]) > 4e-3 and max(errors[-1]) < 0.02 and max(errors[-1]) < 0.5 * max(errors[0])
+
+
+@pytest.mark.parametrize("size, order", [(0.4, 1), (0.5, 2)])
+def test_grounded_node_rubs(tmp_path, size, order):
+    """A body that contact alone holds is grounded at a node, which may be in contact: friction acts there as well."""
+    geo = re.sub("For k In .0 : 1.", "For k In {0 : 0}", SLIDERS[: SLIDERS.index('Physical Surface("slider')])
+    text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.15\n"
+    text += "obstacle left plane 0 0 1 0 friction 0.15\npressure floor 1\npressure right 0.5\n"
+    run = case(tmp_path, geo.replace("H", str(size)), text, "-order", order)
+    assert run.summary["contacts"][0]["normalForce"] == pytest.approx(1.9366, rel=2e-3)  # without: 1.946
+    rows = table(run.folder / "contact.csv")
+    assert all(rows["shear"][(rows["x"] == 0) & (rows["y"] == 0)])
 
 
 def test_points_that_the_true_distance_loses(tmp_path):

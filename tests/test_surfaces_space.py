@@ -41,6 +41,21 @@ def test_patch(tmp_path, order, turn):
     np.testing.assert_allclose(done.contact["pressure"], exact, rtol=1e-10)
 
 
+@pytest.mark.parametrize("turn", [0, 2])
+def test_normals_beyond_the_master(tmp_path, turn):
+    """Points that next to nothing is opposite have the normal of their own surface, as others have."""
+    mesh = cube(Mesh(), (2, 2, 1), (3, 3, 1), (0, 0, 0), "lower-", "lower")
+    mesh = cube(mesh, (2, 2, 1), (3, 3, 1), (0.9, 0.1, 1), "upper-", "upper")
+    case = "body lower E 100 nu 0.3\nbody upper E 100 nu 0.3\ncontact lower-top upper-bottom\nclamp lower-bottom\n"
+    case += f"move upper-top {vector(TURNS[turn] @ [0.01, 0, -0.02])}\n"
+    contact = parts(tmp_path, mesh.text(TURNS[turn]), case, "-order", 1, "-distance", "exact").contact
+    normals = np.stack([contact[f"normal{c}"] for c in "XYZ"], axis=1)
+    beyond = contact["weight"] < 1e-6
+    assert beyond.sum() > 3 and not beyond.all()
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-2)
+    np.testing.assert_allclose(normals[beyond], [TURNS[turn] @ [0, 0, 1]] * beyond.sum(), atol=1e-9)
+
+
 def ball(cells, size=1.0):
     """A cube of tetrahedra blown up to a ball with the group skin; no two of its places alike."""
     mesh = cube(Mesh(), (2, 2, 2), 3 * (cells,), (-1, -1, -1), "", "ball")

@@ -249,7 +249,7 @@ def judged(part: Part, record: dict, known: dict[str, dict]) -> list[dict]:
         row = {"part": part.name, "number": name, "mesh": record["mesh"], "flags": record["flags"], "value": value}
         row |= {"said": said, "truth": exact, "doubt": doubt, "error": error, "warned": has_size, "warnings": warnings}
         sure = np.isinf(error) or error - doubt > said or error + doubt <= said
-        row["covered"] = (error <= said) if sure else None
+        row["covered"] = bool(error <= said) if sure else None
         row["cause"] = ""
         if row["covered"] is False:
             other = [known.get(which, {}).get("numbers", {}).get(name) for which in ("middle", "linear", "smooth")]
