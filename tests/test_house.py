@@ -15,7 +15,7 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (10515, 92), "edp/parts.edp": (20182, 138), BARE: (7336, 60)}  # lines, files
+READ = {"edp/main.edp": (9929, 85), "edp/parts.edp": (19668, 131), BARE: (6910, 55)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 31,
     "of these by two other files or more": 3,

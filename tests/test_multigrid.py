@@ -241,7 +241,12 @@ def test_case(case, ways, flags, ranks, tmp_path):
     (tmp_path / "a.case").write_text(case.format(*(vector(way, matrix, 3) for way in ways)))
     given = ["-mesh", tmp_path / "a.msh", "-case", tmp_path / "a.case", "-tol", 1e-8, "-vtu", 0, *flags]
     given += [] if "-estimate" in flags else ["-estimate", 0]
-    words = {"-history": "seriesOnRequest turningOnRequest", "exact": "turningOnRequest", "friction": "frictionOnRequest", "stresses": "stressesOnRequest"}
+    words = {
+        "-history": "seriesOnRequest turningOnRequest",
+        "exact": "turningOnRequest",
+        "friction": "frictionOnRequest",
+        "stresses": "stressesOnRequest",
+    }
     asked = " ".join(words[word] for word in words if word in flags or word in case)
     found = []
     for solver, count in (("direct", 1), ("multigrid", ranks)):
