@@ -449,7 +449,7 @@ doctor: ## say what is installed, what is missing and how to get it
 
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: ## run the tests that take few seconds: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
-test-all: ## run every test there is, the long ones as well
+test-all: ## run every test there is, the long ones as well: what .ci/run runs
 test-all: MARKED := -m 'long or not long'
 test test-all: $(VENV)/dev.stamp | system
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)
