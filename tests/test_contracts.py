@@ -16,7 +16,7 @@ MODULES = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.idp"))
 ALONE = EDP / "labs/0-algorithm/algorithm1.edp"  # plain FreeFEM: it shares nothing with the modules
 SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp") if path != ALONE)
 TYPES = set("int real string bool complex matrix mesh mesh3 varf fespace func ifstream ofstream ostream".split())
-EVERYWHERE = {"moduleLoaded", "pluginLoaded", "readTwin"}  # every module says that it is there; includes
+EVERYWHERE = {"moduleLoaded", "pluginLoaded", "readTwin", "readUnless"}  # every module says that it is there; includes
 
 # a macro ends at //, on whatever line; elsewhere // begins a comment
 TEXT = re.compile(r'"(?:\\.|[^"\\])*"|\bmacro\s+(\w+)\s*\(([^)]*)\)(.*?)//|//[^\n]*', re.DOTALL)
