@@ -3,7 +3,7 @@
 #        Python commands numpy and matplotlib. The environment's CONTACT_STARTER, if any: how this program was called.
 # Gives: what the script gives; names among the flags are taken from the present folder. Where the package cannot be written, or
 #        is an installed one, results go to results/ in the present folder; see case/cache.sh for what is made and kept.
-# CONTACT_REQUEST: what the script reads beside (case/on-request.sh). Without it the script finds out and starts again; ranks cannot.
+# CONTACT_REQUEST: what the script reads beside (case/on-request.sh). Without it the script finds out and starts again.
 # Exit code: FreeFem++'s or Python's; 10 without a script, without Python's packages, and below a folder with ; in its name.
 # FreeFEM looks for modules and plugins where the file freefem++.pref of the present folder says: elsewhere the environment says it.
 # It begins in edp/, for it reads includes of its folder first; CONTACT_FOLDER tells case/flags.idp where to go back to.
@@ -65,7 +65,12 @@ if ! test "$root" -ef . && grep -qE "$uses" "$script"; then
 fi
 case " $* " in *' -plot 1 '*) window=;; *) window=-nw;; esac
 program=FreeFem++
-test -z "$OMPI_COMM_WORLD_SIZE$PMI_SIZE" || program=FreeFem++-mpi
+# MPI's program cannot start anew: another one finds out what it needs
+test -z "$OMPI_COMM_WORLD_SIZE$PMI_SIZE" || {
+    program=FreeFem++-mpi
+    asking='env -u OMPI_COMM_WORLD_SIZE -u PMI_SIZE CONTACT_ASK=1 FreeFem++ -nw -v 0'
+    test -n "$CONTACT_REQUEST" || CONTACT_REQUEST=$($asking "$script" "$@" < /dev/null | sed -n 's/^CONTACT_REQUEST *//p')
+}
 test -n "$CONTACT_REQUEST" || exec $program $window -v 0 "$script" "$@"
 set -- "$script" $program $window -v 0 /dev/fd/3 "$@"
 . "$edp/case/on-request.sh"
