@@ -266,4 +266,4 @@ def test_friction_pressed_deep(said):
         value, error = linear.known(what)
         assert abs(value - true) <= error + doubt < 0.05 * value
     shears = [np.linalg.norm(found.summary["contacts"][0]["shearForce"]) for found in (linear, exact)]
-    assert abs(shears[0] - shears[1]) <= linear.summary["contacts"][0]["mesh"]["shearForce"]["error"] < 0.2 * shears[0]
+    assert abs(shears[0] - shears[1]) <= linear.summary["contacts"][0]["mesh"]["shearForce"]["error"] < 0.35 * shears[0]
