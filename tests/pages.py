@@ -5,6 +5,7 @@ prints, of what a few short runs leave in their files, of a case file's grammar.
 is kept, and what they are is written anew; one that is in no row gets one without meaning.
 """
 
+import html
 import json
 import os
 import re
@@ -23,6 +24,7 @@ EDP = ROOT / "edp"
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
+FLOW = EDP / "flow.svg"  # where data goes
 PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
@@ -392,10 +394,43 @@ def written(text):
     return BLOCK.sub(lambda found: found[1] + "\n" + TABLES[found[2]]() + "\n" + found[3], text)
 
 
+def flow():
+    """A picture of where data goes: the core's folders in their order, what each gives (README's table), and an arc
+    from each one to those that use its names, the wider the more names."""
+    rows = re.findall(r"^\| `(\w+)/` \| (.*?) \| (.*?) \|$", (EDP / "README.md").read_text(), re.M)
+    rows = [row for row in rows if row[0] not in ("case", "options", "blocks", "scenes", "labs")]
+    at = {folder: number for number, (folder, *_) in enumerate(rows)}
+    names = {}
+    for path, taken in test_contracts.taken().items():
+        for other, words in taken.items():
+            ends = other.split("/")[0], path.split("/")[0]
+            if set(ends) <= at.keys() and at[ends[0]] < at[ends[1]]:
+                names.setdefault(ends, set()).update(words)
+    step, left, wide = 44, 190, 660
+    drawn = []
+    for (giver, user), words in sorted(names.items(), key=lambda item: -len(item[1])):
+        a, b = (22 + step * at[giver] + 17, 22 + step * at[user] + 17)
+        out = left - 22 - 9 * (at[user] - at[giver])
+        size = f"{0.4 + 0.25 * len(words) ** 0.6:.1f}"
+        drawn.append(f'<path d="M{left} {a + 6}C{out} {a + 6} {out} {b - 6} {left} {b - 6}" stroke-width="{size}"/>')
+    boxes = []
+    for folder, task, gives in rows:
+        y = 22 + step * at[folder]
+        told = [html.escape(text.replace("`", "").replace("\\", "")) for text in (task, gives)]
+        boxes.append(f'<rect x="{left}" y="{y}" width="{wide - left - 10}" height="36" rx="4"/>')
+        boxes.append(f'<text x="{left + 10}" y="{y + 15}"><tspan class="f">{folder}</tspan>  {told[0]}</text>')
+        boxes.append(f'<text x="{left + 10}" y="{y + 30}" class="g">{told[1]}</text>')
+    style = "text{font:12px sans-serif;fill:#222}.f{font-weight:bold}.g{fill:#1b5e8c}rect{fill:#f4f6f8;stroke:#9aa5b1}"
+    style += "path{fill:none;stroke:#1b5e8c;stroke-opacity:.45}"
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide} {22 + step * len(rows)}" width="{wide}">'
+    return "\n".join([head, f"<style>{style}</style>", *drawn, *boxes, "</svg>"]) + "\n"
+
+
 def stale():
-    """The pages whose tables are not those of the sources: their new texts."""
+    """The pages whose tables are not those of the sources, and the picture: what they should be."""
     texts = {page: page.read_text() for page in PAGES}
-    return {page: new for page, text in texts.items() if (new := written(text)) != text}
+    found = {page: new for page, text in texts.items() if (new := written(text)) != text}
+    return found | ({FLOW: flow()} if not FLOW.exists() or FLOW.read_text() != flow() else {})
 
 
 if __name__ == "__main__":
