@@ -15,7 +15,7 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (9583, 91), "edp/parts.edp": (19762, 136), BARE: (6551, 60)}  # lines, files
+READ = {"edp/main.edp": (9587, 91), "edp/parts.edp": (19766, 136), BARE: (6551, 60)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 31,
     "of these by two other files or more": 3,

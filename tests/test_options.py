@@ -100,3 +100,40 @@ def test_meshes_want_estimates(tmp_path):
     text = pages.EACH.sub("macro eachOption(do, what) do(meshes, what) //", (EDP / "main.edp").read_text())
     said = snippet(tmp_path, text, expect=10)
     assert said.startswith("eachOption: meshes: ") and len(said.splitlines()) == 1
+
+
+NAMED = {"Loads"}  # hooks that list an option's modules in the host's own form
+MOST = 60
+
+
+def hosts(hook):
+    """The blocks of code, a function or braces at top level, in which a hook stands."""
+    found = []
+    for name in MODULES:
+        text = re.sub(r"//.*", "", (EDP / name).read_text())
+        for place in re.finditer(rf"\boptionHook\({hook}\)", text):
+            begins = max(text.rfind("\nfunc ", 0, place.start()), text.rfind("\n{", 0, place.start()))
+            inside = begins >= 0 and "\n}\n" not in text[begins : place.start()]
+            found += [text[begins : (text + "\n}\n").index("\n}\n", begins)]] if inside else []
+    return found
+
+
+def test_hooks_only_listen():
+    """No option's statements at a hook shall end the host's function or use its own names: who changes what a module
+    does replaces the module (readUnless)."""
+    every = {hook for name in MODULES for hook in re.findall(r"\boptionHook\(([A-Z]\w*)\)", (EDP / name).read_text())}
+    wrong = [f"{len(every)} hooks, at most {MOST}"] if len(every) > MOST else []
+    for hook in sorted(every - NAMED):
+        declared = r"\b(?:int|real|bool|string|matrix|ofstream|ifstream)(?:\[[\w,]+\])?\s*&?\s*(\w+)"
+        own = {word for host in hosts(hook) for word in re.findall(declared, host.replace("func", "", 1))}
+        own -= {word for host in hosts(hook) for word in re.findall(r"^\nfunc \S+ (\w+)", host)}
+        for option in OPTIONS:
+            text = (EDP / f"options/{option}/{option}.idp").read_text()
+            for body in re.findall(rf"^macro {option}{hook}\(\)(.*?)//", text, flags=re.M | re.S):
+                words = set(re.findall(r"\w+", re.sub(r'"(\\.|[^"\\])*"', "", body)))
+                mine = set(re.findall(declared, body))
+                if "return" in words:
+                    wrong.append(f"{option}{hook} returns")
+                if own & words - mine:
+                    wrong.append(f"{option}{hook} uses its host's {', '.join(sorted(own & words - mine))}")
+    assert not wrong, "\n".join(wrong)
