@@ -64,7 +64,7 @@ STIFF = "sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9]
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
-    name = package / "edp" / "options" / "many" / "levels.idp"
+    name = package / "edp" / "options" / "many" / "upright.idp"
     text = name.read_text()
     assert text.count("int manyOnLevels = 1500;") == 1
     usual = run(scene, *flags).summary
@@ -80,7 +80,7 @@ def test_no_convergence(tmp_path):
     package = tree(tmp_path / "package")
     many = package / "edp" / "options" / "many"
     for name, before, after in (
-        ("levels.idp", "int manyOnLevels = 1500;", "int manyOnLevels = 20;"),
+        ("upright.idp", "int manyOnLevels = 1500;", "int manyOnLevels = 20;"),
         ("levels-inverse.idp", "int innerMost = 300;", "int innerMost = 1;"),
     ):
         text = (many / name).read_text()
