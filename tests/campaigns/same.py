@@ -57,7 +57,6 @@ TAPER = "-mesh edp/examples/taper/taper.geo -case edp/examples/taper/taper.case"
 STUCK = ["-u0 -0.0005", "-u0 0.0005 -order 2", "-h 0.08", "-h 0.08 -force-coarse 1", "-geometry stress", "-vtu 0"]
 STUCK += ["-geometry axisymmetric", "-method paper", "-method linesearch", "-method newton", "-start none", "-force 1"]
 STUCK += ["-eps0 0.002 -gap 0.002"]
-STICKY = "-w 0.003108162 -h 0.02 -fine 0.38 -grading 283"
 REFUSED = ["-h 0", "-order 3", "-method no", "-T0 -5", "-out /proc/x", "-kappa abc", "-law table"]
 REFUSED += ["-nosuch 1", "-law barrier -method newton", "-force 5 -method paper", "-accuracy 0.01 -method paper"]
 
@@ -105,10 +104,10 @@ def runs() -> Iterator[tuple[str, str, str]]:
     for scene in ADHESIVE[:2]:
         for flags in ["", "-order 1", "-kappa 100 -law power", *STUCK]:
             yield one(scene, flags)
-    yield one("adhesive-sphere", f'{STICKY} -path "-0.002 0.001 -0.002" -steps 4')
-    yield one("adhesive-sphere", f'{STICKY} -path "-0.002 0.001" -steps 4 -branch unstable')
+    yield one("adhesive-sphere", '-path "-0.0031 0.0011 -0.0031" -steps 5')
+    yield one("adhesive-sphere", '-path "-0.0031 0.0011" -steps 5 -branch unstable')
     yield one("adhesive-sphere", '-control force -path "0.02 -0.03" -steps 2')
-    for flags in ["", "-path 1", "-u0 -0.005 -law table", "-history 1 -steps 2"]:
+    for flags in ["", "-path 1", '-path "-0.02 0.01 -0.02" -steps 3', "-u0 -0.005 -law table", "-history 1 -steps 2"]:
         yield one("adhesive-wavy", flags)
     yield one("adhesive-sphere-3d")
     yield one("disc-on-block-ipopt", "-method ipopt -order 1", "edp/scenes/disc-on-block-ipopt.edp")
