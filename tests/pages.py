@@ -408,7 +408,7 @@ def flow():
                 names.setdefault(ends, set()).update(words)
     step, left, wide = 44, 190, 660
     drawn = []
-    for (giver, user), words in sorted(names.items(), key=lambda item: -len(item[1])):
+    for (giver, user), words in sorted(names.items(), key=lambda item: (-len(item[1]), item[0])):
         a, b = (22 + step * at[giver] + 17, 22 + step * at[user] + 17)
         out = left - 22 - 9 * (at[user] - at[giver])
         size = f"{0.4 + 0.25 * len(words) ** 0.6:.1f}"

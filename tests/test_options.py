@@ -103,7 +103,7 @@ def test_meshes_want_estimates(tmp_path):
 
 
 NAMED = {"Loads"}  # hooks that list an option's modules in the host's own form
-MOST = 60
+MOST = 39  # to be lowered with the code
 
 
 def hosts(hook):
@@ -127,6 +127,7 @@ def test_hooks_only_listen():
         declared = r"\b(?:int|real|bool|string|matrix|ofstream|ifstream)(?:\[[\w,]+\])?\s*&?\s*(\w+)"
         own = {word for host in hosts(hook) for word in re.findall(declared, host.replace("func", "", 1))}
         own -= {word for host in hosts(hook) for word in re.findall(r"^\nfunc \S+ (\w+)", host)}
+        own -= {word for given in re.findall(rf"\b{hook}\(([\w, ]+)\)", LIST) for word in given.split(", ")}
         for option in OPTIONS:
             text = (EDP / f"options/{option}/{option}.idp").read_text()
             for body in re.findall(rf"^macro {option}{hook}\(\)(.*?)//", text, flags=re.M | re.S):
