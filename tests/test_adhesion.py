@@ -255,6 +255,26 @@ def test_linearisations_of_a_loop(mu, most):
     assert done.backsolves <= done.points + 5
 
 
+@pytest.mark.parametrize("scene, wide", [(SPHERE, 0.17274), ("adhesive-cylinder", 0.187046)])  # P2, h = 0.005
+def test_error_of_a_state(scene, wide):
+    """What -tol leaves shall be told to 1 %; contact ends where the pull is greatest, known to a part of an element."""
+    tight, loose = (run(scene, "-tol", tol, "-estimate", 1) for tol in (1e-10, 1e-3))
+    assert loose.estimates["parts"]["algebra"] == pytest.approx(abs(loose.force - tight.force), rel=0.01)
+    assert abs(tight.halfWidth - wide) <= tight.estimates["halfWidth"]["error"] < 0.7 * tight.parameters["h"]
+
+
+def test_near_a_fold():
+    """Nearer to a fold than the mesh has it, no error shall be told: that of the linear problem would be too small."""
+    near = run(SPHERE, "-u0", -0.0015, "-estimate", 1)
+    assert near.stability > 0 and near.estimates is None
+    assert "nearer to a fold" in near.notEstimated
+
+
+def test_start_on_the_model():
+    """Started on the kernel's model, a solution shall take less than half the linearisations."""
+    assert 2 * run(SPHERE).newton < run(SPHERE, "-start", "none").newton
+
+
 def test_error_of_a_path():
     """What the mesh has a path's numbers off by shall be in their errors, which are no more than some times it."""
     ends = "-path", "-0.0031 0.0011 -0.0031"
@@ -274,6 +294,8 @@ def test_error_of_a_path():
     assert max(shares) <= 1 and np.median(shares) > 0.2
     assert told.pathErrors["loopWork"] == pytest.approx(told.pathErrors["dissipated"], rel=1e-6)
     assert told.pathErrors["notKnown"] == ""
+    (line,) = (text for text in told.stdout.splitlines() if text.startswith("  within  least force"))
+    assert all(f"  {name} " in line for name in ("dissipated", "work along the path"))
 
 
 def test_accuracy_of_a_law_that_falls(tmp_path):
@@ -293,6 +315,7 @@ def test_path_of_forces(tmp_path):
     off = abs(done.approach - 0.001046811)  # P2, h = 0.006
     assert off <= done.estimates["approach"]["error"] < 0.05 * done.approach
     assert abs(done.force + 0.03) <= done.estimates["force"]["error"] < 1e-8
+    assert done.warnings == []
     assert run(SPHERE, "-u0", float(rows["approach"][2])).force == pytest.approx(-0.03, rel=1e-6)
     lost = run(SPHERE, *given, "-path", "0 -0.09", expect=20)
     assert "no stable state carries the force -0.09" in lost.message
