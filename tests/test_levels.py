@@ -4,6 +4,7 @@ import pytest
 from freefem import ROOT, data, run, run_in, scene_text, script, short_of, snippet, told, tree
 
 PRODUCTS = data("levels/products.edp")
+MODEL = data("levels/model.edp")
 
 
 @pytest.mark.parametrize(
@@ -18,8 +19,12 @@ PRODUCTS = data("levels/products.edp")
     ],
 )
 def test_products(scene, flags, tmp_path):
-    """The same as with the matrix to 1 %, for a smooth pressure and for one force."""
-    values = told(snippet(tmp_path, scene_text(scene) + PRODUCTS, *flags))
+    """The same as with the matrix to 1 %, for a smooth pressure and for one force, also with the fitted polynomial;
+    what keeps the model definite is added, and new points have new grids."""
+    values = told(snippet(tmp_path, scene_text(scene) + PRODUCTS + MODEL, *flags))
+    assert values["model"][0] < 0.01
+    assert values["guard"][0] == pytest.approx(0.02)
+    assert values["kept"][0] == 0
     assert values["levels"][0] >= 3
     assert values["off0"][0] < 0.01
     assert values["off1"][0] < 0.02
