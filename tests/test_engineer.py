@@ -146,8 +146,9 @@ def test_joint_diagram(tmp_path):
 def test_bolt_that_follows_a_force(tmp_path):
     """A force on the head's top, which it follows as one."""
     solve(tmp_path, BOLT, f"{JOINT}force top 0 9\n", "-vtu", 0)
-    one = summary(tmp_path)["preloads"][0]
-    assert one["force"] == pytest.approx(joint(9)[0], rel=1e-4)
+    found = summary(tmp_path)
+    assert found["preloads"][0]["force"] == pytest.approx(joint(9)[0], rel=1e-4)
+    assert found["estimates"] is None and "nothing estimates" in found["notEstimated"]
 
 
 STRETCH = 1e-4 * 50 * 10  # of ten by heat
