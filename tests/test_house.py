@@ -17,7 +17,7 @@ ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # ea
 BARE = "edp/scenes/confined-block.edp"  # without its options
 READ = {"edp/main.edp": (9683, 101), "edp/parts.edp": (19866, 146), BARE: (6594, 66)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
-    "globals written outside their module": 31,
+    "globals written outside their module": 98,
     "of these by two other files or more": 3,
     "files in knots, if hooks count too": 35,
     "names declared by files that stand in no other's place": 47,
@@ -62,12 +62,25 @@ def levels(text):
         depth += line.count("{") - line.count("}")
 
 
+def listed(line):
+    """The names that a line's declarations have, those behind commas too: `real a = f(x, y), b[2];`."""
+    found = set()
+    for first in re.finditer(rf"(?<!\w){TYPE}\s*&?\s*(?=\w)", line):
+        depth, rest = 0, ""
+        for char in line[first.end() :]:
+            depth += (char in "([") - (char in ")]")
+            if char in ";{" or depth < 0:
+                break
+            rest += char if depth == 0 else ""
+        found |= {re.match(r"\w*", part.strip())[0] for part in rest.split(",")}
+    return found
+
+
 @cache
 def variables(path):
     """The variables that a module declares at its top level."""
     lines = [line for line, depth in levels(modules()[path]) if depth == 0 and not line.lstrip().startswith("return")]
-    found = [re.match(rf"\s*{TYPE}\s+(\w+)\s*(?:=|\(|;|,)", line) for line in lines]
-    return {match[1] for match in found if match}
+    return {name for line in lines if re.match(rf"\s*{TYPE}\s+\w+\s*(?:=|\(|;|,)", line) for name in listed(line)}
 
 
 @cache
@@ -113,7 +126,7 @@ def local(path):
     names |= {word for *_, body in macros for word in re.findall(rf"{TYPE}\s*&?\s*(\w+)", body)}
     for line, depth in levels(text):
         if depth > 0 or re.match(r"\s*func|\s+\w", line):
-            names |= set(re.findall(rf"{TYPE}\s*&?\s*(\w+)", line))
+            names |= listed(line)
             names |= set(re.findall(r"(?:varf|fespace|ofstream|ifstream)\s+(\w+)", line))
     return names
 
