@@ -5,6 +5,7 @@ Who uses what, which is read here, `make pages` writes into edp/README.md, and `
 
 import re
 from functools import cache
+
 from freefem import ROOT
 
 EDP = ROOT / "edp"
