@@ -451,12 +451,13 @@ def flow():
         boxes.append(f'<rect x="{x}" y="{y}" width="{wide}" height="{high}" rx="4"/>')
         for row, (kind, line) in enumerate((("f", folder + "/"), ("", text), ("g", names))):
             boxes.append(f'<text x="{x + 8}" y="{y + 17 + 16 * row}" class="{kind}">{html.escape(line)}</text>')
-    style = "text{font:12px sans-serif;fill:#222}.f{font-weight:bold}.g{font:11px monospace;fill:#1b5e8c}.n{fill:#555;font-size:11px}"
-    style += "rect{fill:#f4f6f8;stroke:#9aa5b1}path{fill:none;stroke:#1b5e8c;stroke-width:1.4}.loop{fill:none;stroke-dasharray:5 4}"
+    style = "text{font:12px sans-serif;fill:#222}.f{font-weight:bold}.g{font:11px monospace;fill:#1b5e8c}"
+    style += ".n{fill:#555;font-size:11px}rect{fill:#f4f6f8;stroke:#9aa5b1}.loop{fill:none;stroke-dasharray:5 4}"
+    style += "path{fill:none;stroke:#1b5e8c;stroke-width:1.4}"
     tip = '<marker id="tip" orient="auto" markerWidth="8" markerHeight="8" refX="7" refY="4">'
     tip += '<path d="M0 0L8 4L0 8z" style="fill:#1b5e8c;stroke:none"/></marker>'
-    loop = '<rect x="205" y="192" width="480" height="182" rx="8" class="loop"/><text x="420" y="352" class="n">threshold loop: '
-    loop += "solve/extended-newton.idp</text>"
+    loop = '<rect x="205" y="192" width="480" height="182" rx="8" class="loop"/>'
+    loop += '<text x="420" y="352" class="n">threshold loop: solve/extended-newton.idp</text>'
     head = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 800 480" width="800">'
     white = '<rect width="800" height="480" style="fill:#fff;stroke:none"/>'
     return (
