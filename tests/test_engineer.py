@@ -376,6 +376,7 @@ def test_help_in_two_parts():
     assert "-preconditioner" in whole and "-method" in whole
 
 
+@pytest.mark.long
 def test_sweep(tmp_path, monkeypatch, capsys):
     """Runs side by side, goes on with what is missing, and refuses what belongs to another sweep."""
     (tmp_path / "part.geo").write_text(RING.replace("SIZE", "6"))
@@ -418,6 +419,7 @@ SPOILS = {
 
 
 @pytest.mark.parametrize("name", SPOILS)
+@pytest.mark.long
 def test_spoilt_results(name, tmp_path, monkeypatch, capsys):
     """Commands shall say in one line that a folder's files are spoilt: no traceback, no escape code, no waiting."""
     case = f"{BODIES}contact bore seat interference 0.02\nstresses\n"
@@ -533,6 +535,7 @@ def test_length_of_a_flat_face(tmp_path, pull, length, least, most):
     assert abs(found["value"] - length) <= found["error"] and least < found["error"] < most
 
 
+@pytest.mark.long
 def test_sweep_of_changed_files(tmp_path, monkeypatch, capsys):
     """A run is done anew when a law's table or a file that the geometry includes has changed, and kept otherwise."""
     (tmp_path / "part.geo").write_text('Include "shapes/ring.geo";\n')

@@ -39,6 +39,7 @@ def test_hertz_needs_a_force(tmp_path, capsys):
     assert "without -force" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_series(tmp_path):
     """Force against approach of a load series shall be drawn."""
     done = run("rough", "-method", "xnewton", "-h", 0.5, "-modes", 20, "-history", 1, "-steps", 2)

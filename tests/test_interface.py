@@ -143,6 +143,7 @@ def test_from_any_folder(name, package, tmp_path):
     assert code == 10 and stdout.startswith("nowhere.edp: no such script")
 
 
+@pytest.mark.long
 def test_modules_are_the_package_s(package, tmp_path):
     """The starter shall read no module, script or Python module of the present folder in place of the package's."""
     for name in "case/flags.idp case/scene.idp laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
@@ -277,6 +278,7 @@ def test_what_is_echoed(word, tmp_path):
         assert b"\033" not in done.stdout and len(done.stdout) < 7000
 
 
+@pytest.mark.long
 def test_pipes(tmp_path):
     """A pipe as a case file, or as the table of a law, shall not be waited for."""
     os.mkfifo(tmp_path / "it's a pipe")

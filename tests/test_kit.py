@@ -26,6 +26,7 @@ def made(tmp_path_factory):
     return folder / "kit"
 
 
+@pytest.mark.long
 def test_handouts(made):
     """A handout a lab, with its pictures, without answers or a link but to what is on the net."""
     assert {path.stem for path in made.glob("handout-*.html")} == {f"handout-{lab}" for lab in LABS}

@@ -190,6 +190,7 @@ class TestFrames:
 
 
 class TestMovie:
+    @pytest.mark.long
     def test_the_player(self, film):
         """The page shall hold every frame, ask nothing of the network, and tell in words what it shows."""
         page, frames = (film / "movie.html").read_text(), read_run(film).summary["newton"] + 1
@@ -301,6 +302,7 @@ def test_hostile_files_of_a_tree(tmp_path, capsys, name, content, words):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_senseless_parameters(block, capsys, tmp_path, monkeypatch):
     """Numbers that no run would write shall be refused or drawn, never end in a traceback."""
     monkeypatch.setattr(doctor, "versions", dict)
@@ -488,6 +490,7 @@ def test_compare_prints_the_differences(paper, brief, tmp_path, capsys):
     assert len({len(line.rstrip()) for line in lines if line.startswith(("force", "pressureMax"))}) == 1
 
 
+@pytest.mark.long
 def test_every_figure_at_once(tmp_path, capsys):
     """`figures` shall draw what can be drawn, and list what is missing with what it needs."""
     out = tmp_path / "figures"
@@ -523,6 +526,7 @@ class TestDoctor:
         assert done.stderr == ""
         return done.returncode, done.stdout
 
+    @pytest.mark.long
     def test_everything_is_there(self):
         code, stdout = self.examine(ROOT)
         assert code == 0, stdout

@@ -22,6 +22,7 @@ def test_books():
 
 
 @pytest.mark.parametrize("lab", short_of(["2-newton"], BOOKS))
+@pytest.mark.long
 def test_runs(lab, tmp_path):
     """A notebook shall run in its own folder, and the answer that it begins with be well."""
     nbformat, nbclient = (pytest.importorskip(name) for name in ("nbformat", "nbclient"))

@@ -86,6 +86,7 @@ def as_if(item, further):
 
 
 @pytest.mark.parametrize("name", short_of(["paper", "newton-map"], SAMPLED))
+@pytest.mark.long
 def test_sample_of_a_campaign(name, tmp_path):
     """Six of the runs that a table is made of, three of a short test, shall give the cells that stand there."""
     file, made = tables.TABLES[name]

@@ -1,6 +1,7 @@
 """edp/options/: what a scene reads on request, what the others say of it, and that the core names none of it."""
 
 import re
+from functools import cache
 
 import pages
 from freefem import ROOT, run, run_in, snippet
@@ -106,11 +107,16 @@ NAMED = {"Loads"}  # hooks that list an option's modules in the host's own form
 MOST = 39  # to be lowered with the code
 
 
+@cache
+def code():
+    """The modules' texts without comments."""
+    return [re.sub(r"//.*", "", (EDP / name).read_text()) for name in MODULES]
+
+
 def hosts(hook):
     """The blocks of code, a function or braces at top level, in which a hook stands."""
     found = []
-    for name in MODULES:
-        text = re.sub(r"//.*", "", (EDP / name).read_text())
+    for text in filter(re.compile(rf"\boptionHook\({hook}\)").search, code()):
         for place in re.finditer(rf"\boptionHook\({hook}\)", text):
             begins = max(text.rfind("\nfunc ", 0, place.start()), text.rfind("\n{", 0, place.start()))
             inside = begins >= 0 and "\n}\n" not in text[begins : place.start()]
@@ -123,14 +129,15 @@ def test_hooks_only_listen():
     does replaces the module (readUnless)."""
     every = {hook for name in MODULES for hook in re.findall(r"\boptionHook\(([A-Z]\w*)\)", (EDP / name).read_text())}
     wrong = [f"{len(every)} hooks, at most {MOST}"] if len(every) > MOST else []
+    files = {option: [n for n in MODULES if n.startswith(f"options/{option}/")] for option in OPTIONS}
+    texts = {option: "\n".join((EDP / name).read_text() for name in files[option]) for option in OPTIONS}
     for hook in sorted(every - NAMED):
         declared = r"\b(?:int|real|bool|string|matrix|ofstream|ifstream)(?:\[[\w,]+\])?\s*&?\s*(\w+)"
         own = {word for host in hosts(hook) for word in re.findall(declared, host.replace("func", "", 1))}
         own -= {word for host in hosts(hook) for word in re.findall(r"^\nfunc \S+ (\w+)", host)}
         own -= {word for given in re.findall(rf"\b{hook}\(([\w, ]+)\)", LIST) for word in given.split(", ")}
         for option in OPTIONS:
-            text = "\n".join((EDP / name).read_text() for name in MODULES if name.startswith(f"options/{option}/"))
-            for body in re.findall(rf"^macro {option}{hook}\(\)(.*?)//", text, flags=re.M | re.S):
+            for body in re.findall(rf"^macro {option}{hook}\(\)(.*?)//", texts[option], flags=re.M | re.S):
                 words = set(re.findall(r"\w+", re.sub(r'"(\\.|[^"\\])*"', "", body)))
                 mine = set(re.findall(declared, body))
                 if "return" in words:

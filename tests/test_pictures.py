@@ -141,6 +141,7 @@ def test_pull_is_drawn(tmp_path):
     assert min(np.min(line.get_ydata()) for line in axes.lines) == least > axes.get_ylim()[0]
 
 
+@pytest.mark.long
 def test_check(case, capsys):
     """What -check 1 has read shall be drawn: each boundary group of the case file with its role."""
     assert main(["check", str(case)]) == 0

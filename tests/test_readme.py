@@ -83,6 +83,7 @@ def test_every_scene_is_documented():
         assert quoted(path) == [script(quoted(name)[0])]
 
 
+@pytest.mark.long
 def test_tables_from_the_programs():
     """Tables that are made from heads, -help and runs shall be up to date, and every key of theirs have its meaning."""
     assert not pages.stale(), "make pages"
@@ -256,6 +257,7 @@ DOORS = dict(zip(("teach", "paper", "parts"), fences(section(README, "Three door
 
 
 @pytest.mark.parametrize("door", short_of(["teach", "parts"], DOORS))
+@pytest.mark.long
 def test_doors(door, package):
     """The README's commands shall run as they are written, one after the other; they are all that it has."""
     assert fences(README, "sh") == list(DOORS.values())

@@ -45,6 +45,7 @@ def balls(tmp_path_factory):
 # ---------------------------------------------------------------- in space
 
 
+@pytest.mark.long
 def test_section(balls):
     """The section by y = 0 shall be as large as two quarters of a disc, its outline as long as theirs."""
     grid = read_grid(balls.folder / "solution.vtu")
@@ -133,6 +134,7 @@ def test_patch():
     assert np.abs(segment.collections[0].get_array()).max() < 1e-7
 
 
+@pytest.mark.long
 def test_punch():
     """Hard contact shall follow the closed form to 1 % inside, a soft layer fall short of it at the corner."""
     figure = draw("punch", run("flat-punch", *PUNCH, "-law", "signorini"), run("flat-punch", *PUNCH, "-kappa", 1e3))

@@ -117,6 +117,7 @@ def comma(tmp_path_factory):
     return env
 
 
+@pytest.mark.long
 def test_comma_locale(mesh, comma, tmp_path):
     """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
     env = {**comma, "LC_ALL": "de_DE.UTF-8"}
@@ -250,6 +251,7 @@ def test_one_mesh_made_by_four_runs(tmp_path, trials):
 # ---------------------------------------------------------------- the user's own files, odd names
 
 
+@pytest.mark.long
 def test_files_of_the_user_stay(tmp_path):
     """A run shall remove what a run has written into the folder, with the movie drawn from it, and nothing else."""
     own = ["notes.vtu", "notes.tmp", "state-99.vtu", "mine.gif", "axis.csv"]
@@ -502,6 +504,7 @@ def test_series_counts_go_on(tmp_path, method):
     assert whole.newton > resumed.newton == len(resumed.history)
 
 
+@pytest.mark.long
 def test_series_of_another_problem(tmp_path):
     """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
     package = tree(tmp_path / "package")
@@ -527,6 +530,7 @@ def test_series_of_another_problem(tmp_path):
         assert again.newton == len(again.history), what
 
 
+@pytest.mark.long
 def test_series_that_is_complete(tmp_path):
     """A complete series shall be begun anew; a run without one, or one that fails at once, shall keep none of it."""
     flags = ["-method", "newton", "-h", 5, "-history", 1, "-steps", 3, "-vtu", 0, "-estimate", 0]

@@ -176,6 +176,7 @@ def test_geometries(tmp_path, kind):
     assert areas == pytest.approx({**AREAS, "top": 16})
 
 
+@pytest.mark.long
 def test_faces_that_meet_become_two(tmp_path):
     """Bodies that share a face are one part, until "between" asks for their faces: then each has its own nodes."""
     mesh = gmsh(tmp_path, "a.brep", JOINED, "-0")
@@ -195,6 +196,7 @@ def test_plane_geometry(tmp_path):
     assert areas == pytest.approx({"top": 4, "base": 4, "round": 2 * np.pi}, rel=0.01)
 
 
+@pytest.mark.long
 def test_what_no_group_has_is_left_out(tmp_path):
     """One body alone needs no group; of several those of no group are left out, which is said."""
     mesh = gmsh(tmp_path, "a.step", BOXES, "-0")
