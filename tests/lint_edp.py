@@ -53,23 +53,12 @@ def bare_labels(text):
     return [(code.count("\n", 0, position) + 1, words) for position, words in found]
 
 
-def header_problems(lines, is_module):
-    """What is wrong with the comment block that opens a file; `is_module` for an .idp file."""
-    if not HEADER.match(lines[0]):
-        return ["the first line must be '// name: what it does'"]
-    block = []
-    for line in lines:
-        if not line.startswith("//"):
-            break
-        block.append(line)
-    return [
-        f"the header needs a line that starts with '// {word}'"
-        for word in ("Gives",)
-        if is_module and not any(line.startswith(f"// {word}") for line in block)
-    ]
+def header_problems(lines):
+    """What is wrong with the line that opens a file."""
+    return [] if HEADER.match(lines[0]) else ["the first line must be '// name: what it does'"]
 
 
-def check(text, is_module):
+def check(text):
     """All findings in one source as a sorted list of (line, message)."""
     found = []
     if "\r" in text:
@@ -78,7 +67,7 @@ def check(text, is_module):
     if not text.endswith("\n"):
         found.append((text.count("\n") + 1, "no newline at the end of the file"))
     lines = text.split("\n")
-    found += [(1, message) for message in header_problems(lines, is_module)]
+    found += [(1, message) for message in header_problems(lines)]
     found += [(line, f"bare integer label '{words}': name it") for line, words in bare_labels(text)]
     for number, line in enumerate(lines, 1):
         if "\t" in line:
@@ -112,7 +101,7 @@ def main(argv=None):
     count = 0
     for file in files:
         try:
-            found = check(file.read_bytes().decode(), file.suffix == ".idp")
+            found = check(file.read_bytes().decode())
         except UnicodeDecodeError:
             found = [(1, "not UTF-8 text")]
         for line, message in found:

@@ -394,36 +394,76 @@ def written(text):
     return BLOCK.sub(lambda found: found[1] + "\n" + TABLES[found[2]]() + "\n" + found[3], text)
 
 
+# where, size, folder, what it makes, the name in its code; a name that is not there is an error
+BOXES = {
+    "mesh": (10, 10, 150, "bodies", "mesh, materials, loads", "Th, material"),
+    "K": (220, 10, 190, "discretisation", "stiffness K, load f", "discretise"),
+    "B": (220, 92, 190, "surface, contact", "overlaps B u, weights w", "overlapOf, weight"),
+    "C": (480, 92, 190, "operator", "C q = B K⁻¹ Bᵀ q", "complianceTimes"),
+    "G": (480, 10, 190, "kernel", "C of a half-plane", "kernelTimes"),
+    "law": (10, 214, 150, "laws", "p(s), p′(s), wall at τ", "graphPoint"),
+    "tangent": (220, 214, 190, "problem", "s, p, p′, status", "linearise"),
+    "linear": (480, 214, 190, "solve", "contact forces q, overlaps", "solveCondensed"),
+    "tau": (220, 306, 190, "solve", "next thresholds τ, eq. (6)", "updateThreshold"),
+    "error": (480, 412, 190, "options/estimates", "± of each number", "estimateRun"),
+    "files": (220, 412, 190, "report", "summary.json, tables", "measureContacts"),
+}
+ARROWS = [
+    ("mesh", "K", ""),
+    ("mesh", "B", ""),
+    ("K", "C", "K"),
+    ("B", "C", "B"),
+    ("G", "linear", "start, preconditioner"),
+]
+ARROWS += [("C", "linear", "C q"), ("law", "tangent", ""), ("tangent", "linear", ""), ("linear", "tangent", "")]
+ARROWS += [("tangent", "tau", "converged"), ("tau", "tangent", ""), ("tau", "files", "model error < -eps")]
+ARROWS += [("files", "error", ""), ("error", "files", "")]
+
+
 def flow():
-    """A picture of where data goes: the core's folders in their order, what each gives (README's table), and an arc
-    from each one to those that use its names, the wider the more names."""
-    rows = re.findall(r"^\| `(\w+)/` \| (.*?) \| (.*?) \|$", (EDP / "README.md").read_text(), re.M)
-    rows = [row for row in rows if row[0] not in ("case", "options", "blocks", "scenes", "labs")]
-    at = {folder: number for number, (folder, *_) in enumerate(rows)}
-    names = {}
-    for path, taken in test_contracts.taken().items():
-        for other, words in taken.items():
-            ends = other.split("/")[0], path.split("/")[0]
-            if set(ends) <= at.keys() and at[ends[0]] < at[ends[1]]:
-                names.setdefault(ends, set()).update(words)
-    step, left, wide = 44, 190, 660
-    drawn = []
-    for (giver, user), words in sorted(names.items(), key=lambda item: (-len(item[1]), item[0])):
-        a, b = (22 + step * at[giver] + 17, 22 + step * at[user] + 17)
-        out = left - 22 - 9 * (at[user] - at[giver])
-        size = f"{0.4 + 0.25 * len(words) ** 0.6:.1f}"
-        drawn.append(f'<path d="M{left} {a + 6}C{out} {a + 6} {out} {b - 6} {left} {b - 6}" stroke-width="{size}"/>')
-    boxes = []
-    for folder, task, gives in rows:
-        y = 22 + step * at[folder]
-        told = [html.escape(text.replace("`", "").replace("\\", "")) for text in (task, gives)]
-        boxes.append(f'<rect x="{left}" y="{y}" width="{wide - left - 10}" height="36" rx="4"/>')
-        boxes.append(f'<text x="{left + 10}" y="{y + 15}"><tspan class="f">{folder}</tspan>  {told[0]}</text>')
-        boxes.append(f'<text x="{left + 10}" y="{y + 30}" class="g">{told[1]}</text>')
-    style = "text{font:12px sans-serif;fill:#222}.f{font-weight:bold}.g{fill:#1b5e8c}rect{fill:#f4f6f8;stroke:#9aa5b1}"
-    style += "path{fill:none;stroke:#1b5e8c;stroke-opacity:.45}"
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide} {22 + step * len(rows)}" width="{wide}">'
-    return "\n".join([head, f"<style>{style}</style>", *drawn, *boxes, "</svg>"]) + "\n"
+    """A picture of where data goes: the core's folders, what each makes, the function that makes it."""
+    drawn, boxes, high = [], [], 56
+    for folder, names in ((box[3], box[5]) for box in BOXES.values()):
+        for name in names.split(", "):
+            at = {path.rsplit("/", 1)[0] for path in test_contracts.owners().get(name, ())}
+            if not at & set(folder.split(", ")) and name != "Th":
+                raise SystemExit(f"{name} is not declared in {folder}/, but in {', '.join(sorted(at)) or 'no module'}")
+    for start, end, words in ARROWS:
+        (x, y, wide), (toX, toY, toWide) = BOXES[start][:3], BOXES[end][:3]
+        aside = 9 if (end, start) in [arrow[:2] for arrow in ARROWS] else 0  # there and back
+        down, right = toY > y, toX > x
+        if start == "G":  # round the operator's box
+            line, label = (
+                [(x + wide, y + 28), (x + wide + 24, y + 28), (x + wide + 24, toY + 28), (toX + toWide, toY + 28)],
+                (0, 0),
+            )
+        elif x == toX:
+            at = x + wide / 2 + (-aside if down else aside)
+            line, label = [(at, y + high * down), (at, toY + high * (not down))], (6 + 2 * aside, 4)
+        else:
+            shift = -aside if right else aside
+            line = [(x + wide * right, y + high / 2 + shift), (toX + toWide * (not right), toY + high / 2 + shift)]
+            label = (-4, -6)
+        drawn.append(f'<path d="M{"L".join(f"{u:g} {v:g}" for u, v in line)}" marker-end="url(#tip)"/>')
+        at = [(line[0][k] + line[-1][k]) / 2 + label[k] for k in (0, 1)] if start != "G" else [x + wide + 4, y + 12]
+        drawn += [f'<text x="{at[0]:g}" y="{at[1]:g}" class="n">{html.escape(words)}</text>'] if words else []
+    for x, y, wide, folder, text, names in BOXES.values():
+        boxes.append(f'<rect x="{x}" y="{y}" width="{wide}" height="{high}" rx="4"/>')
+        for row, (kind, line) in enumerate((("f", folder + "/"), ("", text), ("g", names))):
+            boxes.append(f'<text x="{x + 8}" y="{y + 17 + 16 * row}" class="{kind}">{html.escape(line)}</text>')
+    style = "text{font:12px sans-serif;fill:#222}.f{font-weight:bold}.g{font:11px monospace;fill:#1b5e8c}"
+    style += ".n{fill:#555;font-size:11px}rect{fill:#f4f6f8;stroke:#9aa5b1}.loop{fill:none;stroke-dasharray:5 4}"
+    style += "path{fill:none;stroke:#1b5e8c;stroke-width:1.4}"
+    tip = '<marker id="tip" orient="auto" markerWidth="8" markerHeight="8" refX="7" refY="4">'
+    tip += '<path d="M0 0L8 4L0 8z" style="fill:#1b5e8c;stroke:none"/></marker>'
+    loop = '<rect x="205" y="192" width="480" height="182" rx="8" class="loop"/>'
+    loop += '<text x="420" y="352" class="n">threshold loop: solve/extended-newton.idp</text>'
+    head = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 800 480" width="800">'
+    white = '<rect width="800" height="480" style="fill:#fff;stroke:none"/>'
+    return (
+        "\n".join([head, f"<style>{style}</style>", f"<defs>{tip}</defs>", white, loop, *boxes, *drawn, "</svg>"])
+        + "\n"
+    )
 
 
 def stale():

@@ -1,13 +1,10 @@
-"""The heads of the modules against their code: what other files use of a module is in its Gives.
+"""The heads of the modules, and the comments at the names that other files use of them.
 
-A word of a head is an identifier if it stands alone between commas and the like, behind its type if that is said, or
-is written in camelCase; a function's arguments are none. Lines that go on are indented. Who uses what, which is read
-here, `make pages` writes into edp/README.md, and `make uses MODULE=...` prints.
+Who uses what, which is read here, `make pages` writes into edp/README.md, and `make uses MODULE=...` prints.
 """
 
 import re
 from functools import cache
-from pathlib import Path
 
 from freefem import ROOT
 
@@ -177,29 +174,6 @@ def taken():
     return found
 
 
-@cache
-def part(name, title):
-    """The text of Gives in a module's head: the line and what is indented below it.
-
-    A module of the same folder may be named without it."""
-    found = re.search(rf"^// {title}: (.*\n(?://   .*\n)*)", source(name)[0], flags=re.M)
-    text = " ".join(line.removeprefix("//").strip() for line in found.group(1).splitlines()) if found else ""
-    return re.sub(r"(?<![\w/.-])([a-z][\w-]*\.idp)\b", rf"{Path(name).parent}/\1", text)
-
-
-@cache
-def named(text):
-    """The identifiers that a part of a head names."""
-    while re.search(r"\w\([^()]*\)", text):
-        text = re.sub(r"(?<=\w)\([^()]*\)", "", text)
-    words = set(re.findall(r"(?<![\w/.-])[a-z]+[A-Z]\w*(?![\w/])", text))
-    for item in re.split(r"[,;:()]|\.(?:\s|$)|\s(?:and|or)\s", text):
-        kinds = TYPES | {"macro", "macros"}
-        rest = [word for word in item.split("=")[0].split() if re.sub(r"\[.*", "", word) not in kinds]
-        words.update(rest if len(rest) == 1 else [])
-    return {word for word in words if word in owners()}
-
-
 def paths(text):
     """The files and folders that a text names: `case/flags.idp`, `meshes/check.awk`, `kernel/`."""
     return re.findall(r"(?<![\w/<>.-])(?:[a-z][\w-]{2,}/)+(?:[\w-]+\.\w+|(?![\w<*]))", text)
@@ -219,27 +193,47 @@ def test_the_code_is_read():
 
 @cache
 def described(name):
-    """The names whose definitions have a comment: a function's below its head, a variable's behind it or above."""
+    """The names whose definitions have a comment: a function's below its head, a variable's behind it or above, a
+    macro's in the line above it."""
     text = (EDP / name).read_text()
     functions = re.findall(r"^func [^\n(]*?(\w+)\s*\([^{]*?\)\n//", text, flags=re.M)
-    behind = re.findall(r"^(?:int|real|bool|string|matrix)(?:\[[a-z,]*\])* (\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
-    above = re.findall(r"^// [^\n]*\n(?:int|real|bool|string|matrix)(?:\[[a-z,]*\])* (\w+)", text, flags=re.M)
+    kinds = r"^(?:int|real|bool|string|matrix|mesh3?|meshS|meshL|fespace|varf)(?:\[[a-z,]*\])*"
+    behind = re.findall(rf"{kinds} (\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
+    above = re.findall(rf"^// [^\n]*\n(?:{kinds[1:]} |(?:New)?[mM]acro )(\w+)", text, flags=re.M)
     return {*functions, *behind, *above}
 
 
-def test_gives():
-    """What other files use of a module shall be in its Gives, or described where it is defined."""
+def test_described():
+    """What other files use of a module shall be described where it is defined: what it is, of which shape and unit."""
     wrong = []
     for word, paths_of in owners().items():
         users = {user for user in MODULES + SCRIPTS if word in uses(user)} - paths_of
         of_modules = checked(path for path in paths_of if path.endswith(".idp"))
-        if (
-            users
-            and of_modules
-            and not any(word in named(part(path, "Gives")) | described(path) for path in of_modules)
-        ):
+        if users and of_modules and not any(word in described(path) for path in of_modules):
             wrong.append(f"{', '.join(of_modules)}: {word} is not described, {min(users)} uses it")
-    assert not wrong, "\n".join(sorted(wrong))
+    assert not wrong, f"{len(wrong)}\n" + "\n".join(sorted(wrong))
+
+
+def prose(name):
+    """The sentences of a module's head behind its first line, but what the scene must define."""
+    head = re.sub(r"^// From the scene: .*\n(?://   .*\n)*", "", source(name)[0], flags=re.M)
+    text = " ".join(line.removeprefix("//").strip() for line in head.splitlines()[1:])
+    return [sentence for sentence in re.split(r"(?<=[.:?]) (?=[A-Z`(\d])", text.strip()) if sentence]
+
+
+def test_heads():
+    """A module of 20 lines or more shall open with at most six plain sentences, and no list of names."""
+    wrong = []
+    for name in checked(MODULES):
+        sentences, lines = prose(name), (EDP / name).read_text().count("\n")
+        if "// Gives:" in source(name)[0] or "// Needs:" in source(name)[0]:
+            wrong.append(f"{name}: a list of names")
+        if len(sentences) > 6 or (lines >= 20 and not sentences):
+            wrong.append(f"{name}: {len(sentences)} sentences")
+        wrong += [
+            f"{name}: {len(sentence.split())} words: {sentence}" for sentence in sentences if len(sentence.split()) > 40
+        ]
+    assert not wrong, f"{len(wrong)}\n" + "\n".join(wrong)
 
 
 def test_paths():

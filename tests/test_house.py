@@ -6,8 +6,10 @@ executes (case/hooks.idp), and those that a scene fills in or that are asked for
 """
 
 import re
+import subprocess
 from functools import cache
 
+import executed
 import pytest
 from freefem import ROOT, execute
 from pages import FOLDERS
@@ -340,3 +342,20 @@ def test_what_a_script_reads(script, tmp_path):
     files = [EDP / head for head in heads if (EDP / head).exists()]
     lines = sum(len(file.read_text().splitlines()) for file in files)
     assert lines <= READ[script][0] and len(files) <= READ[script][1], (lines, len(files))
+
+
+ROLLER = ["edp/parts.edp", "-mesh", "edp/examples/roller/roller.geo", "-case", "edp/examples/roller/roller.case"]
+
+
+@pytest.mark.parametrize("words, least", [(["edp/main.edp"], 0.76), (ROLLER, 0.75)])
+def test_what_a_run_executes(words, least, tmp_path):
+    """Of the statements that a run reads it shall execute most: what it does not need is read by others alone."""
+    tree = executed.copy_tree(tmp_path / "tree")
+    statements = executed.instrument(tree)
+    command = ["FreeFem++", "-nw", "-v", "0", *words, "-out", "out"]
+    done = subprocess.run(command, cwd=tree, env=executed.programs(tree), stdout=subprocess.PIPE, text=True)
+    assert done.returncode == 0, done.stdout
+    marks = set().union(*(marks for _, marks in executed.take_marks(tree)))
+    files = {statements[mark][0] for mark in marks}
+    read = sum(file in files for file, *_ in statements)
+    assert len(marks) >= least * read, f"{len(marks)} of {read}"

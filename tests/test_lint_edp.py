@@ -4,16 +4,16 @@ import pytest
 from lint_edp import MAX_LINE, check, main
 
 SCRIPT = "// main.edp: the paper's test.\n"
-MODULE = "// contact/points.idp: collocation points.\n// Gives: pointX.\n"
+MODULE = "// contact/points.idp: collocation points.\n"
 
 
 def script(body):
-    return check(SCRIPT + body, is_module=False)
+    return check(SCRIPT + body)
 
 
-@pytest.mark.parametrize("text, is_module", [(SCRIPT, False), (MODULE, True), (MODULE + "\nreal a = 1;\n", True)])
-def test_clean(text, is_module):
-    assert check(text, is_module) == []
+@pytest.mark.parametrize("text", [SCRIPT, MODULE, MODULE + "\nreal a = 1;\n"])
+def test_clean(text):
+    assert check(text) == []
 
 
 @pytest.mark.parametrize(
@@ -34,15 +34,7 @@ def test_layout(body, line, message):
 
 @pytest.mark.parametrize("text", ["", "\n", "real a;\n", "// a comment\n", "//main.edp: no space\n", "// main.edp:\n"])
 def test_missing_header(text):
-    assert [line for line, message in check(text, is_module=False) if "first line" in message] == [1]
-
-
-@pytest.mark.parametrize("word", ["Gives"])
-def test_module_contract(word):
-    (finding,) = check(MODULE.replace(f"// {word}", "// Other"), is_module=True)
-    assert f"'// {word}'" in finding[1]
-    late = MODULE.replace(f"// {word}", "// Other") + f"real a;\n// {word}: too late, the header is over.\n"
-    assert check(late, is_module=True) == [finding]
+    assert [line for line, message in check(text) if "first line" in message] == [1]
 
 
 BARE_LABEL = "int1d(Th, 3)(v)|int2d(Th,3)(v)|int3d(Th, qforder=3, 2)(v)|int1d(Th, [1, 2])(v)|intalledges(Th, 4)(v)"
