@@ -190,7 +190,10 @@ def test_every_number_has_its_test():
                 assert f"def {name}(" in (ROOT / "tests" / file).read_text(), f"{page}: {name}"
         assert "`test" in text.split("\n## Test\n")[1], page
     named = set(re.findall(r"`(test_\w+)`", re.sub(elsewhere, "", "".join(CHAPTERS.values()))))
-    there = {name for name in globals() if name.startswith("test_")} - {"test_every_number_has_its_test", "test_chapters_are_short_and_in_order"}
+    there = {name for name in globals() if name.startswith("test_")} - {
+        "test_every_number_has_its_test",
+        "test_chapters_are_short_and_in_order",
+    }
     models = set(re.findall(r"^def (test_\w+)\(", MODELS.read_text(), re.M)) if MODELS.exists() else named - there
     assert there <= named <= there | models
 
