@@ -25,7 +25,7 @@ FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M) 
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
 FLOW = EDP / "flow.svg"  # where data goes
-PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
+PAGES = [EDP / "README.md", *(EDP / f"reference/{name}.md" for name in ("flags", "output-files")), EDP / "case/README.md"]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
 

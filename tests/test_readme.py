@@ -21,8 +21,11 @@ def in_markdown(folder):
 
 
 README = re.sub("<!-- .*? -->\n|<!--= .*? -->", "", (ROOT / "README.md").read_text())  # as it is read
-# the manual and the pages beside it; section() finds a heading in whichever has it
-MANUAL = "\n".join((ROOT / "edp" / f"{name}.md").read_text() for name in ("MANUAL", "SETUP", "PICTURES", "WRITING"))
+# the reference, the how-to pages and WRITING.md; section() finds a heading in the first that has it
+MANUAL = "\n".join(
+    path.read_text()
+    for path in (*sorted(ROOT.glob("edp/reference/*.md")), *sorted(ROOT.glob("edp/howto/*.md")), ROOT / "edp/WRITING.md")
+)
 RESULTS = "\n".join((ROOT / "tests" / f"{name}.md").read_text() for name in ("RESULTS", "COST"))
 PAPER = (ROOT / "edp" / "PAPER.md").read_text()
 THEORY = (ROOT / "edp" / "THEORY.md").read_text()
