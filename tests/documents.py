@@ -36,8 +36,8 @@ CHAPTERS = {
         *("edp/examples/*/README.md", "edp/scenes/README.md", "edp/scenes/README.md#", "edp/GLOSSARY.md"),
     ],
     "Explanation": [
-        *("edp/HOW-IT-WORKS.md", "edp/LIMITS.md", "edp/ERRORS.md", "edp/THEORY.md", "edp/THEORY.md#", "edp/theory/*.md"),
-        *("edp/PAPER.md", "edp/PAPER.md#"),
+        *("edp/HOW-IT-WORKS.md", "edp/LIMITS.md", "edp/ERRORS.md", "edp/theory/*.md"),
+        *("edp/THEORY.md", "edp/THEORY.md#", "edp/PAPER.md", "edp/PAPER.md#"),
     ],
     "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
     "Code": ["edp/README.md", "edp/README.md#", "CONTRIBUTING.md", "tests/data/README.md", "CHANGELOG.md"],
