@@ -49,6 +49,10 @@ def messages(functions):
             if re.fullmatch(r"\w+", expression):
                 given = re.findall(rf"\b{expression} \+?= ([^;]*);", text)
             found += [(path.relative_to(ROOT / "edp").as_posix(), words(each)) for each in given]
+    if functions == "refuse":  # a program writes those of words that are no flags
+        program = "case/unknown-flag.awk"
+        lines = re.findall(r'\btext = (".*)', (ROOT / "edp" / program).read_text())
+        found += [(program, "…" + words(line)) for line in lines]
     return [(file, text) for file, text in found if re.search(r"[a-z]{3}.* ", text.replace("…", ""))]  # not bare values
 
 
