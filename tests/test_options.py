@@ -70,7 +70,7 @@ def test_no_option_needs_itself():
 
 
 def test_hooks():
-    """The macros of options shall be hooks that there are; the list of events has each with the files where it happens."""
+    """The macros of options shall be hooks that there are; the list of events has each with its files."""
     found = {}
     for name in MODULES:
         for hook in re.findall(r"\boptionHook\(([A-Z]\w*)\)", (EDP / name).read_text()):
