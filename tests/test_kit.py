@@ -56,7 +56,7 @@ def test_slides(made):
     assert "<math" in text and not re.search(r"<em>[^<]*[=κ][^<]*</em>", text)
 
 
-@pytest.mark.parametrize("name", lecture.PICTURES)
+@pytest.mark.parametrize("name", short_of(["cut", "four_five"], lecture.PICTURES))
 def test_sketches(name, tmp_path):
     """Each picture of the lecture is drawn without a run, in both sizes."""
     assert main(["sketch", name, "--out", str(tmp_path / "page.pdf")]) == 0
