@@ -45,6 +45,13 @@ def solve(folder, mesh, case, space, *flags, expect=0):
     return Case(json.loads((out / "summary.json").read_text()), table(out / "contact.csv"), stdout)
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_case_file_on_the_page(name):
+    """The case file on an example's page is the file of its folder."""
+    (shown,) = fences((FOLDER / name / "README.md").read_text(), "text")
+    assert shown == (FOLDER / name / f"{name}.case").read_text()
+
+
 @pytest.mark.long
 def test_page_of_the_case_file(tmp_path):
     """The commands of the page run as they stand, and the case file on it is the example's."""
