@@ -167,7 +167,7 @@ def hard(figure: Figure) -> None:
     axes = figure.subplots()
     s = np.linspace(0, 1, 800)
     for kappa, colour in ((3, style.SKY), (100, style.BLUE), (1e4, "#003355")):
-        axes.plot(s, law(s, kappa), color=colour, label=rf"law, $\kappa$ = {style.number(kappa)}")
+        axes.plot(s, law(s, kappa), color=colour, label=rf"law, $\kappa = {style.number(kappa)}$")
     axes.plot(
         [-1, 0, 0],
         [0, 0, 3],
@@ -204,7 +204,7 @@ def disc(figure: Figure) -> None:
     left.text(-20, 0.6, "gap 0.5")
     arrow(left, (15, 10), (15, 4), width=2.2)
     left.text(16, 6.5, "$u_0 = 2.5$", va="center")
-    right.text(0, 4, "first iterate of Newton:\nthe block has not moved", ha="center")
+    right.text(0, 8.8, "first iterate of Newton:\nthe block has not moved", ha="center")
     right.annotate(
         "overlap 2: the law gives 11 400",
         (0, -1.2),
