@@ -340,6 +340,9 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
 	done
+	for sketch in 0-algorithm/models 3-threshold/cut 3-threshold/four_five; do \
+	  $(SMALL) $(RESULTS)/labs/$$sketch.png --width 700 --out edp/labs/$$sketch.png || exit 1; \
+	done
 	$(PYTHON) -m postprocess cut $(RESULTS)/figures/sphere --units mm MPa --out postprocess/readme-sphere.png
 
 # ---------------------------------------------------------------- campaigns
@@ -414,8 +417,8 @@ kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, ex
 page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
 	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html
 
-site: $(VENV)/dev.stamp ## all pages as a site to search and to click through, from a folder, no network, into results/site/
-	@PYTHONPATH=. $(PYTHON) tests/documents.py --out $(RESULTS)/site
+site: $(VENV)/dev.stamp ## all pages as a site to search, without the labs' answers: make site [TEACHER=1], into results/site/
+	@PYTHONPATH=. $(PYTHON) tests/documents.py $(if $(TEACHER),--answers) --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
 N       ?= $(filter 0 1 2 3 4 5 6 7 8 9 10,$(MAKECMDGOALS))

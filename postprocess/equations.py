@@ -1,6 +1,7 @@
 """The pages' equations as MathML: lines as one writes them in a letter, κ (d − d0)^m = M (u0 − gap − d)/H.
 
-`display(lines)` gives the MathML of an indented block, or nothing where it is no equation but code. The product before
+`display(lines)` gives the MathML of an indented block, or nothing where it is no equation but code; `inline(text)` that
+of a formula in slanted type within a line, or nothing where it is words. The product before
 `/` is its numerator, the factor behind it its denominator; words of two letters and more are text, but for functions.
 """
 
@@ -210,6 +211,20 @@ class Line:
         if kind == "word" and len(said) == 2:
             return row([tag("mi", each) for each in said])
         return tag("mn" if kind == "number" else "mo" if said == "*" else "mi", said)
+
+
+def inline(text):
+    """The MathML of a formula within a line, or "" where there are words in it: *p = κ s^m*, not *length*."""
+    found = tokens(text)
+    words = [said for kind, said, _ in found if kind in ("word", "flag", "file")]
+    if not any(kind == "name" for kind, *_ in found) or any(
+        said not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(said) for said in words
+    ):
+        return ""
+    try:
+        return tag("math", row(Line(text).sequence()), xmlns=MATHML)
+    except Unreadable:
+        return ""
 
 
 def display(lines):

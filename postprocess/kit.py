@@ -1,26 +1,28 @@
 """The teaching kit: slides with notes, handouts without answers, tables of expected values, from the labs' own pages.
 
-Sources: edp/labs/slides.md (slides between lines `---`, notes after `Notes:`), the labs' README.md and ANSWERS.md,
+Sources: edp/labs/slides.md (slides between lines `***`, notes after `Notes:`), the labs' README.md and ANSWERS.md,
 edp/labs/CRIB.md, lab 0's page with edp/labs/block.txt in place of gmsh's mesh, and a run of lab 3 for the film.
 """
 
 import base64
 import csv
+import functools
 import html
 import io
 import re
+from collections.abc import Callable
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from postprocess import markdown, page, style
+from postprocess import lecture, markdown, page, style
 from postprocess.page import Markup, element, joined
 from postprocess.results import ResultsError, Run, read_run
 
 LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
 PAGE = "0-algorithm/algorithm1.edp"
-SLIDE = (7.2, 3.3)  # inches of a drawn slide
 # Of lab 0's page: what a slide has no room for
 LEFT_OUT = re.compile(
     r"\s*([{}].*|(cout|plot|set|matrix D|int (changes|newton|j)|real (residual|off|modelError)).*|\w+\+\+;|[TSf] = \w+;"
@@ -67,85 +69,21 @@ def embedded(png: bytes) -> str:
 def image(figure: Figure, alt: str) -> Markup:
     """A figure within a page."""
     written = io.BytesIO()
-    figure.savefig(written, format="png", dpi=150, metadata={"Software": None})
+    figure.savefig(written, format="png", dpi=120, metadata={"Software": None})
     return Markup(f'<img src="{embedded(written.getvalue())}" alt="{html.escape(alt, quote=True)}">')
 
 
-def laws() -> Markup:
-    """Contact laws with the same pressure at s = 0.15, and hard contact."""
-    figure = Figure(figsize=SLIDE, layout="constrained")
-    axes = figure.subplots()
-    d0, s = -0.25, np.linspace(0, 0.2495, 400)
-    shown = (
-        (r"power, $m = 2$", s**2, style.SKY),
-        (r"power, $m = 3$: the paper's", s**3, style.BLUE),
-        (r"power, $m = 10$", s**10, "#003355"),
-        (r"exponential", np.exp(20 * s) - 1, style.GREEN),
-        (r"barrier: the mean planes never meet", s / (-d0 - s), style.ORANGE),
-    )
-    for name, p, colour in shown:
-        axes.plot(s, 10 * p / np.interp(0.15, s, p), color=colour, label=name, linewidth=1.8)
-    axes.plot([-0.05, 0, 0], [0, 0, 40], color=style.VERMILION, linewidth=2.2, label="hard contact")
-    axes.set_xlim(-0.05, 0.26)
-    axes.set_ylim(0, 40)
-    axes.axvline(-d0, color=style.GREY, linewidth=0.6, linestyle=(0, (4, 2)))
-    axes.set_xlabel("overlap of the asperities $s = d - d_0$")
-    axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
-    return image(
-        figure, "Pressure over overlap: the greater the exponent, the later and steeper; hard contact is a wall"
-    )
-
-
-def tangents() -> Markup:
-    """Newton's tangents on p = kappa s^3 from far to the right."""
-    figure = Figure(figsize=SLIDE, layout="constrained")
-    axes = figure.subplots()
-    s = np.linspace(0, 1.05, 300)
-    axes.plot(s, s**3, color=style.BLUE, linewidth=1.8)
-    axes.plot([0, 1.05], [0.03, 0.03 * (1 - 1.05 / 1.1)], color=style.GREY)
-    at = 1.0
-    for step in range(4):
-        after = (2 * at**3 + 0.03) / (3 * at**2 + 0.03 / 1.1)
-        axes.plot([at, at], [0, at**3], color=style.VERMILION, linewidth=0.7, linestyle=":")
-        axes.plot([after, at], [max(0.03 * (1 - after / 1.1), 0), at**3], color=style.VERMILION, linewidth=1.2)
-        axes.plot([at], [at**3], "o", color=style.VERMILION)
-        axes.annotate(f"{step}", (at, at**3), (5, -4), textcoords="offset points", fontsize=10)
-        at = after
-    axes.set_xticks([0, 1], ["0", r"$\delta$"])
-    axes.set_yticks([])
-    axes.set_xlabel("$s$")
-    axes.set_ylabel("pressure")
-    axes.text(0.74, 0.5, "the law", color=style.BLUE, ha="right")
-    axes.text(0.1, 0.06, "the body", color=style.GREY)
-    return image(figure, "Newton's iterates come down the law's curve, each tangent taking off the same share of s")
-
-
-def model() -> Markup:
-    """The law cut off at T by a wall."""
-    figure = Figure(figsize=SLIDE, layout="constrained")
-    axes = figure.subplots()
-    s = np.linspace(0, 0.42, 200)
-    axes.plot(s, 100 * s**3, color=style.GREY, linestyle=(0, (3, 2)), label="the law")
-    low = s[s <= 0.25]
-    axes.plot(low, 100 * low**3, color=style.BLUE, linewidth=2.2)
-    axes.plot([0.25, 0.25], [100 * 0.25**3, 8], color=style.VERMILION, linewidth=2.2)
-    axes.plot([-0.05, 0], [0, 0], color=style.BLUE, linewidth=2.2)
-    axes.annotate("", (0.257, 5), (0.257, 100 * 0.25**3), arrowprops={"arrowstyle": "<->", "color": style.BLACK})
-    axes.text(0.263, 3, r"$\lambda$", fontsize=12)
-    axes.text(0.1, 2.2, "$d < T$: the law", color=style.BLUE)
-    axes.text(0.245, 6.5, "$d = T$: the wall", color=style.VERMILION, ha="right")
-    axes.plot([0.25, 0.368], [5, 5], color=style.BLACK, linewidth=0.7, linestyle=":")
-    axes.plot([0.368, 0.368], [0, 5], color=style.BLACK, linewidth=0.7, linestyle=":")
-    axes.set_xticks([0, 0.25, 0.368], ["$d_0$", "$T$", "next $T$"])
-    axes.set_yticks([])
-    axes.set_xlim(-0.05, 0.42)
-    axes.set_ylim(0, 8)
-    axes.set_xlabel("overlap $d$")
-    axes.set_ylabel("pressure")
-    return image(
-        figure, "The law up to T, there a wall that carries the rest; the next T is where the law gives that pressure"
-    )
+def orders() -> list[tuple[str, float, float]]:
+    """(element, unknowns, error of the force) of the meshes without more flags, of the answers of lab 8."""
+    ((_, rows), *_) = markdown.tables(read(LABS / "8-error/ANSWERS.md"))
+    degree = {"-order 1 ": "P1", "-h": "P2", "-order 4 -grading 60 ": "P4"}
+    found = [
+        (degree[start], float(unknowns), float(error))
+        for flags, error, _, unknowns in rows
+        if (start := re.fullmatch(r"`(-order 1 |-order 4 -grading 60 |-h(?= [\d.]+`))(?:-h )? ?[\d.]+`", flags))
+        and (start := start[1])
+    ]
+    return sorted(found)
 
 
 def film(run: Run) -> Markup:
@@ -157,17 +95,17 @@ def film(run: Run) -> Markup:
     high = 1.6 * max(table["overlap"].max() for table in models) - 0.1 * low
     frames = []
     for number, table in enumerate(models, 1):
-        figure = Figure(figsize=SLIDE, layout="constrained")
+        figure = Figure(figsize=lecture.SLIDE, layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True)
         x, wall = table["x"], table["status"] == 2
         above.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6)
         above.plot(x, table["threshold"], color=style.BLUE, linestyle=(0, (4, 1.5)), label="threshold $T$")
         above.plot(x, table["overlap"], color=style.VERMILION, label="overlap $d$")
-        above.plot(x[wall], table["overlap"][wall], "s", color=style.VERMILION, markersize=4, label="at the wall")
+        above.plot(x[wall], table["overlap"][wall], "s", color=style.VERMILION, label="at the wall")
         above.set_ylim(low, high)
         above.set_ylabel("overlap")
         words = f"{wall.sum()} points at the wall" if wall.any() else "no wall acts: this is the law"
-        above.set_title(f"model {number}: {words}", loc="left", fontsize=11)
+        above.set_title(f"model {number}: {words}", loc="left")
         below.plot(x, table["pressure"], color=style.BLACK)
         below.set_ylim(0, 1.1 * most)
         below.set_xlim(-reach, reach)
@@ -235,17 +173,27 @@ def sheet(title: str, text: str, folder: Path) -> bytes:
 
 def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
     """(title, content, notes) of each slide."""
-    drawn = {"laws": laws, "tangents": tangents, "model": model, "algorithm": algorithm, "film": lambda: film(run)}
+    drawn = {"algorithm": algorithm, "film": lambda: film(run)}
+    pictures = lecture.PICTURES | {"orders": functools.partial(lecture.orders, orders())}
     found = []
-    with style.look():
-        for text in re.split(r"^---$", read(LABS / "slides.md"), flags=re.M):
+    with style.look(), mpl.rc_context(lecture.LARGE):
+        for text in re.split(r"^\*\*\*$", read(LABS / "slides.md"), flags=re.M):
             shown, _, notes = text.partition("\nNotes: ")
             title = re.search(r"^# (.*)$", shown, re.M)[1]
             content = markdown.markup(shown, unlinked, picture_of(LABS))
             for name in re.findall(r"<p>\{\{(\w+)\}\}</p>", content):
-                content = Markup(content.replace(f"<p>{{{{{name}}}}}</p>", drawn[name]()))
+                if name in drawn:
+                    made = drawn[name]()
+                else:
+                    made = image(lecture.drawn(pictures[name]), alt(getattr(pictures[name], "func", pictures[name])))
+                content = Markup(content.replace(f"<p>{{{{{name}}}}}</p>", made))
             found.append((title, content, markdown.markup(notes, unlinked)))
     return found
+
+
+def alt(picture: Callable) -> str:
+    """What a picture shows, in words: the first line of its function's description."""
+    return picture.__doc__.split("\n")[0].rstrip(".")
 
 
 def slide_page(found: list[tuple[str, Markup, Markup]]) -> bytes:

@@ -31,6 +31,8 @@ def inline(text: str, link: Place, image: Place) -> str:
         elif found["target"]:
             words, target = inline(found["words"], link, image), link(found["target"])
             pieces.append(f'<a href="{html.escape(target, quote=True)}">{words}</a>' if target else words)
+        elif found["em"] and (formula := equations.inline(found["em"])):
+            pieces.append(formula)
         else:
             name = "strong" if found["strong"] else "em"
             pieces.append(f"<{name}>{inline(found['strong'] or found['em'], link, image)}</{name}>")

@@ -48,7 +48,8 @@ CHAPTERS = {
     "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
     "Code": ["edp/README.md", "edp/README.md#", "CONTRIBUTING.md", "tests/data/README.md", "CHANGELOG.md"],
 }
-HIDDEN = ["edp/labs/*/ANSWERS.md"]  # reached by links alone
+ANSWERS = ["edp/labs/*/ANSWERS.md"]  # only with --answers, reached by links
+SLANTED = re.compile(r"(`[^`]*`)|(?<![\w*])\*([^*\s][^*]*)\*(?!\w)")  # code, or slanted words
 LINK = re.compile(r"(!?\[(?:[^\][]|`[^`]*`|!?\[[^\]]*\](?:\([^)]*\))?)*\])\(([^)\s]+)\)")
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 SETTINGS = {
@@ -95,7 +96,7 @@ def cut(text):
 
 
 def typeset(text):
-    """Indented blocks that are equations, as MathML; numbers in tables that no line breaks."""
+    """Indented blocks that are equations and slanted formulas, as MathML; numbers in tables that no line breaks."""
 
     def block(found):
         lines = [line[4:] for line in found[1].splitlines()]
@@ -104,6 +105,7 @@ def typeset(text):
 
     def change(part):
         part = re.sub(r"\n\n((?:    .+\n)+)(?=\n|\Z)", block, part)
+        part = SLANTED.sub(lambda found: (found[2] and equations.inline(found[2])) or found[0], part)
         return re.sub(
             r"^\|.*$",
             lambda found: re.sub(r"(?<=[| ]\de-)(?=\d)|(?<=\.\de-)(?=\d)", "\u2060", found[0]),
@@ -123,13 +125,18 @@ def toctree(places, *options):
 class Site:
     """The pages of the site: where each stands, and what each heading's place is."""
 
-    def __init__(self, root, folder, chapters=CHAPTERS):
+    def __init__(self, root, folder, chapters=CHAPTERS, answers=False):
         self.root, self.folder, self.chapters = root, folder, chapters
         self.below = {}  # {long page: the places of its sections}
         self.listed = {"index"}  # what the table of contents has so far
         self.pages = {}  # place in the site, without suffix: (page, text)
         self.places = {}  # (page, heading's name): place
-        names = ["README.md", *(name for chapter in chapters.values() for name in chapter), *HIDDEN]
+        names = [
+            "README.md",
+            *(name for chapter in chapters.values() for name in chapter),
+            *(ANSWERS if answers else []),
+        ]
+        self.left_out = set() if answers else {path for name in ANSWERS for path in root.glob(name)}
         files = [path for name in names for path in sorted(root.glob(name.partition("#")[0]))]
         for path in dict.fromkeys(files):
             self.add(path.relative_to(root).as_posix(), path.read_text())
@@ -153,6 +160,8 @@ class Site:
         path = (self.root / page).parent / name if name else self.root / page
         if path.is_dir():
             path = path / "README.md" if (path / "README.md").exists() else path
+        if path.resolve() in self.left_out:
+            return ""
         goal = path.resolve().relative_to(self.root).as_posix()
         if (goal, heading) in self.places:
             place = self.places[goal, heading]
@@ -223,14 +232,14 @@ class Site:
         shutil.copy(ROOT / "tests/data/site.css", static)
 
 
-def build(out, root=ROOT, chapters=CHAPTERS):
+def build(out, root=ROOT, chapters=CHAPTERS, answers=False):
     """Builds the site into a folder; the exit code of Sphinx."""
     from sphinx.cmd.build import main  # a development dependency: nothing else of the package wants it
 
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "source")
         source.mkdir()
-        Site(root, source, chapters).write()
+        Site(root, source, chapters, answers).write()
         told = {key: int(value) if isinstance(value, bool) else value for key, value in SETTINGS.items()}
         values = [word for key, value in told.items() for word in ("-D", f"{key}={value}")]
         words = [*"-q -W --keep-going -b html -C".split(), *values, "-d", f"{folder}/trees", str(source), str(out)]
@@ -244,9 +253,10 @@ def build(out, root=ROOT, chapters=CHAPTERS):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", required=True, type=Path, help="the site's folder")
+    parser.add_argument("--answers", action="store_true", help="with the answers to the labs")
     given = parser.parse_args()
     shutil.rmtree(given.out, ignore_errors=True)
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    if code := build(given.out):
+    if code := build(given.out, answers=given.answers):
         sys.exit(code)
     print(f"site: {given.out}/index.html")

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapes
-from freefem import FREEFEM, ROOT, execute, table
+from freefem import FREEFEM, ROOT, execute, table, tree
 from page_numbers import units
 from test_readme import fences, section
 
@@ -43,6 +43,30 @@ def solve(folder, mesh, case, space, *flags, expect=0):
     if code:
         return stdout
     return Case(json.loads((out / "summary.json").read_text()), table(out / "contact.csv"), stdout)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_case_file_on_the_page(name):
+    """The case file on an example's page is the file of its folder."""
+    (shown,) = fences((FOLDER / name / "README.md").read_text(), "text")
+    assert shown == (FOLDER / name / f"{name}.case").read_text()
+
+
+@pytest.mark.long
+def test_page_of_the_case_file(tmp_path):
+    """The commands of the page run as they stand, and the case file on it is the example's."""
+    text = (ROOT / "edp/case/README.md").read_text()
+    (shown,) = fences(text, "text")
+    case = (FOLDER / "pin-in-hole/pin-in-hole.case").read_text()
+    assert [line.split("#")[0].split() for line in case.splitlines()[1:]] == [
+        line.split() for line in shown.splitlines()
+    ]
+    package = tree(tmp_path / "package")
+    for name in ("postprocess", ".venv"):
+        (package / name).symlink_to(ROOT / name)
+    for line in "".join(fences(text, "sh")).splitlines():
+        code, stdout = execute(["sh", "-c", line], package)
+        assert code == 0, f"{line}\n{stdout[-2000:]}"
 
 
 def example(name, folder, exchanged="", *flags, **constants):

@@ -4,12 +4,13 @@ import csv
 import re
 
 import pytest
+from browser import CHROMIUM, Browser
 from freefem import FREEFEM, ROOT, execute, run_in, short_of
 from page_numbers import printed
 from test_labs import BARE, LABS, answers
 from test_readme import fences
 
-from postprocess import markdown
+from postprocess import lecture, markdown
 from postprocess.__main__ import main
 from postprocess.commands import check_lab
 
@@ -43,6 +44,36 @@ def test_the_page_without_gmsh(made, tmp_path):
     assert code == 0, stdout
     assert (printed(stdout, "adaptations"), printed(stdout, "Newton steps")) == (3, 12)
     assert printed(stdout, "force") == pytest.approx(152.09, rel=0.01)
+
+
+@pytest.mark.long
+def test_slides(made):
+    """A lecture: about thirty slides, each picture with words for who cannot see it, formulas typeset, links away."""
+    text = (made / "slides.html").read_text()
+    slides = re.findall("<section .*?</section>", text, re.S)
+    assert 25 <= len(slides) <= 35 and sum("<img" in slide for slide in slides) > 20
+    assert "{{" not in text and "Notes:" not in text and 'alt=""' not in text
+    assert "<math" in text and not re.search(r"<em>[^<]*[=κ][^<]*</em>", text)
+
+
+@pytest.mark.parametrize("name", short_of(["cut", "four_five"], lecture.PICTURES))
+def test_sketches(name, tmp_path):
+    """Each picture of the lecture is drawn without a run, in both sizes."""
+    assert main(["sketch", name, "--out", str(tmp_path / "page.pdf")]) == 0
+    assert main(["sketch", name, "--slide", "--out", str(tmp_path / "slide.pdf")]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"{n}.{kind}" for n in ("page", "slide") for kind in ("pdf", "png")
+    }
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not CHROMIUM, reason="needs Chromium")
+def test_slides_on_a_screen(made, tmp_path):
+    """Each slide fits the screen of a projector."""
+    with Browser(tmp_path) as browser:
+        page = browser.open(made / "slides.html", 1280, 720)
+        sizes = page.evaluate("[...document.querySelectorAll('section')].map(s => s.scrollHeight)")
+        assert max(sizes) <= 720 and page.messages == []
 
 
 # ---------------------------------------------------------------- answers

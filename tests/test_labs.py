@@ -68,7 +68,7 @@ def test_parts_of_a_lab(lab):
     text = readme(lab)
     (core,) = re.findall(r"^Core: ([\d, ]+)\.$", section(text, "Questions"), re.M)
     asked = re.findall(r"^(\d+)\. ", section(text, "Questions"), re.M)
-    assert set(core.split(", ")) <= set(asked) & set(re.findall(r"^- (\d+): ", answers(lab), re.M))
+    assert set(core.split(", ")) <= set(asked) & set(re.findall(r"^\*\*(\d+)\.\*\* ", answers(lab), re.M))
     assert "](figure.png)" in text and (ROOT / "edp/labs" / lab / "figure.png").stat().st_size < 130_000
     (drawn,) = re.findall(r"^\*`(\w+)\.png` of these commands: .*\*$", text, re.M)
     assert f"{drawn}.pdf" in text or f"postprocess {drawn} " in text
@@ -231,7 +231,7 @@ def test_theory_of_newton_alone(tmp_path):
 
 def test_words_of_the_gecko():
     """The coarse mesh's jumps in the words shall be the table's."""
-    (jumps,) = re.findall(r"^- 5: (\d+)\.", answers("7-gecko"), re.M)
+    (jumps,) = re.findall(r"^\*\*5\.\*\* (\d+)\.", answers("7-gecko"), re.M)
     assert jumps == next(tables(answers("7-gecko")))[1][-1][3]
 
 

@@ -60,6 +60,25 @@ def test_what_is_no_equation():
     assert len(written("σ = 0   where free", "u = 0")) == 3
 
 
+@pytest.mark.parametrize(
+    "text, typeset", [("p = κ s^m", True), ("T", True), ("your", False), ("a law", False), ("1", False)]
+)
+def test_formulas_in_a_line(text, typeset):
+    """Slanted formulas are typeset, slanted words stay."""
+    assert (equations.inline(text) != "") == typeset
+    assert ("<math" in documents.typeset(f"so *{text}*, but `a *T* b`\n")) == typeset
+    assert "`a *T* b`" in documents.typeset("so `a *T* b`\n")
+
+
+def test_answers_only_if_asked_for(tmp_path):
+    """The answers are no pages of the site, and links to them are words; with --answers they are."""
+    for answers in (False, True):
+        site = documents.Site(ROOT, tmp_path, answers=answers)
+        assert any("ANSWERS" in place for place in site.pages) == answers
+        target = site.target("edp/labs/INSTRUCTOR.md", "0-algorithm/ANSWERS.md")
+        assert target == ("/edp/labs/0-algorithm/ANSWERS.md" if answers else "")
+
+
 def found(browser, folder, word):
     """The titles that the site's search finds."""
     page = browser.open(folder / "index.html", 1200, 800)
