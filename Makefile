@@ -479,6 +479,7 @@ uses: $(VENV)/run.stamp | system ## print which names MODULE (problem/problem.id
 
 numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, and show them
 	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/page_numbers.py
+	@PYTHONPATH=.:tests $(PYTHON) tests/screens.py
 
 clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))

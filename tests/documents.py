@@ -20,7 +20,8 @@ CUT = [f"edp/{name}.md" for name in "SETUP PICTURES MANUAL WRITING PAPER THEORY 
 CUT += ["tests/RESULTS.md", "tests/COST.md"]
 # Chapters of the site and what stands in them: a page, a section of a long page, or `PAGE#`, all its other sections.
 CHAPTERS = {
-    "Begin": ["edp/SETUP.md", "edp/SETUP.md#", "edp/PICTURES.md", "edp/PICTURES.md#"],
+    "Begin": ["edp/tutorial/*.md", "edp/SETUP.md", "edp/SETUP.md#", "edp/PICTURES.md", "edp/PICTURES.md#"],
+    "Understand": [f"edp/{name}.md" for name in "HOW-IT-WORKS CHOOSING ERRORS LIMITS".split()],
     "Teach": ["edp/labs/INSTRUCTOR.md", "edp/labs/README.md", "edp/labs/CRIB.md", "edp/labs/*/README.md"],
     "My own parts": [
         "edp/MANUAL.md#bodies-of-your-own",
@@ -28,10 +29,10 @@ CHAPTERS = {
         "edp/examples/README.md",
         "edp/examples/*/README.md",
     ],
-    "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#"],
-    "Scenes": ["edp/scenes/README.md", "edp/scenes/README.md#"],
+    "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#", "edp/reference/METHODS.md", "edp/GLOSSARY.md", "edp/REFERENCES.md"],
+    "Scenes": ["edp/reference/SCENES.md", "edp/scenes/README.md", "edp/scenes/README.md#"],
     "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
-    "The paper and the theory": ["edp/PAPER.md", "edp/PAPER.md#", "edp/THEORY.md", "edp/THEORY.md#", "edp/GLOSSARY.md"],
+    "The paper and the theory": ["edp/PAPER.md", "edp/PAPER.md#", "edp/THEORY.md", "edp/THEORY.md#"],
     "Write your own": ["template/README.md", "edp/WRITING.md", "edp/WRITING.md#", "CONTRIBUTING.md"],
     "The code": ["edp/README.md", "edp/README.md#", "tests/data/README.md", "CHANGELOG.md"],
 }
