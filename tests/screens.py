@@ -87,6 +87,11 @@ def same(shown, line):
     )
 
 
+def alike(line, other):
+    """How alike the words of two lines are, 0 to 1; 1 if the other one begins with them."""
+    return 1 if line and other.startswith(line) else difflib.SequenceMatcher(None, line, other).ratio()
+
+
 def anew(shown, output):
     """What a page should show: the output's lines, or those nearest to the lines that it shows between its `...`."""
     lines = output.rstrip("\n").split("\n")
@@ -97,7 +102,7 @@ def anew(shown, output):
         if line == "...":
             made.append(line)
             continue
-        likeness = [difflib.SequenceMatcher(None, words(line), words(other)).ratio() for other in lines[at:]]
+        likeness = [alike(words(line), words(other)) for other in lines[at:]]
         if not likeness or max(likeness) < 0.6:
             raise SystemExit(f"nothing like this line is printed any more: {line}")
         at += likeness.index(max(likeness)) + 1
