@@ -18,7 +18,7 @@ from freefem import ROOT, TIMEOUT, environment, tree
 EDP = ROOT / "edp"
 TUTORIALS = sorted((EDP / "tutorial").glob("*.md"))
 PAGES = [*TUTORIALS, *(EDP / f"{name}.md" for name in ("HOW-IT-WORKS", "CHOOSING", "LIMITS", "ERRORS"))]
-DONE = "make() { command make -o .venv/run.stamp -o .venv/dev.stamp -o system -o python \"$@\"; }\n"
+DONE = 'make() { command make -o .venv/run.stamp -o .venv/dev.stamp -o system -o python "$@"; }\n'
 FENCE = re.compile(r"^```(sh|text)\n(.*?)^```$", re.M | re.S)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ROUNDING = 1e-6  # numbers below it, and whether there are any, are of this machine
@@ -75,16 +75,19 @@ def words(line):
     return " ".join(NUMBER.sub("#", line).split())
 
 
+def close(shown, printed):
+    """Whether a printed number is the shown one: to two in a hundred, or a count to two."""
+    away = abs(float(shown) - float(printed))
+    return away <= max(0.02 * abs(float(shown)), ROUNDING, 2 * shown.isdigit())
+
+
 def same(shown, line):
-    """Whether a line is as it is shown: the words, and the numbers to two in a hundred; times and rounding may differ."""
+    """Whether a line has the words of the shown one, and its numbers to two in a hundred; times and rounding may differ."""
     if words(shown) != words(line):
         return False
     pairs = zip(NUMBER.findall(shown), NUMBER.findall(line), strict=True)
     timed = "seconds" in line or line.endswith(" s")
-    return timed or all(
-        abs(float(a) - float(b)) <= max(0.02 * abs(float(a)), ROUNDING) or float(a).is_integer() and abs(float(a) - float(b)) <= 2
-        for a, b in pairs
-    )
+    return timed or all(close(*pair) for pair in pairs)
 
 
 def alike(line, other):

@@ -285,12 +285,10 @@ def test_doors(door, package):
         claims = (package / "results/paper/claims.html").read_text()
         verdicts = re.findall(r'<span class="(\w+)">', claims)
         assert len(verdicts) == 7 and verdicts.count("fail") == 1  # plain Newton does not fail on the paper's test
-        steps = {quoted(row[0])[0].removeprefix("-method "): row[1:] for row in rows(section(CHOOSING, "Method")) if "-m" in row[0]}
-        names = {"newton": ("newton", "stiff-newton"), "paper": (None, "stiff"), "paper -T0 d0": (None, "stiff-d0")}
-        for flags, folders in names.items():
-            for name, count in zip(folders, steps[flags], strict=True):
-                if name:
-                    assert json.loads((package / f"results/paper/{name}/summary.json").read_text())["newton"] == int(count)
+        steps = {row[0].strip("`"): row[1:] for row in rows(section(CHOOSING, "Method"))}
+        soft, stiff = ([steps[f"-method {words}"][k] for words in ("newton", "paper", "paper -T0 d0")] for k in (0, 1))
+        for name, count in zip(("newton", "stiff-newton", "stiff", "stiff-d0"), (soft[0], *stiff), strict=True):
+            assert json.loads((package / f"results/paper/{name}/summary.json").read_text())["newton"] == int(count)
 
 
 @pytest.mark.long
