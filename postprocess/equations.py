@@ -12,7 +12,7 @@ UPPER = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀ", "0123456789+−T", stri
 LOWER = dict(zip("₀₁₂₃₄₅₆₇₈₉₊", "0123456789+", strict=True))
 MARKS = {"\u0302": "^", "\u0304": "¯", "\u0307": "˙"}
 MATHML = "http://www.w3.org/1998/Math/MathML"
-FUNCTIONS = {"div", "tr", "cos", "sin", "ln", "max", "min", "diag", "inverse", "mod"}
+FUNCTIONS = {"div", "tr", "cos", "sin", "ln", "max", "min", "diag", "inverse", "mod", "det", "exp"}
 NAMES = {"gap"}  # quantities with names of more than a letter
 CLOSING = {"(": ")", "[": "]", "|": "|", "‖": "‖"}
 RELATIONS = set("=≤≥≈<>‖")

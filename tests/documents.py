@@ -16,8 +16,13 @@ from pathlib import Path
 from postprocess import equations
 
 ROOT = Path(__file__).resolve().parent.parent
-CUT = [f"edp/{name}.md" for name in "SETUP PICTURES MANUAL WRITING PAPER THEORY README scenes/README".split()]
+CUT = [f"edp/{name}.md" for name in "SETUP PICTURES MANUAL WRITING PAPER README scenes/README".split()]
 CUT += ["tests/RESULTS.md", "tests/COST.md"]
+THEORY = (
+    "discretisation nonmatching curved-surfaces condensation proximal-newton half-plane-model conditioning thresholds "
+    "sequence-ends linear-model error-of-a-model friction adhesion lennard-jones-models exact-distance free-bodies "
+    "rotations mesh-error geometry-error quantity-errors friction-errors"
+).split()
 # Chapters of the site and what stands in them: a page, a section of a long page, or `PAGE#`, all its other sections.
 CHAPTERS = {
     "Begin": ["edp/tutorial/*.md", "edp/SETUP.md", "edp/SETUP.md#", "edp/PICTURES.md", "edp/PICTURES.md#"],
@@ -32,7 +37,8 @@ CHAPTERS = {
     "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#", "edp/reference/METHODS.md", "edp/GLOSSARY.md", "edp/REFERENCES.md"],
     "Scenes": ["edp/reference/SCENES.md", "edp/scenes/README.md", "edp/scenes/README.md#"],
     "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
-    "The paper and the theory": ["edp/PAPER.md", "edp/PAPER.md#", "edp/THEORY.md", "edp/THEORY.md#"],
+    "The paper": ["edp/PAPER.md", "edp/PAPER.md#"],
+    "Theory": ["edp/theory/README.md", *(f"edp/theory/{name}.md" for name in THEORY)],
     "Write your own": ["template/README.md", "edp/WRITING.md", "edp/WRITING.md#", "CONTRIBUTING.md"],
     "The code": ["edp/README.md", "edp/README.md#", "tests/data/README.md", "CHANGELOG.md"],
 }

@@ -82,7 +82,7 @@ def close(shown, printed):
 
 
 def same(shown, line):
-    """Whether a line has the words of the shown one, and its numbers, except times and rounding, to two in a hundred."""
+    """Whether a line has the words of the shown one, and its numbers, except times and rounding, to 2 %."""
     if words(shown) != words(line):
         return False
     pairs = zip(NUMBER.findall(shown), NUMBER.findall(line), strict=True)

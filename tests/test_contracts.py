@@ -194,9 +194,9 @@ def test_the_code_is_read():
 @cache
 def described(name):
     """The names whose definitions have a comment: a function's below its head, a variable's behind it or above, a
-    macro's in the line above it."""
+    macro's in the line above it, or behind a macro of one line."""
     text = (EDP / name).read_text()
-    functions = re.findall(r"^func [^\n(]*?(\w+)\s*\([^{]*?\)\n//", text, flags=re.M)
+    functions = re.findall(r"^func [^\n(]*?(\w+)\s*\([^{]*?\)(?:\n| \{[^\n]*\} +)//", text, flags=re.M)
     kinds = r"^(?:int|real|bool|string|matrix|mesh3?|meshS|meshL|fespace|varf)(?:\[[a-z,]*\])*"
     behind = re.findall(rf"{kinds} (\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
     above = re.findall(rf"^// [^\n]*\n(?:{kinds[1:]} |(?:New)?[mM]acro )(\w+)", text, flags=re.M)

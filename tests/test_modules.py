@@ -349,11 +349,12 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     snippet(tmp_path, text, "-h", 5, "-vtu", 0, "-out", tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     loaded = {name for name in summary["modules"] if name.startswith(("laws/", "solve/methods", "kernel/"))}
-    assert loaded == {"laws/laws", "laws/power", "laws/rising", "laws/signorini"} | {
+    assert loaded == {"laws/laws", "laws/one-law", "laws/power", "laws/rising", "laws/signorini"} | {
         "solve/methods",
         "solve/methods/newton",
         "kernel/half-plane",
         "kernel/level-plane",
+        "kernel/lines-plane",
         "kernel/no-grids",
     }
     assert summary["method"] == "newton"

@@ -7,8 +7,10 @@ import pages
 from freefem import ROOT, run, run_in, snippet
 from test_contracts import EDP, MODULES, owners, uses
 
-LIST = (EDP / "case/hooks.idp").read_text()
-OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', LIST, flags=re.M)
+OFFERED = (EDP / "case/hooks.idp").read_text()
+OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', OFFERED, flags=re.M)
+ROW = r"^\| `([A-Z]\w*)(?:\(([\w, ]+)\))?` \| (`[^|]*`) \|"  # an event, the names of its host, its files
+EVENTS = re.findall(ROW, (EDP / "WRITING.md").read_text().split("\n## Events\n")[1].split("\n## ")[0], flags=re.M)
 OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
 SCRIPTS = pages.scripts()
 
@@ -68,15 +70,17 @@ def test_no_option_needs_itself():
 
 
 def test_hooks():
-    """The macros of options shall be hooks that there are; each hook is in the list."""
-    texts = [(EDP / name).read_text() for name in MODULES]
-    hooks = {"Laws"}.union(*(re.findall(r"\boptionHook\(([A-Z]\w*)\)", text) for text in texts))
-    listed = set(re.findall(r"\b[A-Z]\w+\b", "".join(re.findall(r"^//   .*\n", LIST, flags=re.M))))
-    wrong = [f"case/hooks.idp: {hook} is not in the list" for hook in sorted(hooks - listed)]
+    """The macros of options shall be hooks that there are; the list of events has each with the files where it happens."""
+    found = {}
+    for name in MODULES:
+        for hook in re.findall(r"\boptionHook\(([A-Z]\w*)\)", (EDP / name).read_text()):
+            found.setdefault(hook, set()).add(f"`{name}`")
+    assert {hook: set(files.split(", ")) for hook, _, files in EVENTS} == found | {"Laws": {"`laws/all.idp`"}}
+    wrong = []
     for option in OPTIONS:
         text = (EDP / f"options/{option}/{option}.idp").read_text()
         own = set(re.findall(rf"^macro {option}([A-Z]\w*)\(", text, flags=re.M))
-        wrong += [f"{option}{hook}: there is no such hook" for hook in sorted(own - hooks)]
+        wrong += [f"{option}{hook}: there is no such hook" for hook in sorted(own - set(found) - {"Laws"})]
     assert not wrong, "\n".join(wrong)
 
 
@@ -135,7 +139,7 @@ def test_hooks_only_listen():
         declared = r"\b(?:int|real|bool|string|matrix|ofstream|ifstream)(?:\[[\w,]+\])?\s*&?\s*(\w+)"
         own = {word for host in hosts(hook) for word in re.findall(declared, host.replace("func", "", 1))}
         own -= {word for host in hosts(hook) for word in re.findall(r"^\nfunc \S+ (\w+)", host)}
-        own -= {word for given in re.findall(rf"\b{hook}\(([\w, ]+)\)", LIST) for word in given.split(", ")}
+        own -= {word for event, given, _ in EVENTS if event == hook for word in given.split(", ")}
         for option in OPTIONS:
             for body in re.findall(rf"^macro {option}{hook}\(\)(.*?)//", texts[option], flags=re.M | re.S):
                 words = set(re.findall(r"\w+", re.sub(r'"(\\.|[^"\\])*"', "", body)))

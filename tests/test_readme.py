@@ -29,7 +29,6 @@ SCENE_TABLE, METHOD_TABLE, CHOOSING = (
 )
 RESULTS = "\n".join((ROOT / "tests" / f"{name}.md").read_text() for name in ("RESULTS", "COST"))
 PAPER = (ROOT / "edp" / "PAPER.md").read_text()
-THEORY = (ROOT / "edp" / "THEORY.md").read_text()
 PAGES = sorted(str(path.relative_to(ROOT)) for path in in_markdown(ROOT))
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]  # set-up counts as done
 # what stands for a table's values in the commands

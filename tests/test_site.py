@@ -13,12 +13,12 @@ MATHML = "{http://www.w3.org/1998/Math/MathML}"
 pytestmark = pytest.mark.filterwarnings("ignore:.*Check CHANGES for Sphinx")
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
 PAGES = {
-    "README.md": "# Contact\n\n[law](edp/THEORY.md#the-law), ![a picture](postprocess/a.png), [code](edp/main.edp)\n",
-    "edp/THEORY.md": "# Theory\n\n[The law](#the-law) · [Work](#work)\n\n## The law\n\nBelow the wall\n\n"
+    "README.md": "# Contact\n\n[law](edp/PAPER.md#the-law), ![a picture](postprocess/a.png), [code](edp/main.edp)\n",
+    "edp/PAPER.md": "# Theory\n\n[The law](#the-law) · [Work](#work)\n\n## The law\n\nBelow the wall\n\n"
     "    p = κ s^m/2\n\n"
     "## Work\n\nas [above](#the-law), 1e-3:\n\n| a |\n|---|\n| 1e-3 |\n\n    leg 4\n",
 }
-CHAPTERS = {"Theory": ["edp/THEORY.md", "edp/THEORY.md#"]}
+CHAPTERS = {"Theory": ["edp/PAPER.md", "edp/PAPER.md#"]}
 
 
 def written(*lines):
@@ -83,15 +83,15 @@ def test_small_site(tmp_path):
         path.write_bytes((ROOT / "edp/labs/1-law/figure.png").read_bytes() if name.endswith("png") else b"// code\n")
     site = tmp_path / "site"
     assert documents.build(site, tmp_path / "root", CHAPTERS) == 0
-    assert "1e-\u20603" in (site / "edp/THEORY-work.html").read_text()
+    assert "1e-\u20603" in (site / "edp/PAPER-work.html").read_text()
     with Browser(tmp_path / "profile") as browser:
         assert found(browser, site, "wall") == ["The law"]
 
 
 def test_a_link_that_leads_nowhere(tmp_path):
     """A link to no page, section or file shall end the build, naming the page and the link."""
-    (tmp_path / "README.md").write_text("# Contact\n\n[law](edp/THEORY.md#the-law)\n")
-    with pytest.raises(SystemExit, match=r"README.md: edp/THEORY.md#the-law: there is no such page, section or file"):
+    (tmp_path / "README.md").write_text("# Contact\n\n[law](edp/PAPER.md#the-law)\n")
+    with pytest.raises(SystemExit, match=r"README.md: edp/PAPER.md#the-law: there is no such page, section or file"):
         documents.Site(tmp_path, tmp_path / "out", {}).write()
 
 

@@ -1,4 +1,4 @@
-"""edp/THEORY.md against runs, and against the compliance of real scenes, formed column by column."""
+"""The chapters of edp/theory/ against runs, and against the compliance of real scenes, formed column by column."""
 
 import functools
 import math
@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from freefem import ROOT, data, run, scene_text, short_of, snippet, told
 
-THEORY = (ROOT / "edp" / "THEORY.md").read_text()
+CHAPTERS = {path.name: path.read_text() for path in sorted((ROOT / "edp/theory").glob("*.md"))}
+MODELS = ROOT / "tests/test_theory_models.py"  # of the chapters on sequences of models
 DISC, SPHERE = "disc-on-block", "sphere-on-block"
 COMPLIANCE = data("theory/compliance.edp")
 
@@ -177,17 +178,32 @@ def test_local_stiffness(problem):
         assert share.min() > 0.25 and share.max() < high
 
 
-# ---------------------------------------------------------------- the page itself
+# ---------------------------------------------------------------- the pages themselves
 
 
 def test_every_number_has_its_test():
-    """Each section shall name tests: all of this file, those of others with the file, and only such as there are."""
+    """Each chapter shall name tests: all of this file, those of others with the file, and only such as there are."""
     elsewhere = r"\(`(test_\w+\.py)`:([^)]*)\)"
-    for file, names in re.findall(elsewhere, THEORY):
-        for name in re.findall(r"`(test_\w+)`", names):
-            assert f"def {name}(" in (ROOT / "tests" / file).read_text(), name
-    named = set(re.findall(r"`(test_\w+)`", re.sub(elsewhere, "", THEORY)))
-    there = {name for name in globals() if name.startswith("test_")}
-    assert named == there - {"test_every_number_has_its_test"}
-    for text in THEORY.split("\n## ")[1:]:
-        assert "`test_" in text, text.partition("\n")[0]
+    for page, text in CHAPTERS.items():
+        for file, names in re.findall(elsewhere, text):
+            for name in re.findall(r"`(\w+)`", names):
+                assert f"def {name}(" in (ROOT / "tests" / file).read_text(), f"{page}: {name}"
+        assert "`test" in text.split("\n## Test\n")[1], page
+    named = set(re.findall(r"`(test_\w+)`", re.sub(elsewhere, "", "".join(CHAPTERS.values()))))
+    there = {name for name in globals() if name.startswith("test_")} - {
+        "test_every_number_has_its_test",
+        "test_chapters_are_short_and_in_order",
+    }
+    models = set(re.findall(r"^def (test_\w+)\(", MODELS.read_text(), re.M)) if MODELS.exists() else named - there
+    assert there <= named <= there | models
+
+
+def test_chapters_are_short_and_in_order():
+    """A chapter shall have at most 1 800 words, its parts in one order, and stand in the overview, which has 700."""
+    parts = ["Question", "Idea", "Formulas", "Statement", "Reason", "Proof", "Test"]
+    for page, text in CHAPTERS.items():
+        assert len(text.split()) <= (700 if page == "README.md" else 1800), page
+        if page != "README.md":
+            assert f"({page})" in CHAPTERS["README.md"], page
+            found = [title for title in re.findall(r"^## (.*)$", text, re.M) if title in parts]
+            assert [*found[:2], found[-1]] == ["Question", "Idea", "Test"] and found == sorted(found, key=parts.index)
