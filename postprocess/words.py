@@ -10,7 +10,7 @@ from postprocess.results import Run, is_number
 ROOT = Path(__file__).resolve().parent.parent
 
 LABS = "labs/"
-PICTURES = ROOT / "edp" / "PICTURES.md"
+FIGURES = ROOT / "edp" / "reference" / "figures.md"
 
 HISTORY_COLUMNS = (
     "Newton step,adaptation,residual,in contact,status changes,at the wall,greatest overlap,force,back-substitutions"
@@ -18,8 +18,8 @@ HISTORY_COLUMNS = (
 
 
 def captions() -> dict[str, str]:
-    """What each figure shows, by its name: the tables of edp/PICTURES.md. Without that page none."""
-    text = PICTURES.read_text(encoding="utf-8") if PICTURES.exists() else ""
+    """What each figure shows, by its name: the tables of edp/reference/figures.md. Without that page none."""
+    text = FIGURES.read_text(encoding="utf-8") if FIGURES.exists() else ""
     found = re.findall(r"^\| `([\w-]+)` \| (.+) \| `make [\w/. -]+` \|$", text, re.M)
     return {name: content.replace("`", "") + "." for name, content in found}
 

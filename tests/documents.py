@@ -16,31 +16,38 @@ from pathlib import Path
 from postprocess import equations
 
 ROOT = Path(__file__).resolve().parent.parent
-CUT = [f"edp/{name}.md" for name in "SETUP PICTURES MANUAL WRITING PAPER README scenes/README".split()]
+CUT = [f"edp/{name}.md" for name in "WRITING PAPER README scenes/README".split()]
 CUT += ["tests/RESULTS.md", "tests/COST.md"]
 THEORY = (
     "discretisation nonmatching curved-surfaces condensation proximal-newton half-plane-model conditioning thresholds "
     "sequence-ends linear-model error-of-a-model friction adhesion lennard-jones-models exact-distance free-bodies "
     "rotations mesh-error geometry-error quantity-errors friction-errors"
 ).split()
-# Chapters of the site and what stands in them: a page, a section of a long page, or `PAGE#`, all its other sections.
+# Chapters of the site by what a reader wants, and what stands in them: a page, or `PAGE#`, the sections of a long page.
 CHAPTERS = {
-    "Begin": ["edp/tutorial/*.md", "edp/SETUP.md", "edp/SETUP.md#", "edp/PICTURES.md", "edp/PICTURES.md#"],
-    "Understand": [f"edp/{name}.md" for name in "HOW-IT-WORKS CHOOSING ERRORS LIMITS".split()],
-    "Teach": ["edp/labs/INSTRUCTOR.md", "edp/labs/README.md", "edp/labs/CRIB.md", "edp/labs/*/README.md"],
-    "My own parts": [
-        "edp/MANUAL.md#bodies-of-your-own",
-        "edp/case/README.md",
-        "edp/examples/README.md",
-        "edp/examples/*/README.md",
+    "Tutorials": [
+        "edp/tutorial/*.md",
+        "edp/labs/README.md",
+        "edp/labs/*/README.md",
+        "edp/labs/INSTRUCTOR.md",
+        "edp/labs/CRIB.md",
     ],
-    "Look up": ["edp/MANUAL.md", "edp/MANUAL.md#", "edp/reference/METHODS.md", "edp/GLOSSARY.md", "edp/REFERENCES.md"],
-    "Scenes": ["edp/reference/SCENES.md", "edp/scenes/README.md", "edp/scenes/README.md#"],
-    "What was measured": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
-    "The paper": ["edp/PAPER.md", "edp/PAPER.md#"],
-    "Theory": ["edp/theory/README.md", *(f"edp/theory/{name}.md" for name in THEORY)],
-    "Write your own": ["template/README.md", "edp/WRITING.md", "edp/WRITING.md#", "CONTRIBUTING.md"],
-    "The code": ["edp/README.md", "edp/README.md#", "tests/data/README.md", "CHANGELOG.md"],
+    "How-to": [
+        *("edp/howto/README.md", "edp/howto/install.md", "edp/howto/own-model.md", "edp/CHOOSING.md", "edp/howto/*.md"),
+        *("edp/TROUBLESHOOTING.md", "template/README.md", "edp/WRITING.md", "edp/WRITING.md#"),
+    ],
+    "Reference": [
+        *("edp/reference/README.md", "edp/case/README.md", "edp/reference/*.md", "edp/examples/README.md"),
+        *("edp/examples/*/README.md", "edp/scenes/README.md", "edp/scenes/README.md#", "edp/GLOSSARY.md"),
+        "edp/REFERENCES.md",
+    ],
+    "Explanation": [
+        *("edp/HOW-IT-WORKS.md", "edp/LIMITS.md", "edp/ERRORS.md", "edp/theory/README.md"),
+        *(f"edp/theory/{name}.md" for name in THEORY),
+        *("edp/PAPER.md", "edp/PAPER.md#"),
+    ],
+    "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
+    "Code": ["edp/README.md", "edp/README.md#", "CONTRIBUTING.md", "tests/data/README.md", "CHANGELOG.md"],
 }
 HIDDEN = ["edp/labs/*/ANSWERS.md"]  # reached by links alone
 LINK = re.compile(r"(!?\[(?:[^\][]|`[^`]*`|!?\[[^\]]*\](?:\([^)]*\))?)*\])\(([^)\s]+)\)")

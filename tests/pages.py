@@ -25,7 +25,8 @@ FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M) 
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
 FLOW = EDP / "flow.svg"  # where data goes
-PAGES = [EDP / "README.md", EDP / "MANUAL.md", EDP / "case/README.md"]
+PAGES = [EDP / "README.md", EDP / "case/README.md"]
+PAGES += [EDP / f"reference/{name}.md" for name in ("flags", "flags-of-scenes", "output-files")]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
 
@@ -105,6 +106,17 @@ def options():
 BODIES, SCHEME = "bodies and load", "method, discretisation, results"
 SECTIONS = {"scenes": BODIES, "blocks": BODIES, "surface": BODIES, "laws": "law"}
 SECTIONS |= dict.fromkeys(("case", "solve", "operator"), SCHEME)
+TOPICS = {  # headings of the page
+    BODIES: "Bodies, mesh and load of the scenes",
+    "law": "Contact law",
+    SCHEME: "Method, elements and results",
+    "option `attraction`": "Adhesion",
+    "option `estimates`": "Error estimates",
+    "option `friction`": "Friction of the scenes",
+    "option `meshes`": "New meshes",
+    "option `parts`": "Your own model",
+    "option `pictures`": "Pictures and files for ParaView",
+}
 FLAG = re.compile(r'(?:number|count|word|text)Flag\("(-[\w-]+)"')
 
 
@@ -176,7 +188,7 @@ def covered(scenes):
     while gain(best := max(groups(), key=gain)) > 1:
         out = groups()[best] - scenes
         rest = next((f"*{group}*" for group in groups() if groups()[group] == out), named(out))
-        said.append(f"*{best}*" + (f" (but {rest})" if out else ""))
+        said.append(f"*{best}*" + (f" (except {rest})" if out else ""))
         left -= groups()[best]
     return ", ".join([*said, named(left)] if left else said)
 
@@ -185,15 +197,9 @@ def named(scenes):
     return ", ".join(f"`{scene}`" for scene in helps()[0] if scene in scenes)
 
 
-def several(values):
-    """What most scenes have, the paper's test first, and behind it what the others have."""
-    usual = values.get("disc-on-block", Counter(values.values()).most_common(1)[0][0])
-    others = {}
-    for scene, value in values.items():
-        if value != usual:
-            others.setdefault(value, set()).add(scene)
-    rest = [f"{value or 'none'}: {covered(scenes)}" for value, scenes in others.items()]
-    return usual + (f" ({'; '.join(rest)})" if rest else "")
+def usual(values):
+    """What the paper's test has, or most scenes."""
+    return values.get("disc-on-block", Counter(values.values()).most_common(1)[0][0])
 
 
 @cache
@@ -221,33 +227,77 @@ def owners():
     return {flag: having for flag, having in found.items() if len(having) < len(methods)}
 
 
-def flags():
-    """A row a flag: default, unit, meaning, what is allowed, the scenes that read it; sections as declared."""
+COLUMNS = range(4)  # default, unit, meaning, allowed
+
+
+def of_flags():
+    """{flag: {scene: its columns}}, of a flag that no scene has by default those of a method."""
     scenes, methods = helps()
-    every = list(dict.fromkeys(flag for told in (*scenes.values(), *methods.values()) for flag in told))
-    sections = {}
-    for flag in every:
-        sections.setdefault(section_of(flag), []).append(flag)
+    every = dict.fromkeys(flag for told in (*scenes.values(), *methods.values()) for flag in told)
+    found = {flag: {scene: told[flag] for scene, told in scenes.items() if flag in told} for flag in every}
+    of_methods = {flag: told for each in methods.values() for flag, told in each.items()}
+    return {flag: having or {"disc-on-block": of_methods[flag]} for flag, having in found.items()}
+
+
+def flags():
+    """A table a topic, a row a flag: default, unit, meaning, what is allowed, the scenes that read it."""
+    topics = {}
+    for flag in of_flags():
+        topics.setdefault(section_of(flag), []).append(flag)
     order = [BODIES, "law", SCHEME]
-    rows = ["| flag | default | unit | meaning | allowed | read by |", "|---|---|---|---|---|---|"]
-    for section in [*order, *sorted(sections.keys() - set(order))]:
-        rows.append(f"| **{section}** | | | | | |")
-        for flag in sections[section]:
-            having = {scene: told[flag] for scene, told in scenes.items() if flag in told}
-            if not having:
-                having = {"disc-on-block": next(told[flag] for told in methods.values() if flag in told)}
-            cells = [several({scene: told[column] for scene, told in having.items()}) for column in range(4)]
-            usual = having.get("disc-on-block", [""])[0]
+    lines = []
+    for topic in [*order, *sorted(topics.keys() - set(order), key=TOPICS.get)]:
+        lines += [
+            "",
+            f"## {TOPICS[topic]}",
+            "",
+            "| flag | default | unit | meaning | allowed | read by |",
+            "|---|---|---|---|---|---|",
+        ]
+        for flag in topics[topic]:
+            having = of_flags()[flag]
+            cells = [usual({scene: told[column] for scene, told in having.items()}) for column in COLUMNS]
             own = [
                 f"; `-method {name}`: {told[flag][0]}"
-                for name, told in methods.items()
-                if flag in told and told[flag][0] != usual
+                for name, told in helps()[1].items()
+                if flag in told and told[flag][0] != having.get("disc-on-block", [""])[0]
             ]
             cells[0] += "".join(own) if "disc-on-block" in having else ""
             by = covered(set(having)) + (f"; `-method {', '.join(owners()[flag])}`" if flag in owners() else "")
-            rows.append(f"| `{flag}` | " + " | ".join(cell.replace("|", "\\|") for cell in [*cells, by]) + " |")
+            lines.append(f"| `{flag}` | " + " | ".join(cell.replace("|", "\\|") for cell in [*cells, by]) + " |")
     words = [f"- *{group}*: {named(inside)}" for group, inside in groups().items() if not group.startswith("all")]
-    return "\n".join([*rows, "", *words]) + "\n"
+    return "\n".join([*lines[1:], "", "## Groups of scenes", "", *words]) + "\n"
+
+
+def defaults():
+    """A row a scene: the defaults that are not those of the table of flags."""
+    rows = ["| scene | defaults of its own |", "|---|---|"]
+    for scene in helps()[0]:
+        found = []
+        for flag, having in of_flags().items():
+            values = {each: told[0] for each, told in having.items()}
+            if scene in values and values[scene] != usual(values):
+                found.append(f"`{flag} {values[scene] or 'none'}`")
+        if found:
+            rows.append(f"| `{scene}` | {', '.join(found)} |")
+    return "\n".join(rows) + "\n"
+
+
+def meanings():
+    """A row a flag with another meaning, unit or range in some scenes: which, and what it is there."""
+    rows = ["| flag | scenes | unit | meaning | allowed |", "|---|---|---|---|---|"]
+    for flag, having in of_flags().items():
+        most = [usual({scene: told[column] for scene, told in having.items()}) for column in COLUMNS]
+        others = {}
+        for scene, told in having.items():
+            if told[1:] != tuple(most[1:]):
+                others.setdefault(told[1:], set()).add(scene)
+        for told, inside in others.items():
+            cells = [
+                cell.replace("|", "\\|") if cell != same else "" for cell, same in zip(told, most[1:], strict=True)
+            ]
+            rows.append(f"| `{flag}` | {covered(inside)} | {' | '.join(cells)} |")
+    return "\n".join(rows) + "\n"
 
 
 # ---------------------------------------------------------------- files
@@ -383,6 +433,8 @@ TABLES = {
     "options": options,
     "programs": lambda: table("program", sources(".sh")),
     "flags": flags,
+    "defaults": defaults,
+    "meanings": meanings,
     "summary": keys_of_summary,
     "columns": columns,
     "statements": statements,

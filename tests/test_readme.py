@@ -21,11 +21,18 @@ def in_markdown(folder):
 
 
 README = re.sub("<!-- .*? -->\n|<!--= .*? -->", "", (ROOT / "README.md").read_text())  # as it is read
-# the manual and the pages beside it; section() finds a heading in whichever has it
-MANUAL = "\n".join((ROOT / "edp" / f"{name}.md").read_text() for name in ("MANUAL", "SETUP", "PICTURES", "WRITING"))
+# the reference, the how-to pages and WRITING.md; section() finds a heading in the first that has it
+MANUAL = "\n".join(
+    path.read_text()
+    for path in (
+        *sorted(ROOT.glob("edp/reference/*.md")),
+        *sorted(ROOT.glob("edp/howto/*.md")),
+        ROOT / "edp/WRITING.md",
+    )
+)
 SCENE_TABLE, METHOD_TABLE, CHOOSING = (
     re.sub("<!-- .*? -->\n", "", (ROOT / "edp" / f"{name}.md").read_text())
-    for name in ("reference/SCENES", "reference/METHODS", "CHOOSING")
+    for name in ("reference/scenes", "reference/methods", "CHOOSING")
 )
 RESULTS = "\n".join((ROOT / "tests" / f"{name}.md").read_text() for name in ("RESULTS", "COST"))
 PAPER = (ROOT / "edp" / "PAPER.md").read_text()
@@ -33,7 +40,7 @@ PAGES = sorted(str(path.relative_to(ROOT)) for path in in_markdown(ROOT))
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]  # set-up counts as done
 # what stands for a table's values in the commands
 VALUES = {"H": 2, "T0": 0, "TOL": 1e-6, "ORDER": 1, "METHOD": "paper", "KAPPA": 1e6, "M": 2, "RATIO": 1e3}
-LAW, METHOD = "linear", "damped"  # the law and the method that the manual adds
+LAW, METHOD = "linear", "damped"  # the law and the method that WRITING.md adds
 INGREDIENTS = "The ingredients of `xnewton`"
 
 
@@ -70,7 +77,7 @@ SCENES = [quoted(name)[0] for name, *_ in rows(SCENE_TABLE)]
 # ---------------------------------------------------------------- scenes and flags
 
 
-FLAGS = {quoted(row[0])[0]: row for row in rows(section(MANUAL, "Flags")) if row[0].startswith("`")}
+FLAGS = {quoted(row[0])[0]: row for row in rows(section(MANUAL, "Flags")) if len(row) == 6}
 
 
 def default_for(method, flag):
@@ -99,11 +106,12 @@ def test_flags():
     """Flags that the pages name shall exist, and methods and laws that they list be those that -help offers."""
     mentioned = {word for word in re.findall(r"`(-[A-Za-z]\w+)", README + MANUAL + RESULTS)}
     assert mentioned <= FLAGS.keys() | {"-help", "-nw", "-kapa", "-spring", "-damping"}
-    (methods, *_), (laws, *more) = (re.findall(r"one of: ([\w -]+)", FLAGS[flag][4]) for flag in ("-method", "-law"))
+    methods, laws = (re.search(r"one of: ([\w -]+)", FLAGS[flag][4])[1] for flag in ("-method", "-law"))
+    (more,) = [row for row in rows(section(MANUAL, "Flags of single scenes")) if row[0] == "`-law`"]
     assert sorted([*methods.split(), "ipopt"]) == sorted(METHODS)
     listed = [quoted(name)[0] for name, *_ in rows(section(MANUAL, "Laws"))]
     assert [sorted(laws.split())] == [sorted(set(listed) - {"lennard-jones"})]
-    assert sorted(more[0].split()) == sorted(listed) and FLAGS["-law"][4].endswith(": *attracting*)")
+    assert sorted(more[4].removeprefix("one of: ").split()) == sorted(listed) and more[1] == "*attracting*"
 
 
 METHODS = [quoted(name)[0] for name, *_ in rows(METHOD_TABLE)]
@@ -120,7 +128,7 @@ REFUSED = {str(sorted(methods)): flag for flag, methods in owners().items()}.val
 
 @pytest.mark.parametrize("method", METHODS)
 def test_flags_of_a_method(method, tmp_path):
-    """A run shall have the flags of its method, with the manual's defaults; a method without a flag refuses it."""
+    """A run shall have the flags of its method, with the defaults of the page; a method without a flag refuses it."""
     scene = "disc-on-block-ipopt" if method == "ipopt" else "disc-on-block"
     assert owners().keys() == {quoted(row[0])[0].split(",")[0] for row in rows(section(MANUAL, INGREDIENTS))}
     used = run(scene, "-method", method, "-h", 2).parameters
@@ -174,7 +182,7 @@ def test_exit_codes(tmp_path):
 
 
 def commands():
-    """The lines of the manual's and the results' sh blocks; the README's: test_doors."""
+    """The lines of the pages' and the results' sh blocks; the README's: test_doors."""
     lines = [line for block in fences(MANUAL + RESULTS, "sh") for line in block.splitlines()]
     return [line for line in lines if line and not line.startswith("#")]
 
@@ -237,7 +245,7 @@ def make(folder, *words, timeout=TIMEOUT):
 
 @pytest.mark.parametrize("line", [line for line in commands() if line.startswith("make run")])
 def test_make_run_commands(line, package):
-    """The manual's runs by make shall end with results in the scene's folder; on a coarse mesh."""
+    """The runs by make on the pages shall end with results in the scene's folder; on a coarse mesh."""
     words = shlex.split(line.replace("-h 0.1", "-h 0.5"))[1:]
     if "NP=" in line and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
@@ -292,7 +300,7 @@ def test_doors(door, package):
 
 @pytest.mark.long
 def test_make_figures():
-    """`make figures` shall make every figure of the manual, by runs whose flags their scripts know."""
+    """`make figures` shall make every figure of the page, by runs whose flags their scripts know."""
     code, said = execute(["make", "-n", "-B", *DONE, "figures"], ROOT)
     assert code == 0
     drawn = set(re.findall(r"postprocess figure .*--out results/figures/([\w-]+)\.pdf", said))
@@ -373,7 +381,7 @@ def test_method_example(grown, tmp_path):
 
 
 def test_option_example(tmp_path):
-    """The option that the manual adds shall work where it is read, and be refused elsewhere, naming the scene."""
+    """The option that WRITING.md adds shall work where it is read, and be refused elsewhere, naming the scene."""
     package = tree(tmp_path / "package")
     option, offer = fences(section(MANUAL, "Adding an option"), "freefem")
     (package / "edp/options/centre").mkdir()
@@ -463,7 +471,7 @@ def test_links():
 
 
 def test_sources_that_pages_name():
-    """Sources that a page names shall exist, but those that the manual adds."""
+    """Sources that a page names shall exist, but those that WRITING.md adds."""
     wrong = []
     for page in PAGES:
         text = " ".join(quoted((ROOT / page).read_text()))

@@ -1,0 +1,91 @@
+"""edp/TROUBLESHOOTING.md against the sources: every warning, refusal and failure is there, and no other."""
+
+import re
+
+import pytest
+from freefem import ROOT
+
+PAGE = (ROOT / "edp/TROUBLESHOOTING.md").read_text()
+KINDS = {  # heading of the page: the functions whose argument is the text
+    "Warnings": r"warn|warnFirst",
+    "Refused flags and files": r"refuse",
+    "Refused case files": r"no",
+    "Runs without convergence": r"stopped",
+}
+LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"')
+
+
+def argument(text, start):
+    """The argument of a call whose parenthesis opens just before `start`."""
+    depth, at = 1, start
+    while depth:
+        literal = LITERAL.match(text, at)
+        depth += (text[at] == "(") - (text[at] == ")")
+        at = literal.end() if literal else at + 1
+    return text[start : at - 1]
+
+
+def words(expression):
+    """The texts of an expression, `…` for the values: of "-h " + h + ": too small" it is -h …: too small."""
+    expression = re.sub(r'asGiven\("[^"]*"\)', "value", expression)
+    said = ""
+    for part in re.split(f"({LITERAL.pattern})", expression):
+        said += (
+            part[1:-1].replace('\\"', '"').replace("\\047", "'")
+            if part[:1] == '"'
+            else "…" * bool(part.strip(" +()\n"))
+        )
+    return re.sub("…+", "…", said)
+
+
+def messages(functions):
+    """[(file, text)] of every call of the functions; of a variable the texts that its file assigns to it."""
+    found = []
+    for path in sorted(path for kind in ("idp", "edp", "awk") for path in ROOT.glob(f"edp/**/*.{kind}")):
+        text = re.sub(r"^\s*(?://|#).*", "", path.read_text(), flags=re.M)
+        for call in re.finditer(rf"(?<!func int )(?<!function )\b(?:{functions})\(", text):
+            expression = argument(text, call.end())
+            given = [expression]
+            if re.fullmatch(r"\w+", expression):
+                given = re.findall(rf"\b{expression} \+?= ([^;]*);", text)
+            found += [(path.relative_to(ROOT / "edp").as_posix(), words(each)) for each in given]
+    if functions == "refuse":  # a program writes those of words that are no flags
+        program = "case/unknown-flag.awk"
+        lines = re.findall(r'\btext = (".*)', (ROOT / "edp" / program).read_text())
+        found += [(program, "…" + words(line)) for line in lines]
+    return [(file, text) for file, text in found if re.search(r"[a-z]{3}.* ", text.replace("…", ""))]  # not bare values
+
+
+def patterns(heading):
+    """The texts in the first cells of the tables below a heading of the page, as they are written there."""
+    below = re.search(rf"^## {heading}\n(.*?)(?=^## |\Z)", PAGE, re.M | re.S)[1]
+    cells = [re.split(r"(?<!\\)\|", line)[1] for line in below.splitlines() if line.startswith("| `")]
+    return [text.replace("\\|", "|") for cell in cells for text in re.findall(r"`([^`]+)`", cell)]
+
+
+def matches(pattern, text):
+    """Whether a text begins as the page has it; `…` on the page stands for anything."""
+    return re.match(".*".join(map(re.escape, pattern.split("…"))), text)
+
+
+@pytest.mark.parametrize("heading", KINDS)
+def test_every_message_is_on_the_page(heading):
+    missing = [
+        (file, text) for file, text in messages(KINDS[heading]) if not any(matches(p, text) for p in patterns(heading))
+    ]
+    assert not missing, "\n".join(f"{file}: {text}" for file, text in missing)
+
+
+@pytest.mark.parametrize("heading", KINDS)
+def test_the_page_has_no_other(heading):
+    texts = [text for _, text in messages(KINDS[heading])]
+    assert len(texts) > 20
+    assert [p for p in patterns(heading) if not any(matches(p, text) for text in texts)] == []
+    assert [p for p in patterns(heading) if sum(bool(matches(p, text)) for text in texts) > 12] == []  # says nothing
+
+
+def test_words():
+    """Texts are read as a run prints them, whatever stands between."""
+    assert words('"-h " + asGiven("-h") + ": " + (h > 1 ? "too large" : "too small")') == "-h …: …too large…too small"
+    assert argument('refuse("a) (" + f(2)); x', 7) == '"a) (" + f(2)'
+    assert matches("-h …: larger than …", "-h 3: larger than the block; allowed: at most 2")
