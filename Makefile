@@ -334,6 +334,11 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	  sed -n '/^```sh/,/^```/{/^[^`]/p;}' $$page | while read -r command; do sh -c "$$command" </dev/null || exit 1; done && \
 	  $(SMALL) $(RESULTS)/parts*/$$(basename $$(dirname $$page))/$$picture --width 560 --out $$(dirname $$page)/$$picture || exit 1; \
 	done
+	for page in edp/tutorial/*.md; do sed -n '/^```sh/,/^```$$/{/^[^`]/p;}' $$page | sh; done; \
+	$(SMALL) $(RESULTS)/disc-on-block/xnewton/state.png --width 720 --out edp/tutorial/disc-on-block.png && \
+	$(SMALL) $(RESULTS)/parts/foot/state.png --width 720 --out edp/tutorial/foot.png && \
+	$(SMALL) $(RESULTS)/fretting/xnewton/hysteresis.png --width 720 --out edp/tutorial/hysteresis.png && \
+	$(SMALL) $(RESULTS)/parts-3d/wheel-on-rail/check/faces.png --width 640 --out edp/tutorial/faces.png
 	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
 	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
@@ -482,6 +487,7 @@ uses: $(VENV)/run.stamp | system ## print which names MODULE (problem/problem.id
 
 numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, and show them
 	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/page_numbers.py
+	@PYTHONPATH=.:tests $(PYTHON) tests/screens.py
 
 clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))

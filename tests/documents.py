@@ -39,6 +39,7 @@ CHAPTERS = {
     "Reference": [
         *("edp/reference/README.md", "edp/case/README.md", "edp/reference/*.md", "edp/examples/README.md"),
         *("edp/examples/*/README.md", "edp/scenes/README.md", "edp/scenes/README.md#", "edp/GLOSSARY.md"),
+        "edp/REFERENCES.md",
     ],
     "Explanation": [
         *("edp/HOW-IT-WORKS.md", "edp/LIMITS.md", "edp/ERRORS.md", "edp/theory/README.md"),

@@ -1,6 +1,6 @@
 """The package in bare systems, each in a tree of its own that debootstrap makes: `make test-systems`, before a release.
 
-In each tree: `make setup`, the commands of the README's three doors, `make test`, and runs on the .msh files of this
+In each tree: the README's commands, `make test`, and runs on the .msh files of this
 machine, whose counts must be the same everywhere, but for one back-substitution that rounding decides, and whose forces
 must agree to 1e-9. Needs root, debootstrap, the
 distributions' mirrors and keys; what could not be tried is named. The trees stay in the folder CONTACT_SYSTEMS, if that
@@ -200,10 +200,9 @@ def differences(found, reference):
 
 
 def doors():
-    """The commands of the README's three doors."""
+    """The README's commands."""
     text = (ROOT / "README.md").read_text()
-    part = text.split("\n## Three doors\n")[1].split("\n## ")[0]
-    return [line for block in re.findall(r"^```sh\n(.*?)^```", part, re.M | re.S) for line in block.splitlines()]
+    return [line for block in re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S) for line in block.splitlines()]
 
 
 def attempt(release, tree, reference):
@@ -225,7 +224,7 @@ def attempt(release, tree, reference):
         for name in ("edp", "meshes", "tests", "postprocess"):
             shutil.rmtree(tree / "contact" / name, ignore_errors=True)
         tracked(tree / "contact")
-        commands = ["make setup", *doors()]
+        commands = doors()
         failed += [f"{line}: code {code}" for line in commands if (code := execute(line)[0])]
         words = "dpkg-query -W -f '${Version}' freefem++; echo; gmsh --version; .venv/bin/python -V; "
         words += ".venv/bin/python -c 'import numpy, matplotlib as m; print(numpy.__version__, m.__version__)'"

@@ -30,6 +30,10 @@ MANUAL = "\n".join(
         ROOT / "edp/WRITING.md",
     )
 )
+SCENE_TABLE, METHOD_TABLE, CHOOSING = (
+    re.sub("<!-- .*? -->\n", "", (ROOT / "edp" / f"{name}.md").read_text())
+    for name in ("reference/scenes", "reference/methods", "CHOOSING")
+)
 RESULTS = "\n".join((ROOT / "tests" / f"{name}.md").read_text() for name in ("RESULTS", "COST"))
 PAPER = (ROOT / "edp" / "PAPER.md").read_text()
 PAGES = sorted(str(path.relative_to(ROOT)) for path in in_markdown(ROOT))
@@ -68,7 +72,7 @@ def fences(text, kind):
     return re.findall(rf"^```{kind}\n(.*?)^```", text, re.M | re.S)
 
 
-SCENES = [quoted(name)[0] for name, *_ in rows(section(README, "Scenes"))]
+SCENES = [quoted(name)[0] for name, *_ in rows(SCENE_TABLE)]
 
 # ---------------------------------------------------------------- scenes and flags
 
@@ -83,9 +87,9 @@ def default_for(method, flag):
 
 
 def test_every_scene_is_documented():
-    """The README shall name every scene with its script, and no other."""
+    """The table of scenes shall name every scene with its script, and no other."""
     assert sorted(SCENES) == scenes()
-    for name, path, _ in rows(section(README, "Scenes")):
+    for name, path, _ in rows(SCENE_TABLE):
         assert quoted(path) == [script(quoted(name)[0])]
 
 
@@ -110,7 +114,7 @@ def test_flags():
     assert sorted(more[4].removeprefix("one of: ").split()) == sorted(listed) and more[1] == "*attracting*"
 
 
-METHODS = [quoted(name)[0] for name, *_ in rows(section(README, "Methods"))]
+METHODS = [quoted(name)[0] for name, *_ in rows(METHOD_TABLE)]
 
 
 def owners():
@@ -260,24 +264,26 @@ def test_make_builds_the_plugin(tmp_path):
     assert code == 0 and (folder / "build" / MULTIGRID.name).exists(), stdout
 
 
-DOORS = dict(zip(("teach", "paper", "parts"), fences(section(README, "Three doors"), "sh"), strict=True))
+DOORS = dict(zip(("first", "teach", "paper", "parts"), fences(README, "sh"), strict=True))
 
 
-@pytest.mark.parametrize("door", short_of(["teach", "parts"], DOORS))
+@pytest.mark.parametrize("door", short_of(["first", "teach", "parts"], DOORS))
 @pytest.mark.long
 def test_doors(door, package):
-    """The README's commands shall run as they are written, one after the other; they are all that it has."""
-    assert fences(README, "sh") == list(DOORS.values())
+    """The README's commands shall run as they are written, one after the other."""
     said = ""
     for line in DOORS[door].splitlines():
         words = shlex.split(line)
+        if words == ["make", "setup"]:  # it is what the other targets do first
+            continue
         words[:1] = ["make", *DONE] if words[0] == "make" else words[:1]
         code, stdout = execute(words, package, environment())
         assert code == 0, f"{line}: {stdout[-2000:]}"
         said += stdout
-    if door == "parts":
+    drawn = {"first": "disc-on-block/xnewton", "parts": "parts-3d/wheel-on-rail"}
+    if door in drawn:
         for kind in ("pdf", "png"):
-            assert (package / f"results/parts-3d/wheel-on-rail/state.{kind}").exists()
+            assert (package / "results" / drawn[door] / f"state.{kind}").exists()
     else:
         assert "adaptations 3, Newton steps 12" in said
     if door == "paper":
@@ -286,12 +292,10 @@ def test_doors(door, package):
         claims = (package / "results/paper/claims.html").read_text()
         verdicts = re.findall(r'<span class="(\w+)">', claims)
         assert len(verdicts) == 7 and verdicts.count("fail") == 1  # plain Newton does not fail on the paper's test
-        said = re.search(
-            r"plain Newton takes\s+(\d+) steps.*?takes (\d+); .*?takes (\d+) from .*? and (\d+)\s+from", README, re.S
-        )
-        counts = said.groups()
-        for name, steps in zip(("newton", "stiff-newton", "stiff", "stiff-d0"), counts, strict=True):
-            assert json.loads((package / f"results/paper/{name}/summary.json").read_text())["newton"] == int(steps)
+        steps = {row[0].strip("`"): row[1:] for row in rows(section(CHOOSING, "Method"))}
+        soft, stiff = ([steps[f"-method {words}"][k] for words in ("newton", "paper", "paper -T0 d0")] for k in (0, 1))
+        for name, count in zip(("newton", "stiff-newton", "stiff", "stiff-d0"), (soft[0], *stiff), strict=True):
+            assert json.loads((package / f"results/paper/{name}/summary.json").read_text())["newton"] == int(count)
 
 
 @pytest.mark.long
