@@ -457,7 +457,7 @@ BOXES = {
     "tangent": (220, 214, 190, "problem", "s, p, p′, status", "linearise"),
     "linear": (480, 214, 190, "solve", "contact forces q, overlaps", "solveCondensed"),
     "tau": (220, 306, 190, "solve", "next thresholds τ, eq. (6)", "updateThreshold"),
-    "error": (480, 412, 190, "options/estimates", "± of each number", "estimateRun"),
+    "error": (480, 412, 190, "options/estimates", "± of each number", "estimateMesh"),
     "files": (220, 412, 190, "report", "summary.json, tables", "measureContacts"),
 }
 ARROWS = [
