@@ -1,0 +1,173 @@
+"""-model linear of the method paper: beyond the threshold the law's tangent there, in place of a wall."""
+
+import numpy as np
+import pytest
+from freefem import ROOT, TANGENT, WALL, named, run, run_in, short_of, table
+
+DISC, TWO_BODIES, BALL = "disc-on-block", "meshed-disc", "sphere-on-block"
+COARSE = ["-h", 0.5]
+PAPER = ["-method", "paper", *COARSE]
+LINEAR = [*PAPER, "-model", "linear"]
+EXACT = ["-tol", 1e-11, "-eps", 1e-10]
+PAIRS = "0,0\n0.05,0.4\n0.1,1.5\n0.15,5\n0.2,14\n0.25,40\n"  # overlap, pressure
+CONCAVE = "0,0\n0.01,4\n0.03,9\n0.1,20\n0.3,40\n"
+
+
+def same_force(linear, other, relative=1e-8):
+    assert linear.force == pytest.approx(other.force, rel=relative)
+    assert linear.pressureMax == pytest.approx(other.pressureMax, rel=relative)
+
+
+# ---------------------------------------------------------------- counts
+
+COUNTS = [  # models and Newton steps, as measured; the flags behind the scene's
+    (DISC, [], (3, 7)),
+    (DISC, ["-T0", 0], (3, 7)),
+    (DISC, ["-threshold", "uniform"], (3, 8)),
+    (TWO_BODIES, [], (3, 7)),
+    (DISC, ["-force", 100], (3, 7)),
+    (DISC, ["-kappa", 1, "-m", 3], (1, 3)),
+    (DISC, ["-kappa", 1e12, "-m", 3], (2, 8)),
+    (DISC, ["-kappa", 1e12, "-m", 1.5], (2, 5)),  # overlaps and thresholds agree to rounding: the status cycles
+    (DISC, ["-kappa", 1e9, "-m", 20], (2, 7)),
+    (DISC, ["-law", "exponential", "-beta", 500], (2, 9)),  # plain Newton fails
+    (DISC, ["-law", "barrier", "-p0", 1e-4], (1, 12)),  # plain Newton fails
+]
+MORE = [
+    (DISC, ["-kappa", 1e6, "-m", 3], (3, 9)),
+    (DISC, ["-kappa", 1e9, "-m", 3], (2, 8)),
+    (DISC, ["-kappa", 1e3, "-m", 1.5], (3, 8)),
+    (DISC, ["-kappa", 1e3, "-m", 10], (3, 7)),
+    (DISC, ["-law", "exponential"], (3, 9)),
+    (DISC, ["-law", "barrier", "-p0", 1], (2, 8)),
+]
+
+
+@pytest.mark.parametrize("scene, flags, counts", short_of(COUNTS, MORE), ids=named)
+def test_counts(scene, flags, counts):
+    """The sequence of tangents shall take so many models and Newton steps; no wall shall stand anywhere."""
+    linear = run(scene, *LINEAR, *flags)
+    assert (linear.adaptations, linear.newton) == counts
+    assert linear.wallPoints == 0 and not (linear.models["status"] == WALL).any()
+
+
+def test_walls_are_the_default():
+    """Without the flag the model has walls, and -threshold uniform is a choice of it."""
+    plain, wall = run(DISC, *PAPER), run(DISC, *PAPER, "-model", "wall", "-threshold", "pointwise")
+    assert (plain.adaptations, plain.newton) == (wall.adaptations, wall.newton) == (3, 12)
+    assert plain.force == wall.force
+    uniform = run(DISC, *PAPER, "-threshold", "uniform", "-T0", "d0")
+    assert uniform.adaptations == 2
+    assert np.ptp(uniform.models[-1]["tau"]) == 0
+
+
+def test_states_are_on_the_tangent():
+    """Each model's pressures shall be those of the law up to the threshold and of its tangent there beyond it."""
+    linear = run(DISC, *LINEAR, *EXACT)
+    kappa, m = 1e3, 3
+    beyond = 0
+    for model in linear.models[:-1]:
+        s, tau, at = model["s"], model["tau"], model["status"] == TANGENT
+        expected = kappa * np.maximum(s, 0) ** m
+        tangent = kappa * tau**m + m * kappa * tau ** (m - 1) * (s - tau)
+        np.testing.assert_allclose(model["pressure"], np.where(at, tangent, expected), rtol=1e-8, atol=1e-9)
+        assert (s[at] > tau[at]).all() and (s[~at] <= tau[~at]).all()
+        beyond += at.sum()
+    assert beyond > 5
+
+
+# ---------------------------------------------------------------- the same force
+
+LAWS = [[], ["-law", "exponential"], ["-law", "barrier"], ["-kappa", 1e9, "-m", 1.5], ["-force", 100]]
+
+
+@pytest.mark.parametrize("flags", LAWS, ids=named)
+def test_the_force_is_that_of_the_law(flags):
+    """The sequence shall converge to the default method's force, pressure and approach."""
+    linear, direct = run(DISC, *LINEAR, *EXACT, *flags), run(DISC, *COARSE, *EXACT, *flags)
+    same_force(linear, direct)
+    assert linear.approach == pytest.approx(direct.approach, rel=1e-8)
+
+
+@pytest.mark.parametrize("first", [0, "auto", -0.2])
+@pytest.mark.parametrize("update", ["pointwise", "uniform"])
+def test_first_thresholds_and_updates(first, update):
+    """Whatever the first threshold and the update, the force shall be the same."""
+    same_force(run(DISC, *LINEAR, *EXACT, "-T0", first, "-threshold", update), run(DISC, *COARSE, *EXACT))
+
+
+def test_a_law_that_is_steep_at_touch_starts_from_d0():
+    """The exponential law has a slope at first touch: T0 = d0 shall be allowed, and lead to its force."""
+    flags = ["-law", "exponential", *EXACT]
+    linear = run(DISC, *LINEAR, "-T0", "d0", *flags)
+    assert linear.adaptations > 2 and (linear.models[0]["tau"] < 1e-9).all()
+    same_force(linear, run(DISC, *COARSE, *flags))
+
+
+@pytest.mark.parametrize("pairs", [PAIRS, CONCAVE], ids=["convex", "concave"])
+def test_tables(tmp_path, pairs):
+    """A tabulated law shall converge to the default method's force, also one whose slope falls."""
+    (tmp_path / "pairs.csv").write_text(pairs)
+    flags = ["-law", "table", "-table", tmp_path / "pairs.csv", "-order", 1, "-estimate", 0, "-vtu", 0, *EXACT]
+    linear = run_in(ROOT, "edp/main.edp", *LINEAR, *flags, out=tmp_path / "linear")
+    same_force(linear, run_in(ROOT, "edp/main.edp", *COARSE, *flags, out=tmp_path / "direct"))
+
+
+def test_load_series():
+    """In a load series each step shall have its own first threshold, and the force of the default method."""
+    flags = ["-history", 1, "-steps", 3, *EXACT]
+    linear, direct = run(DISC, *LINEAR, *flags), run(DISC, *COARSE, *flags)
+    same_force(linear, direct)
+    forces, expected = (table(found.folder / "series.csv")["force"] for found in (linear, direct))
+    assert len(forces) == 3
+    np.testing.assert_allclose(forces, expected, rtol=1e-8)
+
+
+def test_space():
+    """The same in space."""
+    flags = ["-h", 1.5, *EXACT]
+    same_force(run(BALL, "-method", "paper", "-model", "linear", *flags), run(BALL, *flags))
+
+
+def test_pressed_by_a_load():
+    """Where nothing overlaps before the load, no law is so soft that the first tangent carries nothing."""
+    flags = ["-u0", 0.4, "-gap", 0.5, "-traction", -3, *EXACT]
+    linear, direct = run(DISC, *LINEAR, *flags), run(DISC, *COARSE, *flags)
+    assert direct.force > 0
+    same_force(linear, direct)
+
+
+# ---------------------------------------------------------------- what is refused
+
+REFUSED = {
+    "-method paper -model linear -T0 d0": "-T0 d0: the tangent of the law at first touch has no slope",
+    "-method paper -model linear -T0 -0.25": "-T0 -0.25: the tangent of the law at first touch has no slope",
+    "-method paper -model linear -T0 d0 -m 1.2": "-T0 d0: the tangent of the law at first touch has no slope",
+    "-method paper -model linear -T0 -0.2 -kappa 1e9 -m 20": "-T0 -0.2: the tangent of the law at this threshold",
+    "-method paper -model linear -T0 0 -law barrier": "-T0 0: the law is infinite at this threshold",
+    "-method paper -model linear -law signorini": "-model linear: -law signorini has no tangent",
+    "-method paper -model tangent": "-model tangent: unknown; allowed: one of: wall linear",
+    "-model linear": "-model: not a flag of this method; allowed: only with -method paper",
+    "-method newton -model linear": "-model: not a flag of this method; allowed: only with -method paper",
+}
+
+
+@pytest.mark.parametrize("flags", REFUSED)
+def test_refusals(tmp_path, flags):
+    refused = run_in(ROOT, "edp/main.edp", *flags.split(), out=tmp_path / "out", expect=10)
+    assert refused.stdout.startswith(REFUSED[flags]) and len(refused.stdout.splitlines()) == 1
+    assert not list(tmp_path.glob("out*"))
+
+
+@pytest.mark.parametrize(
+    "scene, flags, words",
+    [
+        ("adhesive-sphere", ["-method", "paper"], "-model linear: the law lennard-jones attracts"),
+        ("fretting", ["-method", "paper", "-friction", 0.3], "-friction 0.3: only with -method xnewton"),
+    ],
+    ids=named,
+)
+def test_refusals_of_scenes(tmp_path, scene, flags, words):
+    words_of = [*flags, "-model", "linear"]
+    refused = run_in(ROOT, f"edp/scenes/{scene}.edp", *words_of, out=tmp_path / "out", expect=10)
+    assert refused.stdout.startswith(words), refused.stdout
