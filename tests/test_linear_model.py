@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, TANGENT, WALL, named, run, run_in, short_of, table
+from freefem import ROOT, TANGENT, WALL, named, run, run_in, scene_text, short_of, snippet, table, told
 
 DISC, TWO_BODIES, BALL = "disc-on-block", "meshed-disc", "sphere-on-block"
 COARSE = ["-h", 0.5]
@@ -74,6 +74,33 @@ def test_states_are_on_the_tangent():
         assert (s[at] > tau[at]).all() and (s[~at] <= tau[~at]).all()
         beyond += at.sum()
     assert beyond > 5
+
+
+GRAPH = """
+real[int] ks = [K], taus = [TAU], shats(1), phats(1), sg(1), pg(1), dg(1);
+int[int] stateg(1);
+real[int] pt(1), dt(1);
+lawPressure(taus, pt, dt);
+shats = taus;
+shats *= 3;
+phats = pt;
+graphPoint(shats, phats, ks, taus, sg, pg, dg, stateg);
+tell("tau", taus); tell("pt", pt); tell("dt", dt); tell("s", sg); tell("p", pg); tell("slope", dg);
+real[int] status = [stateg[0]];
+tell("status", status);
+"""
+
+
+@pytest.mark.parametrize("k", [1e-3, 1.0, 1e3, 1e12])
+def test_the_graph_beyond_the_threshold(tmp_path, k):
+    """The graph's point shall be where the tangent meets the line p + k s = c, to rounding, soft or stiff."""
+    text = GRAPH.replace("TAU", "0.01").replace("K", repr(k))
+    found = told(snippet(tmp_path, scene_text(DISC) + text, *LINEAR))
+    at = {name: values[0] for name, values in found.items()}
+    rest = 2 * k * at["tau"] / (k + at["dt"])  # s - tau: c - p(tau) - k tau = 2 k tau
+    assert at["status"] == TANGENT and at["slope"] == at["dt"] > 0
+    assert at["s"] - at["tau"] == pytest.approx(rest, rel=1e-9, abs=1e-16)
+    assert at["p"] - at["pt"] == pytest.approx(at["dt"] * rest, rel=1e-9)
 
 
 # ---------------------------------------------------------------- the same force
