@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, TANGENT, WALL, named, run, run_in, scene_text, short_of, snippet, table, told
+from condensed import Problem, power, sequence
+from freefem import ROOT, TANGENT, WALL, Run, data, named, run, run_in, scene_text, short_of, snippet, table, told
 
 DISC, TWO_BODIES, BALL = "disc-on-block", "meshed-disc", "sphere-on-block"
 COARSE = ["-h", 0.5]
@@ -198,3 +199,57 @@ def test_refusals_of_scenes(tmp_path, scene, flags, words):
     words_of = [*flags, "-model", "linear"]
     refused = run_in(ROOT, f"edp/scenes/{scene}.edp", *words_of, out=tmp_path / "out", expect=10)
     assert refused.stdout.startswith(words), refused.stdout
+
+
+# ---------------------------------------------------------------- uniform thresholds that take three models
+
+COLUMNS = """
+setUpContact();
+real[int] unit(points), column(points);
+for (int i = 0; i < points; i++)
+    if (abs(pointX[i] - 5) < 0.01 || pointX[i] > 9.99)
+    {
+        unit = 0;
+        unit[i] = 1;
+        complianceTimes(unit, column, 0);
+        real[int] at = [pointX[i], weight[i]];
+        tell("point", at);
+        tell("column", column);
+    }
+tell("x", pointX);
+"""
+
+
+@pytest.fixture(scope="module")
+def cantilever(tmp_path_factory):
+    """The two points of the beam: C (2, 2), w (2,), and the flags of the overlaps that give hard contact (1, 1) / 100."""
+    folder = tmp_path_factory.mktemp("beam")
+    script = data("theory/beam.edp").split('include "solve/solve.idp"')[0]
+    out = [line.split() for line in snippet(folder, script + COLUMNS).splitlines() if line.startswith("told ")]
+    points, columns = (np.array([row[2:] for row in out if row[1] == name], float) for name in ("point", "column"))
+    x = np.array(next(row[2:] for row in out if row[1] == "x"), float)
+    here = [int(np.argmin(abs(x - at))) for at in points[:, 0]]
+    C = columns[:, here]
+    problem = Problem((C + C.T) / 2, points[:, 1], C @ np.array([0.01, 0.01]))
+    middle, tip = problem.free[np.argsort(points[:, 0])]
+    return problem, np.argsort(points[:, 0]), ["-middle", middle, "-tip", tip]
+
+
+@pytest.mark.parametrize("kappa, m", [(1e2, 2), (1e4, 3)])
+def test_a_beam_takes_three_models(cantilever, tmp_path, kappa, m):
+    """When the walls go, the beam's tip takes a greater pressure than hard contact gave it: a third model follows."""
+    problem, order, overlaps = cantilever
+    assert np.linalg.inv(problem.C).sum(1).min() < 0  # a row sum below 0
+    flags = ["-kappa", kappa, "-m", m, *EXACT, *overlaps]
+    script = data("theory/beam.edp")
+    say = snippet(tmp_path, script, "-method", "paper", "-T0", "d0", "-threshold", "uniform", *flags, "-out", "walls")
+    walls = Run(0, say, tmp_path / "walls")
+    assert walls.adaptations == 3
+    q = np.array([model["pressure"][model["pressure"] > 0] for model in walls.models]) * problem.w[order]
+    assert q[1, 1] > q[0, 1] * 1.01 and q[1, 0] < q[0, 0]
+    found = sequence(problem, power(kappa, m), 0.0, "wall", "uniform", 1e-10, inner="exact")
+    np.testing.assert_allclose(q, [model.q[order] for model in found.models], rtol=1e-6)
+    snippet(tmp_path, script, *flags, "-out", "direct")
+    assert Run(0, "", tmp_path / "direct").force == pytest.approx(walls.force, rel=1e-8)
+    say = snippet(tmp_path, script, "-method", "paper", "-model", "linear", *flags, "-out", "tangents")
+    assert Run(0, say, tmp_path / "tangents").force == pytest.approx(walls.force, rel=1e-8)
