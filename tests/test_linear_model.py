@@ -222,7 +222,7 @@ tell("x", pointX);
 
 @pytest.fixture(scope="module")
 def cantilever(tmp_path_factory):
-    """The two points of the beam: C (2, 2), w (2,), and the flags of the overlaps that give hard contact (1, 1) / 100."""
+    """The beam's two points, their order along it, and flags of overlaps at which hard contact has the forces 0.01."""
     folder = tmp_path_factory.mktemp("beam")
     script = data("theory/beam.edp").split('include "solve/solve.idp"')[0]
     out = [line.split() for line in snippet(folder, script + COLUMNS).splitlines() if line.startswith("told ")]
