@@ -1,5 +1,7 @@
 """-model linear of the method paper: beyond the threshold the law's tangent there, in place of a wall."""
 
+import re
+
 import numpy as np
 import pytest
 from condensed import Problem, power, sequence
@@ -253,3 +255,16 @@ def test_a_beam_takes_three_models(cantilever, tmp_path, kappa, m):
     assert Run(0, "", tmp_path / "direct").force == pytest.approx(walls.force, rel=1e-8)
     say = snippet(tmp_path, script, "-method", "paper", "-model", "linear", *flags, "-out", "tangents")
     assert Run(0, say, tmp_path / "tangents").force == pytest.approx(walls.force, rel=1e-8)
+
+
+# ---------------------------------------------------------------- the part "model" of the error
+
+
+@pytest.mark.parametrize("law", [["-kappa", 1e3], ["-m", 10], ["-law", "barrier"]], ids=named)
+@pytest.mark.parametrize("eps", [0.1, 1e-2])
+def test_the_models_error_is_bounded(law, eps):
+    """What a sequence that stops early lacks in the force shall be below the bound, and not far below."""
+    linear = run(DISC, *LINEAR, *law, "-tol", 1e-9, "-eps", eps, "-estimate", 1)
+    off = abs(linear.force - run(DISC, *COARSE, *law, *EXACT).force)
+    (said,) = re.findall(r"as force: .* model ([\d.e+-]+),", linear.stdout)
+    assert off <= float(said) * 1.05 <= 10 * off  # printed with two digits
