@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -396,6 +396,9 @@ friction: $(VENV)/run.stamp | system ## the part of make stability with friction
 coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
 	@$(PYTHON) tests/campaigns/coverage.py
 	@$(PYTHON) tests/campaigns/foreign.py
+
+conditioning: $(VENV)/run.stamp | system ## condition of plain Newton's tangent and its steps, into results/conditioning/
+	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/conditioning.py && $(DRAW_CAMPAIGN)
 
 mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)

@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
 from postprocess.laws import law_of, overlap_at
-from postprocess.results import LAW, OPEN, WALL, ResultsError, Run, is_number
+from postprocess.results import LAW, OPEN, TANGENT, WALL, ResultsError, Run, is_number
 
 SIZE = (8.6, 4.8)  # inches
 CROWD = 120  # points beyond which their dots are drawn smaller
@@ -25,6 +25,7 @@ LOOKS = {
     OPEN: ("open", {"marker": "o", "markerfacecolor": "white", "color": style.GREY, "markersize": 3.5}),
     LAW: ("on the law", {"marker": "o", "color": style.BLUE, "markersize": 4.5}),
     WALL: ("at the wall", {"marker": "s", "color": style.VERMILION, "markersize": 4.5}),
+    TANGENT: ("on the tangent", {"marker": "D", "color": style.VERMILION, "markersize": 4.0}),
 }
 
 
@@ -67,7 +68,9 @@ class Movie:
         self.draw_plane(index)
         self.draw_profile(index)
         self.draw_bodies(index)
-        handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in LOOKS.values()]
+        used = [status for status in LOOKS if status != TANGENT or (self.steps.status == TANGENT).any()]
+        looks = [LOOKS[status] for status in used]
+        handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in looks]
         handles.append(Line2D([], [], linestyle="none", marker=">", color=style.BLACK, label="beyond the picture"))
         hollow = {"marker": "o", "markerfacecolor": "white", "color": style.BLUE, "linewidth": 0.6}
         handles.append(Line2D([], [], label="off the law: on its tangent of the step before", **hollow))

@@ -19,7 +19,7 @@ import numpy as np
 
 SIZE_LIMIT = 200 * 10**6  # bytes; a larger file is refused before it is opened
 
-OPEN, LAW, WALL = 0, 1, 2  # values of the column `status`
+OPEN, LAW, WALL, TANGENT = 0, 1, 2, 3  # values of the column `status`
 
 HISTORY = (
     "step adaptation iteration newton residual contactPoints statusChanges wallPoints overlapMax force "
@@ -405,10 +405,11 @@ def check_count(path: Path, what: str, found: int, expected: int) -> None:
 
 
 def check_status(path: Path, status: np.ndarray) -> None:
-    """Refuses a status other than OPEN, LAW and WALL."""
-    bad = ~np.isin(status, (OPEN, LAW, WALL))
+    """Refuses a status other than OPEN, LAW, WALL and TANGENT."""
+    bad = ~np.isin(status, (OPEN, LAW, WALL, TANGENT))
     if bad.any():
-        raise ResultsError(path, f"column status has {status[np.argmax(bad)]}, not 0 (open), 1 (law) or 2 (wall)")
+        words = "0 (open), 1 (law), 2 (wall) or 3 (tangent)"
+        raise ResultsError(path, f"column status has {status[np.argmax(bad)]}, not {words}")
 
 
 def is_number(value: object) -> bool:

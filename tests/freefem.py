@@ -30,7 +30,7 @@ FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
 STORE = None  # the session's folder of runs: conftest.py
 PLUGIN_SAYS = " load : P4 "  # 4.13's plugin, before anything else, whatever the verbosity
 
-OPEN, LAW, WALL = 0, 1, 2
+OPEN, LAW, WALL, TANGENT = 0, 1, 2, 3
 SUMMARY_KEYS = set(
     "scene method converged adaptations newton newtonPerAdaptation factorisations backsolves force pressureMax "
     "overlapMax halfWidth wallPoints contactPoints modelError residual energy ndof points order h seconds "
@@ -329,7 +329,8 @@ def check_fields(run):
     summary, contact = run.summary, run.contact
     status, pressure, share = contact["status"], contact["pressure"], contact["lambda"]
     nodal = contact["weight"] * pressure
-    assert set(status) <= {OPEN, LAW, WALL}
+    assert set(status) <= {OPEN, LAW, WALL, TANGENT}
+    assert TANGENT not in status or summary["parameters"].get("model") == "linear"
     assert (contact["weight"] > 0).all()
     assert "z" in contact.dtype.names or (np.diff(contact["x"]) > 0).all()
     # a point on the law is linearised: its pressure is off the law, and so below 0 at the edge, by the residual at most

@@ -231,12 +231,13 @@ COLUMNS = range(4)  # default, unit, meaning, allowed
 
 
 def of_flags():
-    """{flag: {scene: its columns}}, of a flag that no scene has by default those of a method."""
+    """{flag: {scene: its columns}}, of a flag that no scene has by default those of a method, in scenes that rise."""
     scenes, methods = helps()
     every = dict.fromkeys(flag for told in (*scenes.values(), *methods.values()) for flag in told)
     found = {flag: {scene: told[flag] for scene, told in scenes.items() if flag in told} for flag in every}
     of_methods = {flag: told for each in methods.values() for flag, told in each.items()}
-    return {flag: having or {"disc-on-block": of_methods[flag]} for flag, having in found.items()}
+    rising = groups()["all scenes"] - groups()["attracting"]
+    return {flag: having or dict.fromkeys(rising, of_methods[flag]) for flag, having in found.items()}
 
 
 def flags():

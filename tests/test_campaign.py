@@ -6,6 +6,7 @@ import sys
 
 import bench
 import campaign
+import conditioning
 import coverage
 import peers
 import pictures
@@ -99,7 +100,20 @@ def campaigns(tmp_path_factory):
         path = folder / f"{name}.csv"
         path.parent.mkdir(exist_ok=True)
         path.write_text("".join(campaign.csv_line(line) for line in [columns, *(row.values() for row in rows)]))
+    path = folder / "conditioning/conditioning.csv"
+    path.parent.mkdir()
+    campaign.add_rows(path, conditioning.COLUMNS, conditions())
     return folder
+
+
+def conditions():
+    """Rows of the conditioning campaign, one of them without its steps."""
+    for kappa in conditioning.KAPPAS:
+        for m in (*conditioning.LINEAR, *conditioning.EXPONENTS):
+            row = dict.fromkeys(conditioning.COLUMNS, "3") | {"kappa": f"{kappa:g}", "m": f"{m:g}", "h": "0.5"}
+            row |= {"name": "linear" if m in conditioning.LINEAR else "power", "predicted": f"{2 * m + kappa**0.1:g}"}
+            failed = (kappa, m) == (1e12, 20.0)
+            yield row | ({"status": "not converged", "newton": ""} if failed else {"status": "converged"})
 
 
 @pytest.mark.long

@@ -252,7 +252,7 @@ def changed_page(words):
         )
         end = text.rindex("}", 0, text.index("// line 10"))
         return text[:end] + "T = top; }" + text[end + 1 :]
-    for name, value in re.findall(r"(\w+) = (\w+)", words):
+    for name, value in re.findall(r"(\w+) = ([-\w.\"]+)", words):
         text, count = re.subn(rf"\b{name} = [^,;]+", f"{name} = {value}", text, count=1)
         assert count == 1
     return text
@@ -267,7 +267,7 @@ def said_by_page(words, package):
 
 
 CHANGES = {row[0]: row[1:] for row in next(tables(answers(PAGE)))[1]}
-KINDS = ["none", "`T0 = d0`", "`kappa = 1e9`", "`m = 10`", "the uniform update"]  # of changes
+KINDS = ["none", "`T0 = d0`", "`kappa = 1e9`", "`m = 10`", "the uniform update", '`model = "linear"`']  # of changes
 
 
 @pytest.mark.parametrize("change", short_of(KINDS, CHANGES))

@@ -1,0 +1,43 @@
+"""condition of plain Newton's tangent, scaled and not, and its steps over the overshoot (results/conditioning)"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from postprocess import style
+from postprocess.campaign import Campaign, good, name_meshes, numbers, read_campaign, select
+
+RUNS = (1, 1)
+READ = read_campaign
+
+
+def draw(runs: list[Campaign], units: style.Units) -> Figure:
+    """Left, condition of the first tangent over kappa, as it is and scaled; right, steps over the prediction."""
+    rows = runs[0].rows("conditioning", "name status kappa m h order newton predicted conditionFirst scaledFirst")
+    power = select(rows, name="power")
+    exponents = sorted({float(row["m"]) for row in power})
+    figure = Figure(figsize=(style.PAGE, 0.45 * style.PAGE), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    for index, m in enumerate(exponents):
+        own = select(power, m=m)
+        look = style.curve(index) | {"markersize": 4, "linewidth": 0.8}
+        kappa = numbers(own, "kappa")
+        left.plot(kappa, numbers(own, "conditionFirst"), label=f"$m = {m:g}$", **look)
+        left.plot(kappa, numbers(own, "scaledFirst"), **(look | {"linestyle": (0, (4, 2)), "marker": "None"}))
+        solved = [row for row in own if good(row)]
+        look["linestyle"] = "None"
+        right.plot(numbers(solved, "predicted"), numbers(solved, "newton"), label=f"$m = {m:g}$", **look)
+    solved = [row for row in power if good(row)]
+    x, y = numbers(solved, "predicted"), numbers(solved, "newton")
+    slope, offset = np.polyfit(x, y, 1)
+    right.plot(np.sort(x), slope * np.sort(x) + offset, color=style.GREY, linewidth=0.8, zorder=1)
+    right.set_title(f"grey: {slope:.2f} x + {offset:.1f}", loc="right", fontsize=8)
+    left.set_title("dashed: scaled to a unit diagonal", loc="right", fontsize=8)
+    left.set_xscale("log")
+    left.set_yscale("log")
+    left.set_xlabel(r"stiffness of the law $\kappa$")
+    left.set_ylabel("condition number of the first tangent")
+    right.set_xlabel(r"$x = \ln(s_0/s^*)\,/\,\ln(m/(m-1))$")
+    right.set_ylabel("steps of plain Newton")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=len(exponents))
+    name_meshes(figure, rows)
+    return figure
