@@ -185,7 +185,7 @@ class TestRefusals:
         [
             ("contact", lambda text: text.replace("x,y,weight", "x,y,weight,weight", 1), "appears twice"),
             ("contact", lambda text: re.sub(r"\n[^,]*,", "\ninf,", text, count=1), "x has the value inf in line 2"),
-            ("contact", lambda text: re.sub(r"((,[^,]+){3}),\d((,[^,]+){8})\n$", r"\1,3\3\n", text), "status has 3"),
+            ("contact", lambda text: re.sub(r"((,[^,]+){3}),\d((,[^,]+){8})\n$", r"\1,4\3\n", text), "status has 4"),
             ("history", lambda text: text.replace("\n1,1,1,1,", "\n1,1,1.5,1,", 1), "iteration has 1.5 in line 2"),
             ("history", lambda text: re.sub(r"\n(.*)\n(.*)\n", r"\n\2\n\1\n", text, count=1), "does not count 1, 2, 3"),
         ],
