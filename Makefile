@@ -345,7 +345,7 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
 	done
-	for sketch in 0-algorithm/models 3-threshold/cut 3-threshold/four_five; do \
+	for sketch in 0-algorithm/models 3-threshold/cut 3-threshold/four_five 3-threshold/bridge; do \
 	  $(SMALL) $(RESULTS)/labs/$$sketch.png --width 700 --out edp/labs/$$sketch.png || exit 1; \
 	done
 	$(PYTHON) -m postprocess cut $(RESULTS)/figures/sphere --units mm MPa --out postprocess/readme-sphere.png

@@ -478,6 +478,36 @@ def proximal(figure: Figure) -> None:
     axes.set_ylabel("pressure $p$")
 
 
+def bridge(figure: Figure) -> None:
+    """Where the next tangent touches the law: at the present overlap, at the present pressure, along the response."""
+    axes = figure.subplots()
+    s = np.linspace(0, 1.05, 2000)
+    axes.plot(s, law(s, 8), color=style.BLUE)
+    axes.text(0.93, 7.2, "the law", color=style.BLUE, ha="right")
+    at, stiffness = (0.86, 1.25), 5
+    along = s[np.argmin(abs(law(s, 8) + stiffness * s - at[1] - stiffness * at[0]))]
+    places = [
+        (at[0], style.VERMILION, "1 at the present overlap:\nplain Newton", (0.9, 4.0), "left"),
+        ((at[1] / 8) ** (1 / 3), style.PURPLE, "2 at the present pressure:\neq. (6)", (0.05, 0.75), "left"),
+        (along, style.GREEN, "3 along the response $p + k s$:\nthe default method", (0.05, 3.3), "left"),
+    ]
+    for place, colour, words, text, align in places:
+        height = float(law(np.array(place), 8))
+        arrow(axes, at, (place, height), colour)
+        axes.plot(place, height, "o", color=colour)
+        near = place + np.array([-0.1, 0.1])
+        axes.plot(near, height + 24 * place**2 * (near - place), color=colour, linestyle=DASHED)
+        axes.text(*text, words, color=colour, ha=align)
+    axes.plot(*at, "o", color=style.BLACK)
+    axes.annotate("after a linear solve", at, (12, -6), textcoords="offset points")
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.set_xlim(0, 1.25)
+    axes.set_ylim(0, 8)
+    axes.set_xlabel("overlap $s$")
+    axes.set_ylabel("pressure $p$")
+
+
 # ---------------------------------------------------------------- discretisation
 
 
@@ -698,6 +728,6 @@ def adhesion(figure: Figure) -> None:
     axes.text(-0.97, 0.8, "repels", color=style.BLUE, ha="right")
 
 
-SCHEME = (tangents, overshoot, cut, models, four_five, status, uniform, proximal)
+SCHEME = (tangents, overshoot, cut, models, four_five, status, uniform, proximal, bridge)
 BEYOND = (collocation, matching, coulomb, mindlin, loop, hertz, adhesion)
 PICTURES = {draw.__name__: draw for draw in (rough, laws, springs, hard, disc, *SCHEME, *BEYOND)}
