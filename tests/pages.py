@@ -146,7 +146,12 @@ def told(script, *flags):
                 opens -= 1
                 depth += (meaning[opens] == ")") - (meaning[opens] == "(")
             default = "results/SCENE/METHOD" if name == "-out" else default
-            found[name] = default, line[of_unit + late : of_meaning + late].strip(), meaning[:opens].strip(), meaning[opens + 1 : -1]
+            found[name] = (
+                default,
+                line[of_unit + late : of_meaning + late].strip(),
+                meaning[:opens].strip(),
+                meaning[opens + 1 : -1],
+            )
     return found
 
 

@@ -148,7 +148,7 @@ function own(   k, p, e, word, times) {
     p = ".prescribed." k
     word = (p ".moment") in v ? "moment" : "force"
     e = error(p)
-    times = v[p ".times"] > 1 ? "of the whole " v[p ".times"] " times as much" : ""
+    times = v[p ".times"] > 1 ? "of the whole " v[p ".times"] " times as much: " digits(v[p ".times"] * v[p "." word], 6) : ""
     if (v[".thickness"] != 1) times = also(times, digits(v[p "." word] * v[".thickness"], 6) " for the thickness " v[".thickness"])
     if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
     if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {
@@ -249,6 +249,8 @@ END {
     if (v[".friction"] > 0) {
       print "  work of the loads " digits(v[".work"], 6) " = stored " digits(v[".stored"], 6) " + dissipated " digits(v[".dissipated"], 6)
       if (v[".loadStepsError"] ~ /^not known/) print "  error of the load steps " v[".loadStepsError"]
+      if (estimated) print "  the errors of the mesh are those of the last load step"
+      if (estimated && owned && v[".parameters.distance"] == "linear" && !(".linearised.trusted" in v)) print "  the change by -distance exact is not in the errors"
     }
     if (".pullOff" in v) path()
     if (known(".stability")) print "  the state is " (v[".stability"] > 0 ? "stable" : "NOT STABLE") " (lowest eigenvalue of its tangent " digits(v[".stability"], 3) ")"
