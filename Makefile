@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -421,6 +421,9 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
 	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
 	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
+
+notebooks: $(VENV)/run.stamp ## a notebook for Jupyter of each lab, from the labs' own pages, into results/notebooks/
+	@$(PYTHON) -m postprocess notebooks --out $(RESULTS)/notebooks
 
 page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
 	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html
