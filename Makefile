@@ -340,8 +340,8 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	$(SMALL) $(RESULTS)/parts/foot/state.png --width 720 --out edp/tutorial/foot.png && \
 	$(SMALL) $(RESULTS)/fretting/xnewton/hysteresis.png --width 720 --out edp/tutorial/hysteresis.png && \
 	$(SMALL) $(RESULTS)/parts-3d/wheel-on-rail/check/faces.png --width 640 --out edp/tutorial/faces.png
-	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
-	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
+	PYTHONPATH=.:tests $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
+	PYTHONPATH=.:tests $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
@@ -405,7 +405,7 @@ mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and 
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
-	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
+	@PYTHONPATH=tests $(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
 # ---------------------------------------------------------------- labs
 
