@@ -35,6 +35,10 @@ COARSER = {  # each page as it stands, apart from these
     "-accuracy 1e-6": "-accuracy 1e-3",
     "-method paper -order 2": "-method paper -order 2 -set size 0.4",
 }
+# Open MPI in a container: as root, on fewer cores than processes
+MPI = """export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+"""
 NEEDS_FIGURES = "paraview"  # a picture of `make figures`, drawn by PyVista: test_pictures draws the like
 
 
@@ -86,7 +90,7 @@ def test_page(name, tmp_path):
     commands = re.sub(r"^make mpi\n", "", commands, flags=re.M)  # test_make_builds_the_plugin builds it
     package = screens.package(tmp_path / "package")
     (package / "build").symlink_to(ROOT / "build")
-    code, stdout = screens.execute(screens.Script(commands), package)
+    code, stdout = screens.execute(screens.Script(MPI + commands), package)
     assert code == 0, stdout[-3000:]
 
 
