@@ -49,7 +49,7 @@ def panels(
     wide = wide or (4 if len(groups) > 4 else 2)
     high = -(-len(groups) // wide)
     figure = Figure(
-        figsize=(style.PAGE, style.PAGE * (0.06 + high * {4: 0.34, 3: 0.28}.get(wide, 0.36))), layout="constrained"
+        figsize=(style.PAGE, style.PAGE * (0.06 + high * {4: 0.34, 3: 0.24}.get(wide, 0.36))), layout="constrained"
     )
     figure.suptitle(f"{title} (hatched: failed; dot: not run)", fontsize=9, x=0.01, ha="left")
     outer = figure.add_gridspec(high, wide)
@@ -57,8 +57,12 @@ def panels(
         power = select(rows, law="power")
         kappas = sorted({number(row, "kappa") for row in power})
         exponents = sorted({number(row, "m") for row in power})
-        inner = outer[divmod(place, wide)].subgridspec(2, 1, height_ratios=[len(kappas), 1.0], hspace=0.02)
-        above, below = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
+        cell = outer[divmod(place, wide)]
+        if others:
+            inner = cell.subgridspec(2, 1, height_ratios=[len(kappas), 1.0], hspace=0.02)
+            above, below = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
+        else:
+            above = figure.add_subplot(cell)
         cells = [[select(rows, law="power", kappa=kappa, m=m) for m in exponents] for kappa in kappas]
         heat_map(above, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
         above.set_title(name, loc="left")
@@ -67,7 +71,6 @@ def panels(
         above.set_ylabel(r"$\kappa$", rotation=0)
         above.set_xlabel("$m$", labelpad=0)
         if not others:
-            below.set_axis_off()
             continue
         cells = [[[row for row in rows if row["law"] != "power" and law(row) == other] for other in others]]
         heat_map(below, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))

@@ -49,8 +49,8 @@ def cases(_root: Path = campaign.ROOT) -> list[campaign.Case]:
 
 
 def few() -> list[campaign.Case]:
-    """The subset that is part of the tests: one mesh and load, three laws, every method."""
-    laws = {(1e3, 3.0), (1e12, 1.5), (1e9, 20.0)}
+    """The subset that is part of the tests: one mesh and load, two laws, every method."""
+    laws = {(1e3, 3.0), (1e9, 20.0)}
     wanted = [{"kappa": f"{kappa:g}", "m": f"{m:g}", "u0": "2.5", "h": "1"} for kappa, m in laws]
     return [item for item in cases() if any(item.parameters.items() >= one.items() for one in wanted)]
 
@@ -118,7 +118,7 @@ def table(rows: list[dict]) -> str:
                 f"{len(good)} of {len(mine)}",
                 f"{np.mean(steps):.1f}",
                 max(steps),
-                f"{min(models)} to {max(models)}" if max(models) > 1 else "1",
+                " to ".join(map(str, sorted({min(models), max(models)}))),
                 *(f"{mean:.1f}" for mean in by_kappa),
                 f"{max(ratio):.2f} in {counted}" if ratio else "",
             ]
