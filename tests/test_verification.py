@@ -84,7 +84,7 @@ def test_hertz_by_the_force_of_two_spheres():
     modulus, radius = 20e3 / (1 - 0.3**2) / 2, 25
     hertz = (6 * force * modulus**2 / (np.pi**3 * radius**2)) ** (1 / 3)
     assert pressure == pytest.approx(hertz, rel=0.003)
-    assert case["number"][0]["published"] == pytest.approx(2 * modulus / np.pi * np.sqrt(2 * 4 / 50), rel=1e-5)
+    assert case["number"][0]["published"] == pytest.approx(2 * modulus / np.pi * np.sqrt(2 * 4 / 50), abs=0.05)
 
 
 def test_stiffness_of_the_plate_in_ssna102():
