@@ -426,7 +426,7 @@ def test_figures_and_movie(tmp_path):
         (["-branch", "unstable"], "-branch unstable: only with"),
         (["-path", "0 1", "-accuracy", 0.1], "not with -accuracy"),
         (["-T0", 0, "-method", "paper"], "-T0 0: out of range"),
-        (["-h", 0.08], "-h 0.08: a point's body is"),
+        (["-h", 0.08], "-h 0.08: mesh too coarse for this adhesive law (resolution 0."),
     ],
 )
 def test_refused(words, said, tmp_path):

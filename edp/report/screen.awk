@@ -81,6 +81,7 @@ function scene(   e, R) {
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
   else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
+  if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
   result("points in contact", v[".contactPoints"], 0, "", "of " v[".points"])
   R = dimension == 3 ? v[".reactionZ"] : v[".reactionY"]
   if (v[".force"] != 0 && size(R - v[".force"]) < 1e-4 * size(v[".force"]))
