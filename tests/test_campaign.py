@@ -176,7 +176,7 @@ COUNTS = {  # models / steps of kappa = 1e3, m = 3 and of 1e9, 20, at h = 1
 
 
 def test_a_few_models(tmp_path):
-    """Walls, tangents, plain Newton, xnewton: solved in these models and steps, to one force, no bound below the error."""
+    """Walls, tangents, plain Newton, xnewton: these models and steps, one force, no bound below the error."""
     rows = models.run(tmp_path / "few.csv", models.few(), jobs=2)
     assert models.faults(rows) == []
     found = {name: [f"{row['models']} / {row['newton']}" for row in rows if row["name"] == name] for name in COUNTS}
