@@ -231,11 +231,11 @@ def descended(S, free, tau, s):
 def test_sequences_on_a_law_that_attracts(softness):
     """Thresholds shall rise and energies fall to a state of the law, also where bodies are softer than the attraction.
 
-    From afar the law may have another state: the sequence does not choose by energy.
+    From afar and from contact the law has different states in some of them.
     """
     rng, others = np.random.default_rng(6), 0
-    for _ in range(60):
-        S, free, tau = spd(rng, 3) / softness, rng.uniform(-1.5, 1, 3), np.full(3, -1.0)
+    for _ in range(30):
+        S, free, tau = spd(rng, 3) / softness, rng.uniform(-2.5, 1, 3), np.full(3, -1.0)
         s, energies, models, ended = np.minimum(free, tau), [], 0, False
         while not ended:
             models += 1
@@ -251,8 +251,9 @@ def test_sequences_on_a_law_that_attracts(softness):
             ended, tau = np.max((new - tau) / np.abs(new)) < 1e-9, new
         assert np.all(np.diff(energies) <= 1e-12 * (1 + abs(energies[0])))
         assert np.abs(share).max() < 1e-6 * (1 + np.abs(p).max()), "not on the law"
-        others += np.abs(descended(S, free, np.full(3, -1e-3), np.full(3, -5.0)) - s).max() > 1e-3
-    assert 0 < others < 30 if softness > 1 else others < 5
+        afar, touching = (descended(S, free, np.full(3, -1e-3), np.full(3, start)) for start in (-5.0, -1.0))
+        others += int(np.abs(afar - touching).max() > 1e-3)
+    assert others >= (4 if softness > 1 else 1)
 
 
 # ---------------------------------------------------------------- the error of a model
