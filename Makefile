@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage verification conditioning models mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -401,8 +401,14 @@ coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold,
 conditioning: $(VENV)/run.stamp | system ## condition of plain Newton's tangent and its steps, into results/conditioning/
 	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/conditioning.py && $(DRAW_CAMPAIGN)
 
+models: $(VENV)/run.stamp | system ## walls, tangents, plain Newton and xnewton on 75 problems and two meshes, into results/models/
+	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/models.py && $(DRAW_CAMPAIGN)
+
 mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
+
+verification: $(VENV)/dev.stamp | system ## solve published benchmarks, and write their numbers into tests/VERIFICATION.md
+	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/campaigns/verification.py
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
 	@PYTHONPATH=tests $(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)

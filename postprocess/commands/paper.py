@@ -168,11 +168,12 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
     )
     about_conditions = (
         "The paper calls the tangent of a stiff law ill-conditioned. At κ = 1e12 its condition number is "
-        f"{CONDITION} at the first step. Scaled to a unit diagonal it is {SCALED} for every κ and m, that of the block alone (make "
-        "conditioning). A direct solver has the accuracy of the scaled matrix. The steps of plain Newton follow the "
-        "overshoot: each step takes back the share 1/m of an overlap that is far too large. With the greatest overlaps "
-        "s₀ without contact and s* of the solution, x = ln(s₀/s*)/ln(m/(m − 1)) steps are needed, and about four more. "
-        f"At κ = 1e12 x is {overshoot(runs['stiff-newton']):.1f}, and plain Newton takes {stiff} steps."
+        f"{CONDITION} at the first step. Scaled to a unit diagonal it is {SCALED} for every κ and m, that of the block "
+        "alone (make conditioning). A direct solver has the accuracy of the scaled matrix. The steps of plain Newton "
+        "follow the overshoot: each step takes back the share 1/m of an overlap that is far too large. With the "
+        "greatest overlaps s₀ without contact and s* of the solution, x = ln(s₀/s*)/ln(m/(m − 1)) steps are needed, "
+        "and about four "
+        f"more. At κ = 1e12 x is {overshoot(runs['stiff-newton']):.1f}, and plain Newton takes {stiff} steps."
     )
     seen = {
         "figure1": "The paper's Figure 1: at rest, the motion prescribed, the first model solved, converged",

@@ -130,7 +130,7 @@ def fits_table(rows: list[dict]) -> str:
         for least in (2.0, 1.5):
             chosen = [row for row in rows if float(row["m"]) >= least]
             slope, offset, rms, correlation = fit(chosen, column, log)
-            line = f"{slope:.2f} × + {offset:.1f}"
+            line = f"{slope:.2f} × {offset:+.1f}".replace("+", "+ ").replace("-", "− ")
             lines.append([words, f"{least:g}", len(chosen), line, f"{rms:.2f}", f"{correlation:.3f}"])
     return markdown(["fitted to", "m ≥", "problems", "steps", "rms", "correlation"], lines)
 

@@ -15,6 +15,7 @@ import bench
 import campaign
 import conditioning
 import coverage
+import models
 import peers
 import stability
 
@@ -29,6 +30,7 @@ LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
 }
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
 LISTS |= {"coverage/space": coverage.cases_in_space, "conditioning/conditioning": conditioning.cases}
+LISTS |= {"models/models": models.cases}
 # name: (CSV below results/, its rows to the table)
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "work-precision": ("bench/work_precision", bench.report_work_precision),
@@ -53,6 +55,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "coverage": ("coverage/coverage", lambda rows: coverage.table(coverage.judged(rows))),
     "coverage-space": ("coverage/space", lambda rows: coverage.table(coverage.judged(rows))),
     "conditioning": ("conditioning/conditioning", conditioning.results_table),
+    "models": ("models/models", models.table),
     "laws": ("stability/stability", stability.laws_table),
     "paper": ("stability/stability", stability.paper_table),
     "same-answer": ("stability/stability", stability.same_table),
