@@ -15,6 +15,7 @@ import bench
 import campaign
 import coverage
 import peers
+import peers_condensed
 import stability
 
 DOCUMENTS = [campaign.ROOT / "tests" / name for name in ("RESULTS.md", "COST.md")]
@@ -26,7 +27,8 @@ Rows = list[dict[str, str]]
 LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
     f"bench/{name}": part[0] for name, part in bench.PARTS.items()
 }
-LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
+LISTS |= {"bench/peers": peers.cases, "bench/condensed": peers_condensed.cases}
+LISTS |= {"stability/stability": stability.cases, "coverage/coverage": coverage.cases}
 LISTS |= {"coverage/space": coverage.cases_in_space}
 # name: (CSV below results/, its rows to the table)
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
@@ -46,6 +48,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "peers": ("bench/peers", peers.table),
     "peers-others": ("bench/peers", peers.other_tables),
     "peers-failed": ("bench/peers", peers.failed_table),
+    "peers-condensed": ("bench/condensed", peers_condensed.table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),
