@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning models mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage verification conditioning models mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -382,6 +382,7 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 
 bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and a part by CalculiX, into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
+	@$(PYTHON) tests/campaigns/peers_condensed.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
 	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space; \
 	else echo 'a part in space beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
@@ -407,6 +408,9 @@ models: $(VENV)/run.stamp | system ## walls, tangents, plain Newton and xnewton 
 mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
 
+verification: $(VENV)/dev.stamp | system ## solve published benchmarks, and write their numbers into tests/VERIFICATION.md
+	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/campaigns/verification.py
+
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
 	@PYTHONPATH=tests $(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
@@ -425,6 +429,9 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
 	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
 	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
+
+notebooks: $(VENV)/run.stamp ## a notebook for Jupyter of each lab, from the labs' own pages, into results/notebooks/
+	@$(PYTHON) -m postprocess notebooks --out $(RESULTS)/notebooks
 
 page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
 	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html

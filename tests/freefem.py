@@ -247,6 +247,12 @@ def snippet(folder, text, *flags, expect=0):
 TELL = data("tell.edp")
 
 
+def plotted(stdout):
+    """The command that a run says to draw it with."""
+    (line,) = (line for line in stdout.splitlines() if line.startswith("  plot "))
+    return line.removeprefix("  plot").strip()
+
+
 def told(stdout):
     """What tell() printed: {name: values}."""
     lines = (line.split() for line in stdout.splitlines() if line.startswith("told "))
