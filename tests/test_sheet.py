@@ -113,6 +113,29 @@ def test_numbers_with_errors(folder):
     assert tables["Bodies"][2][-1] == "260 MPa" and tables["Bodies"][1][-1] == "–"
 
 
+def test_loads_and_friction(folder):
+    """Shear with the mesh's ±, loads with their displacement's, preloads, and the word on symmetries."""
+    summary = json.loads((folder / "run/summary.json").read_text())
+    (contact,) = summary["contacts"]
+    contact |= {"shearForce": [3.0, -4.0], "stickShare": 0.25, "dissipated": 2, "mesh": {"shearForce": {"error": 0.5}}}
+    way = {"name": "force grip", "way": {"value": 0.5, "error": 0.013}}
+    edit(
+        folder,
+        contacts=[contact],
+        prescribed=[{"name": "force grip", "force": 100, "times": 2}, {"name": "move top", "force": 7.5, "times": 1}],
+        estimates={**summary["estimates"], "loads": [way]},
+        preloads=[{"name": "cut", "preload": 20, "force": 21}],
+    )
+    found = sheet(folder)
+    assert found.tables["Friction"][1:] == [["seat journal", "5.00 ± 0.50 N/mm", "25 %", "2"]]
+    assert found.tables["Loads"][1:] == [
+        ["force grip", "100 N/mm", "0.500 ± 0.013 mm"],
+        ["move top", "7.5 N/mm", "–"],
+    ]
+    assert found.tables["Preloads"][1:] == [["cut", "20 N/mm", "21 N/mm"]]
+    assert "within its planes of symmetry" in " ".join(found.words)
+
+
 def test_stands_by_itself(folder):
     """Pictures are in the page, no link leads out; case file, command and versions are on it."""
     found = sheet(folder, "--title", "Ring <12>")
