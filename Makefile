@@ -382,6 +382,7 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 
 bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and a part by CalculiX, into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
+	@$(PYTHON) tests/campaigns/peers_condensed.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
 	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space; \
 	else echo 'a part in space beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
