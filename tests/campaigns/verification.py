@@ -121,8 +121,8 @@ def page(found):
     ]
     inside, allowed, differ = (verdicts.count(words) for words in ("inside ±", "inside the tolerance", "differs"))
     lines = [
-        f"The {len(every)} cases have {len(verdicts)} numbers: {inside} inside ±, {allowed} inside the tolerance of the "
-        f"source. {differ} differ, for reasons that stand below the table.",
+        f"The {len(every)} cases have {len(verdicts)} numbers: {inside} inside ±, {allowed} inside the tolerance of "
+        f"the source. {differ} differ, for reasons that stand below the table.",
         "",
         "| case | model | source |",
         "| --- | --- | --- |",
