@@ -38,6 +38,7 @@ SHORT = flag_lists(
     "disc-on-block -h 1 -order 2 -bodyForce 0.2 -traction -1 -estimate 1 | disc-on-block -h 0.5 -order 1 -force 100"
     "| disc-on-block -h 1 -order 3 -law signorini | disc-on-block -h 1 -order 4 -kappa 1e9 -ends 4.27 -estimate 1"
     "| flat-punch -h 1 -order 2 -geometry stress | wavy -h 0.4 -waves 9 -order 2"
+    "| disc-on-block -h 0.02 -order 1 -grading 2000 -reach 6.95 | disc-on-block -h 2 -order 2 -distance exact"
 )
 EVERY = flag_lists(
     "disc-on-block -h 0.5 -order 2 -method paper | disc-on-block -h 0.5 -order 1 -method newton"
