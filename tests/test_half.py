@@ -149,6 +149,12 @@ def test_accuracy(tmp_path):
     assert abs(done.contact["x"] + done.contact["x"][::-1]).max() < 1e-12
 
 
+def test_accuracy_of_pressures(tmp_path):
+    """A peak in the plane of symmetry is no end of contact: hard contact shall have a bound of its profile."""
+    flags = ["-half", 1, "-law", "signorini", "-goal", "pressure", "-accuracy", 5e-3, "-order", 2, "-vtu", 0]
+    assert run_in(ROOT, "edp/main.edp", *flags, out=tmp_path / "out").accuracy["met"] is True
+
+
 NOT_SYMMETRIC = {
     "disc-on-block -offset 1": "-offset 1: the disc is not symmetric",
     "disc-on-block -geometry axisymmetric": "-half 1 with -geometry axisymmetric: ",
