@@ -319,7 +319,7 @@ def models(figure: Figure) -> None:
                 linewidth=1.5 * mpl.rcParams["lines.linewidth"],
             )
             arrow(axes, (wall + 0.012, law(wall - d0)), (wall + 0.012, 4.8), style.BLACK, both=True)
-            axes.text(wall + 0.022, 0.5 * (law(wall - d0) + 4.8), r"$\lambda$", va="center")
+            axes.text(wall - 0.012, 0.5 * (law(wall - d0) + 4.8), r"$\lambda$", ha="right", va="center")
             axes.text(wall - 0.012, 5.6, "wall", color=style.VERMILION, ha="right")
         axes.text(d0 - 0.05, 1.0, "" if full else "asperities", color=style.BLUE)
         axes.set_xticks([d0, 0, *([wall] if wall else [])], ["$d_0$", "0", *(["    $T^N$"] if wall else [])])
