@@ -171,6 +171,63 @@ def test_any_axis(tmp_path, kind):
         assert told[0]["moment"][0] == pytest.approx(moment, abs=1e-5)
 
 
+HEAD = """SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 2, 5}; Cylinder(2) = {0, 0, 0, 0, 0, 2, 3};
+BooleanDifference(3) = {Volume{1}; Delete;}{Volume{2}; Delete;};
+Physical Volume("head") = {3};
+Mesh.MeshSizeMax = 1.6;
+"""
+
+
+def test_screw_head(tmp_path):
+    """A screw's head that turns under a force F: 2/3 mu F (R^3 - r^3) / (R^2 - r^2), of a uniform pressure."""
+    case = "group face plane 0 0 0 0 0 1\ngroup top plane 0 0 2 0 0 1\nbody head E 210e3 nu 0\nabout O 0 0 0\n"
+    case += "obstacle face plane 0 0 0 0 0 1 force 0 0 1000 friction 0.15\nrotate top 0 0 0 0 0 1 0.001\n"
+    run = part(tmp_path, HEAD, case, space=True)
+    found = moments(run)["face plane", "head"]
+    true = 2 / 3 * 0.15 * 1000 * (5**3 - 3**3) / (5**2 - 3**2)
+    assert abs(-found["moment"][2] - true) <= found["error"] < 2e-3 * true
+    assert moments(run)["rotate top", "head"]["moment"] == pytest.approx(-np.array(found["moment"]), abs=1e-6)
+    assert np.abs(found["moment"][:2]).max() < 1e-4 * true
+
+
+def rings(size):
+    return RING + RINGS.replace("h = 2.5", f"h = {size}")
+
+
+DENSE = "state stress\n" + FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + "contact bore seat interference 0.01\n"
+WITHIN = {
+    "rotated": HUB.format(0.3) + "rotate core 0 0 0.0005\nabout O 0 0\n",
+    "pushed aside": HUB.format(0.3) + "force core 300 0 rigid at 0 8\nabout O 3 4\n",
+    "on springs": HUB.format(0.3).replace("clamp rim", "spring rim 3e5 2e5")
+    + "moment core 3000\nforce core 100 50 free\n",
+    "spun": DENSE + "spin shaft 5000 about 3 0\nspin hub 5000 about 3 0\nspring rim 2e5 1e5\nabout O 0 0\n",
+}
+
+
+def with_errors(run):
+    """{name: (value, error)} of contacts, loads, prescribed motions and moments."""
+    estimates, found = run.summary["estimates"], {}
+    for contact in estimates["contacts"]:
+        found |= {key: (number["value"], number["error"]) for key, number in contact.items() if "error" in number}
+    found |= {load["name"]: (load["way"]["value"], load["way"]["error"]) for load in estimates["loads"]}
+    known = [one for one in run.summary["prescribed"] if "error" in one]
+    found |= {"needed " + one["name"]: (one.get("force", one.get("moment")), one["error"]) for one in known}
+    told = run.summary.get("moments", [])
+    found |= {"moment " + row["name"]: (row["moment"][0], row["error"]) for row in told if "error" in row}
+    return found
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", WITHIN)
+def test_errors_hold(tmp_path, kind):
+    """The errors of a coarse mesh contain the values of one three times as fine."""
+    coarse, fine = (with_errors(part(tmp_path / str(size), rings(size), WITHIN[kind])) for size in (2.5, 0.8))
+    assert len(coarse) >= 5
+    for name, (value, error) in coarse.items():
+        assert abs(value - fine[name][0]) <= error + 1e-9 * abs(value), name
+
+
 # ---------------------------------------------------------------- springs, gravity, spin
 
 
@@ -259,6 +316,33 @@ def test_spin_in_space(tmp_path, order):
         case += f"obstacle top plane {words[2]} {words[3]}\n"
         run = part(tmp_path / str(matrix[0, 0]), cube(Mesh()).text(matrix), case, "-order", order, space=True)
         assert matrix.T @ run.summary["supports"][0]["force"] == pytest.approx(-pull, rel=1e-9)
+
+
+@pytest.mark.long
+def test_spin_of_a_round_body(tmp_path):
+    """A pin on the side of the axis, on elements that follow its surface: its mass times the distance of its middle."""
+    geo = 'SetFactory("OpenCASCADE");\nCylinder(1) = {0.5, 0, 0, 0, 0, 3, 1};\nPhysical Volume("pin") = {1};\n'
+    geo += "Mesh.MeshSizeMax = 0.6;\n"
+    case = "group foot plane 0 0 0 0 0 1\ngroup head plane 0 0 3 0 0 1\nbody pin E 1e4 nu 0.3 density 2\nclamp foot\n"
+    case += "obstacle head plane 0 0 9 0 0 -1\nspin pin 3 about 0 0 0 axis 0 0 1\ngravity 0 0 -1\n"
+    run = part(tmp_path, geo, case, space=True)
+    force = run.summary["supports"][0]["force"]
+    assert force[2] == pytest.approx(2 * 3 * np.pi, rel=1e-3)
+    assert force[0] == pytest.approx(-9 * 0.5 * force[2], rel=1e-3)
+
+
+def test_moment_in_phases(tmp_path):
+    """A free moment that is reached in phases: in stick, the energy is half the moment times its angle."""
+    phases = "leg 1\nmoment core 0\nleg 2\nmoment core 5000\nleg 2\nmoment core -5000\n"
+    run = part(tmp_path, rings(4), HUB.format(0.2) + "about O 0 0\n" + phases, "-order", 1)
+    with open(run.folder / "series.csv") as lines:
+        stored = [float(row["stored"]) for row in csv.DictReader(lines)]
+    assert stored[2] == pytest.approx(stored[4], rel=1e-6)
+    assert stored[3] == pytest.approx(stored[0], rel=1e-6)
+    twist = run.summary["bodies"][0]["motion"][2]
+    assert twist < 0 and moments(run)["bore seat", "hub"]["moment"][0] == pytest.approx(-5000, rel=1e-6)
+    once = part(tmp_path / "once", rings(4), HUB.format(0.2) + "moment core 5000\n", "-order", 1)
+    assert stored[2] - stored[0] == pytest.approx(0.5 * 5000 * way(once), rel=1e-3)
 
 
 REFUSED = {

@@ -21,6 +21,7 @@ function putPushed(g, how, kind, v,   word_) {
   word_ = how == "free" ? "spread" : "force"
   key_ = word_ SUBSEP kind SUBSEP g
   if (word_ == "force") {
+    if (v[0] == 0 && v[1] == 0 && v[2] == 0) no(kind " " word[2] ": 0 of a rigid group; allowed: another number")
     if (legs > 1) no(nameOf[g] ": a rigid group\047s " kind " in two legs; allowed there: a " kind " that is free")
     holds(g)
   } else if (changed(key_)) { putChange(base[key_] - 1, v); return }
@@ -33,7 +34,7 @@ function putPushed(g, how, kind, v,   word_) {
 function readPushed(   g, v, how) {
   g = group(dim - 1)
   vector("the force", 0, v, 0)
-  nonzero("the force", v, 0)
+  if (!legs) nonzero("the force", v, 0)
   if (axial && v[0] != 0) no(word[2] ": a force off the axis; allowed with state axisymmetric: along y")
   how = at < words ? word[++at] : ""
   if (how !~ /^(free|rigid)$/) no(how ": free or rigid must stand before it; " usageOf("force"))
@@ -47,7 +48,7 @@ function readMoment(   g, v, m, k, size, how) {
   g = group(dim - 1)
   if (axial) no("moment: a ring does not turn; allowed with state axisymmetric: none, in space a moment")
   m = any("the moment")
-  if (m == 0) no("moment " word[2] ": 0; allowed: another number")
+  if (m == 0 && !legs) no("moment " word[2] ": 0; allowed: another number")
   v[0] = v[1] = 0; v[2] = 1
   if (space) {
     keyword("axis")
