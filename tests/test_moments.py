@@ -85,10 +85,14 @@ def test_hub_under_a_moment(tmp_path, how):
     assert found["bore seat", "hub"]["moment"][0] == pytest.approx(-found["bore seat", "shaft"]["moment"][0], rel=1e-9)
     assert run.summary["prescribed"] == [{"name": "moment core", "moment": 3000, "times": 1}]
     assert "moment core: rotation about its axis" in run.stdout
+    if how:
+        assert found["guide of moment core", "shaft"]["moment"] == pytest.approx([0], abs=1e-2)
     assert "about P (1, 2)" in run.stdout
 
 
-@pytest.mark.parametrize("how", short_of(["rigid at 0.2 4"], ["free", "rigid", "free at 0.2 4", "rigid at 0.2 4"]))
+@pytest.mark.parametrize(
+    "how", short_of(["rigid at 0.2 4", "free at 0.2 4"], ["free", "rigid", "free at 0.2 4", "rigid at 0.2 4"])
+)
 def test_lever(tmp_path, how):
     """A post under a force that nothing guides: contact and clamp have its force and its moment about any point."""
     force = np.array([0.5, -4])
@@ -113,6 +117,18 @@ def test_guided_force(tmp_path):
     assert guide["moment"][0] + across((0, 4), (0.5, -4)) == pytest.approx(below["moment"][0], abs=1e-6)
     assert run.summary["guides"][0]["force"] == pytest.approx(guide["force"], abs=1e-9)
     assert "  guide of force head: carries " in run.stdout
+
+
+def test_rigid_like_others(tmp_path):
+    """In the middle of a half a rigid force does as a guided one, on a stiff post as a free one: in errors too."""
+    half = f'{POST}symmetry "post left"\nforce head 0 -4'.replace("friction 0.5", "")
+    stiff = POST.replace("post E 1000", "post E 1e8") + "force head 0.5 -4"
+    pairs = ((half + "\n", half + " rigid\n"), (stiff + " free at 0.2 4\n", stiff + " rigid at 0.2 4\n"))
+    for number, pair in enumerate(pairs):
+        runs = [part(tmp_path / f"{number}{k}", column(), case, "-order", 1) for k, case in enumerate(pair)]
+        ways = [run.summary["estimates"]["loads"][0]["way"] for run in runs]
+        assert ways[1]["value"] == pytest.approx(ways[0]["value"], rel=1e-4)
+        assert ways[1]["error"] == pytest.approx(ways[0]["error"], rel=0.02)
 
 
 def test_free_force_is_a_traction(tmp_path):
@@ -187,6 +203,8 @@ def test_screw_head(tmp_path):
     found = moments(run)["face plane", "head"]
     true = 2 / 3 * 0.15 * 1000 * (5**3 - 3**3) / (5**2 - 3**2)
     assert abs(-found["moment"][2] - true) <= found["error"] < 2e-3 * true
+    (turned,) = run.summary["prescribed"][1:] or run.summary["prescribed"]
+    assert found["error"] == pytest.approx(turned["error"], rel=0.1)  # of one number, by two dual problems
     assert moments(run)["rotate top", "head"]["moment"] == pytest.approx(-np.array(found["moment"]), abs=1e-6)
     assert np.abs(found["moment"][:2]).max() < 1e-4 * true
 
@@ -247,10 +265,20 @@ def test_weight_on_springs(tmp_path):
     assert sunk == pytest.approx(weight * 5 / 30 + weight / 3 * 2 / 3 / 1e5, rel=1e-5)  # and its own shortening
 
 
+def test_spring_along_one_axis(tmp_path):
+    """A block on the ground that a spring holds along it only: the rest is free, the contact has force and moment."""
+    case = "body block E 1e5 nu 0.3\nobstacle bottom plane 0 0 0 1\nspring bottom 50 0\nabout A 0 0\n"
+    case += "force top 0.5 -4 free\n"
+    found = moments(part(tmp_path, block(Mesh()).text(), case))
+    assert found["spring bottom", "block"]["force"] == pytest.approx([-0.5, 0], abs=1e-8)
+    assert found["bottom plane", "block"]["force"] == pytest.approx([0, 4], abs=1e-8)
+    assert found["bottom plane", "block"]["moment"][0] == pytest.approx(1.5 * 4 + 2 * 0.5, abs=1e-6)
+
+
 def test_springs_in_space(tmp_path):
     """A box on springs that a plane presses: forces, moments and ways in series; a moment turns it."""
     case = "body block E 1e6 nu 0\nspring bottom 40 40 10\nobstacle top plane 0 0 1 0 0 -1 force 0 0 -2\n"
-    case += "moment top 0.3 axis 1 0 0\n"
+    case += "moment top 0.3 axis 2 0 0\n"
     run = part(tmp_path, cube(Mesh()).text(), case + "about A 1 1 0\n", "-order", 1, space=True)
     support = moments(run)["spring bottom", "block"]
     assert support["force"] == pytest.approx([0, 0, 2], abs=1e-8)
