@@ -128,7 +128,7 @@ def test_rigid_like_others(tmp_path):
         runs = [part(tmp_path / f"{number}{k}", column(), case, "-order", 1) for k, case in enumerate(pair)]
         ways = [run.summary["estimates"]["loads"][0]["way"] for run in runs]
         assert ways[1]["value"] == pytest.approx(ways[0]["value"], rel=1e-4)
-        assert ways[1]["error"] == pytest.approx(ways[0]["error"], rel=0.02)
+        assert ways[1]["error"] == pytest.approx(ways[0]["error"], rel=0.05)
 
 
 def test_free_force_is_a_traction(tmp_path):
