@@ -81,7 +81,7 @@ function readShape(v,   shape) {
     nonzero("the obstacle's direction", v, 8)
   }
   if (shape != "plane") {
-    keyword("R")
+    if (at < words && word[at + 1] == "R") at++
     v[11] = number("the radius", 0, 1e300)
   }
   if (shape != "plane" && at < words && word[at + 1] == "inside") { at++; v[12] = 1 }
@@ -97,9 +97,22 @@ function readFriction(f) {
     else f[2] = number("the limit", 0, 1e300)
 }
 function putFriction(f) { row("friction " FNR " 0 0 none none none", f) }
+# obstacle SLAVE move x y [z], in a later leg: of the one obstacle of this slave
+function moveObstacle(g,   v, k) {
+  if (obstacles[g] != 1) no("obstacle " word[2] ": " obstacles[g] + 0 " obstacles of it; allowed in a later leg: its shape before move")
+  if (loadOf[obstacleKey[g]] != "move")
+    no("obstacle " word[2] ": no move here or in line " seen[obstacleKey[g]] "; allowed in several legs: a move in each, be it 0")
+  at++
+  changed(obstacleKey[g])
+  for (k = 5; k < 13; k++) v[k] = obstacleShape[g, k]
+  counted("move")
+  vector("the obstacle\047s move", 0, v, 13)
+  putChange(base[obstacleKey[g]] - 1, v)
+}
 function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
   over = 0
   g = group(dim - 1)
+  if (legs > 1 && at < words && word[at + 1] == "move") { moveObstacle(g); return }
   shape = readShape(v)
   load = law = "none"
   while (at < words) {
@@ -130,6 +143,9 @@ function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
   }
   base[key_] = statements + 1
   once(key_, "this obstacle of " nameOf[g])
+  obstacles[g]++
+  obstacleKey[g] = key_
+  for (k = 5; k < 13; k++) obstacleShape[g, k] = v[k]
   restOf[key_] = rest
   loadOf[key_] = load
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")

@@ -1,6 +1,7 @@
 # case-grammar.awk: the statements of a case file: what each takes, what it does, and the words that others use for it
 # Read by awk between case-words.awk and case-file.awk: tables, made once from SPACE, 0 in the plane, 1 in space.
 # usage[statement]: what may stand in its line; does[statement], leads[word], instead[word]: for who writes another word;
+# example[statement]: a line of its own;
 # takes[law], parameter[name], low, high: the laws' parameters, their places and open intervals; isShape[shape]: of obstacles.
 BEGIN {
   space = ENVIRON["SPACE"] + 0
@@ -17,6 +18,14 @@ BEGIN {
   usage["line"] = "line NAME x y" at3 " x y" at3
   usage["expand"] = "expand NAME alpha dT, two numbers"
   usage["preload"] = "preload NAME force"
+  place3 = space ? " 0" : ""
+  split("thickness 12|body pin E 210e3 nu 0.3|line middle 0 0" place3 " 0 20" place3 "|expand ring 12e-6 -180|preload cut 8000" \
+    "|contact bore pin friction 0.15|obstacle top " (space ? "sphere 0 0 12 R 10 move 0 0 -0.1" : "circle 0 12 R 10 move 0 -0.1") \
+    "|clamp base|symmetry left|move grip 0" place3 " -0.05|rotate core 0 0" (space ? " 0 0 0 1" : "") " 0.01|force grip 0" place3 " -2500 free" \
+    "|moment core 21600" (space ? " axis 0 0 1" : "") "|about axle 0 0" place3 "|spring base 1e4 1e4" (space ? " 1e4" : "") \
+    "|spin rotor 1500" (space ? " about 0 0 0 axis 0 0 1" : "") "|gravity 0" place3 " -9810|pressure top 12|traction top 0" place3 " -5" \
+    "|leg 8|tie pad disc|weight core 0" place3 " -77e-6|group bore near 12 0" place3 "|size contact 0.05|state axisymmetric", list, "|")
+  for (k in list) { line = list[k]; sub(/ .*/, "", line); example[line] = list[k] }
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
   rubbing = "[friction MU [compliance c] [limit t]]"
