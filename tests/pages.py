@@ -420,7 +420,8 @@ def columns():
 def statements():
     """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
     tables = (EDP / "case/case-grammar.awk").read_text()
-    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k]; for (k in example) print "example " k ": " example[k] }'
+    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k]'
+    reader += '; for (k in example) print "example " k ": " example[k] }'
 
     def usages(space):
         environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}
