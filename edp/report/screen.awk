@@ -141,6 +141,21 @@ function stresses(   k, p, e, unit) {
         digits(100 * v[p ".above"], 3) " % of its volume: it would yield there")
   }
 }
+function turns(p) { return v[p ".name"] ~ /^moment / }
+function moments(   k, p, i, e, m, unit, note, some) {
+  unit = force == "" ? "" : (force ~ /\// ? "N" : force " " v[".units.0"])
+  for (k = 0; k < count[".moments"]; k++) {
+    p = ".moments." k
+    if (v[p ".printed"] != "true") continue
+    if (!some++) print "  moments" (v[p ".point"] == "" ? "" : " about " v[p ".point"] " " vector(p ".about", dimension, 0))
+    note = also("on " v[p ".body"], v[p ".point"] == "" ? "about " vector(p ".about", dimension, 0) : "")
+    e = error(p)
+    if (dimension == 2) { result("  " v[p ".name"], v[p ".moment.0"], e, unit, note); continue }
+    m = 0
+    for (i = 0; i < 3; i++) m += v[p ".moment." i] ^ 2
+    put(sprintf("    %-24s %14s %s  %s", v[p ".name"], vector(p ".moment", 3, 0), unit, also(note, e > 0 ? "± " off(m ^ 0.5, e) " " percent(e, m ^ 0.5) : "")))
+  }
+}
 function own(   k, p, e, word, times) {
   for (k = 0; k < count[".prescribed"]; k++)
     if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
@@ -160,11 +175,15 @@ function own(   k, p, e, word, times) {
   for (k = 0; k < count[".estimates.loads"]; k++) {
     p = ".estimates.loads." k
     e = error(p ".way")
-    if (known(p ".way.value")) result(v[p ".name"] " moves", v[p ".way.value"], e, v[".units.0"], "")
+    if (known(p ".way.value")) result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way.value"], e, turns(p) ? "rad" : v[".units.0"], "")
     worse(e, v[p ".way.value"], "displacement of " v[p ".name"])
   }
   for (k = 0; k < count[".supports"]; k++)
     put(sprintf("  %-26s %14s %s", v[".supports." k ".name"] " carries", vector(".supports." k ".force", count[".supports." k ".force"], 0), force))
+  for (k = 0; k < count[".guides"]; k++)
+    if (v[".guides." k ".carries"] == "true")
+      put(sprintf("  %-26s %14s %s", "guide of " v[".guides." k ".name"] " carries", vector(".guides." k ".force", count[".guides." k ".force"], 0), force))
+  moments()
   for (k = 0; k < count[".preloads"]; k++) {
     p = ".preloads." k
     result("preload " v[p ".name"], v[p ".force"], 0, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " digits(v[p ".shortened"], 6) ", errors not known")
