@@ -15,7 +15,7 @@ function once(key, what) {
 }
 # a boundary is held in one way
 function holds(g) {
-  if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: one of clamp, symmetry, move, rotate, force, a moment that is rigid or about a point")
+  if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group")
   heldBy[g] = word[1]
   heldIn[g] = FNR
 }
@@ -47,7 +47,7 @@ function readLaw(v,   name, list, n, k, given, taken) {
 # in later legs: what was stated before, as a total reached in this leg; the statement that it changes
 function changed(key,   k) {
   if (legs < 2) return 0
-  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated there, be it as 0")
+  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated in the first leg too, with zeros for nothing yet")
   once(key SUBSEP legs, word[1] " of " word[2] " in leg " legs)
   return base[key] + 0
 }
