@@ -9,7 +9,6 @@
 #include "multigrid-nodes.hpp"
 #include <cstdio>
 #include <cstring>
-#include <map>
 #include <set>
 
 namespace
@@ -89,49 +88,65 @@ void numberVertices(Part & whole, int ranks)
     for (int v = 0; v < vertices; v++) whole.number[v] = next[ownerOf[v]]++;
 }
 
-void findSurfaces(const Part & whole, const std::set<int> & labels, std::vector<char> & onSurface, std::vector<char> & below)
-// onSurface: vertices of these boundaries; below: tetrahedra with a side on one.
+struct Boundary
 {
-    onSurface.assign(whole.number.size(), 0);
-    std::set<std::array<int, 3>> sides;
-    for (size_t t = 0; t < whole.triangles.size(); t += 4)
-        if (labels.count(whole.triangles[t + 3]))
-        {
-            std::array<int, 3> side{whole.triangles[t], whole.triangles[t + 1], whole.triangles[t + 2]};
-            std::sort(side.begin(), side.end());
-            sides.insert(side);
-        }
-    below.assign(whole.tetrahedra.size() / 5, 0);
+    std::vector<std::array<int, 2>> owners;    // the tetrahedra with each triangle as a side, -1: none
+    std::vector<char> below;                   // 1: a side of the tetrahedron is on a surface of these labels
+    std::vector<char> onSurface;               // 1: the vertex belongs to such a tetrahedron
+};
+
+void findBoundary(const Part & whole, const std::set<int> & labels, Boundary & found)
+{
+    size_t triangles = whole.triangles.size() / 4, tetrahedra = whole.tetrahedra.size() / 5;
+    std::vector<std::array<int, 4>> sides(triangles);      // three vertices in order, and the triangle
     std::vector<char> corner(whole.number.size(), 0);
-    for (auto & side : sides) for (int v : side) corner[v] = 1;
-    for (size_t k = 0; k < below.size(); k++)
+    for (size_t t = 0; t < triangles; t++)
+    {
+        const int * v = &whole.triangles[4 * t];
+        sides[t] = {v[0], v[1], v[2], (int) t};
+        std::sort(sides[t].begin(), sides[t].begin() + 3);
+        for (int c = 0; c < 3; c++) corner[v[c]] = 1;
+    }
+    std::sort(sides.begin(), sides.end());
+    found.owners.assign(triangles, {-1, -1});
+    found.below.assign(tetrahedra, 0);
+    found.onSurface.assign(whole.number.size(), 0);
+    for (size_t k = 0; k < tetrahedra; k++)
     {
         const int * T = &whole.tetrahedra[5 * k];
         if (corner[T[0]] + corner[T[1]] + corner[T[2]] + corner[T[3]] < 3) continue;
-        for (int out = 0; out < 4 && !below[k]; out++)
+        for (int out = 0; out < 4; out++)
         {
-            std::array<int, 3> side{T[(out + 1) % 4], T[(out + 2) % 4], T[(out + 3) % 4]};
-            std::sort(side.begin(), side.end());
-            below[k] = sides.count(side);
+            std::array<int, 4> side{T[(out + 1) % 4], T[(out + 2) % 4], T[(out + 3) % 4], -1};
+            std::sort(side.begin(), side.begin() + 3);
+            for (auto at = std::lower_bound(sides.begin(), sides.end(), side);
+                 at != sides.end() && std::equal(side.begin(), side.begin() + 3, at->begin()); ++at)
+            {
+                int t = (*at)[3];
+                found.owners[t][found.owners[t][0] >= 0] = k;
+                found.below[k] |= labels.count(whole.triangles[4l * t + 3]) > 0;
+            }
         }
-        for (int c = 0; c < 4 && below[k]; c++) onSurface[T[c]] = 1;
+        for (int c = 0; c < 4 && found.below[k]; c++) found.onSurface[T[c]] = 1;
     }
 }
 
-void takePart(const Part & whole, int rank, const std::set<int> & labels, const std::vector<char> & onSurface,
-              const std::vector<char> & below, Part & part)
+void takePart(const Part & whole, int rank, const Boundary & boundary, Part & part)
+// The part of a rank, with every boundary triangle of its tetrahedra.
 {
     part = Part();
-    std::vector<int> here(whole.number.size(), -1), vertices;
-    auto touches = [&](const int * corner, int count)
-    {
-        for (int c = 0; c < count; c++) if (ownerOf[corner[c]] == rank) return true;
-        return false;
-    };
-    std::vector<int> elements;
+    std::vector<int> here(whole.number.size(), -1), vertices, elements;
+    std::vector<char> taken(boundary.below.size(), 0);
     for (int pass = 0; pass < 2; pass++)
-        for (size_t k = 0; k < below.size(); k++)
-            if (pass == 0 ? below[k] : !below[k] && touches(&whole.tetrahedra[5 * k], 4)) elements.push_back(k);
+        for (size_t k = 0; k < taken.size(); k++)
+        {
+            const int * T = &whole.tetrahedra[5 * k];
+            bool touched = false;
+            for (int c = 0; c < 4; c++) touched = touched || ownerOf[T[c]] == rank;
+            if (pass == 0 ? !boundary.below[k] : boundary.below[k] || !touched) continue;
+            taken[k] = 1;
+            elements.push_back(k);
+        }
     for (int k : elements)
         for (int c = 0; c < 4; c++)
         {
@@ -141,7 +156,8 @@ void takePart(const Part & whole, int rank, const std::set<int> & labels, const 
         }
     std::sort(vertices.begin(), vertices.end(), [&](int a, int b)
     {
-        return onSurface[a] != onSurface[b] ? onSurface[a] > onSurface[b] : a < b;
+        char at = boundary.onSurface[a], bt = boundary.onSurface[b];
+        return at != bt ? at > bt : a < b;
     });
     for (size_t i = 0; i < vertices.size(); i++) here[vertices[i]] = i;
     for (int v : vertices)
@@ -152,9 +168,13 @@ void takePart(const Part & whole, int rank, const std::set<int> & labels, const 
     for (int k : elements)
         for (int c = 0; c < 5; c++)
             part.tetrahedra.push_back(c < 4 ? here[whole.tetrahedra[5l * k + c]] : whole.tetrahedra[5l * k + c]);
-    for (size_t t = 0; t < whole.triangles.size(); t += 4)
-        if (labels.count(whole.triangles[t + 3]) || touches(&whole.triangles[t], 3))
-            for (int c = 0; c < 4; c++) part.triangles.push_back(c < 3 ? here[whole.triangles[t + c]] : whole.triangles[t + c]);
+    for (size_t t = 0; t < boundary.owners.size(); t++)
+    {
+        const int * v = &whole.triangles[4 * t];
+        bool its = false;
+        for (int k : boundary.owners[t]) its = its || (k >= 0 && taken[k]);
+        for (int c = 0; c < 4 && its; c++) part.triangles.push_back(c < 3 ? here[v[c]] : v[c]);
+    }
 }
 
 // ---------------------------------------------------------------- the part on its rank
@@ -262,7 +282,7 @@ long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & 
     int vertices = 0;
     {
         Part whole, other;
-        std::vector<char> onSurface, below;
+        Boundary boundary;
         if (rank == 0 && readMesh(file->c_str(), whole))
         {
             numberVertices(whole, ranks);
@@ -273,11 +293,11 @@ long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & 
         if (vertices <= 0) return vertices;
         firstVertex.resize(ranks + 1);
         MPI_Bcast(firstVertex.data(), ranks + 1, MPI_INT, 0, MPI_COMM_WORLD);
-        if (rank == 0) findSurfaces(whole, labels, onSurface, below);
+        if (rank == 0) findBoundary(whole, labels, boundary);
         for (int r = ranks - 1; r >= 0; r--)
         {
             Part & to = r == rank ? part : other;
-            if (rank == 0) takePart(whole, r, labels, onSurface, below, to);
+            if (rank == 0) takePart(whole, r, boundary, to);
             passOn(to.at, 0, r, MPI_DOUBLE);
             passOn(to.tetrahedra, 0, r, MPI_INT);
             passOn(to.triangles, 0, r, MPI_INT);
@@ -423,6 +443,13 @@ long multigridOwned(pfes3 * const & space, KN<double> * const & ofNodes, KN<doub
         (*ofElements)[k] = ownNode(least);
     }
     return 0;
+}
+
+long multigridNumbers(KN<double> * const & ofNodes)
+// PETSc's number of each node.
+{
+    for (long n = 0; n < ofNodes->N(); n++) (*ofNodes)[n] = numberOf[n];
+    return firstNode;
 }
 
 // ---------------------------------------------------------------- from all ranks

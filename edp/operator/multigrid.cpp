@@ -246,6 +246,7 @@ void start()
     Global.Add("multigridMesh", "(", new OneOperator4_<long, pmesh3 *, string *, double, KN<long> *>(multigridMesh));
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
     Global.Add("multigridOwned", "(", new OneOperator3_<long, pfes3 *, KN<double> *, KN<double> *>(multigridOwned));
+    Global.Add("multigridNumbers", "(", new OneOperator1_<long, KN<double> *>(multigridNumbers));
     Global.Add("multigridGhosts", "(", new OneOperator1_<long, KN<double> *>(multigridGhosts));
     Global.Add("rankSums", "(", new OneOperator1_<long, KN<double> *>(rankSums));
     Global.Add("rankMost", "(", new OneOperator1_<double, double>(rankMost));
