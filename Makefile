@@ -179,7 +179,7 @@ $(MULTIGRID): edp/operator/multigrid.cpp $(wildcard edp/operator/multigrid-*.hpp
 	  echo "the plugin could not be built with the PETSc in $(PETSC): $(BUILD)/multigrid.log"; exit 1; \
 	}
 	@rm -rf $(BUILD)/new
-	@printf '%s\n' '// written by make mpi' 'load "$(basename $(@F))"' 'macro multigridBuilt() 1 //' 'include "case/parts.idp"' >$@
+	@printf '%s\n' '// written by make mpi' 'load "$(basename $(@F))"' 'macro multigridBuilt() 1 //' >$@
 	@$(NAME_BUILD)
 	@echo 'built: -solver multigrid, in scenes in space'
 

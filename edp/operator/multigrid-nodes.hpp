@@ -1,6 +1,6 @@
 // multigrid-nodes.hpp: the ranks of a run, and the nodes of a mesh cut into as many boxes as there are ranks
 // A rank owns the nodes of its box and assembles every element that touches one of them, so that its rows are complete and no entry is
-// sent. PETSc numbers the nodes rank after rank. Included by multigrid-part.hpp alone.
+// sent. PETSc numbers the nodes rank after rank. Included by multigrid-cut.hpp alone.
 // failed(), CHECK(call): a failure of PETSc ends the run; ranksNow, rankNow, meetRanks, firstRankSays: FreeFEM's functions of that name;
 // startPetsc(); keepMemory(); placeNodes(V, at): coordinates (3 x nodes); cutNodes(nodes): ownerOf, numberOf of a whole mesh.
 #include "ff++.hpp"
