@@ -46,16 +46,17 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning mutants tables labs kit page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning models mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
 PAPER := $(RESULTS)/figures/figure1.pdf $(RESULTS)/figures/figure2.pdf
-PAPER_RUNS := $(foreach h,1 0.5 0.25 0.1,h-$(h) h-$(h)-d0) newton stiff stiff-d0 stiff-newton
+PAPER_RUNS := $(foreach h,1 0.5 0.25 0.1,h-$(h) h-$(h)-d0) newton stiff stiff-d0 stiff-newton \
+	$(foreach tol,2 4 8 10 12,tol-1e-$(tol)) eps-1e-1 eps-1e-2
 paper: paper-run $(PAPER) ## the paper's test by its scheme, 3 adaptations and 12 Newton steps, its two figures, its claims on one page
 	@echo 'figures: $(PAPER)'
 	@for run in $(PAPER_RUNS); do \
-	  flags=$$(echo "-$$run" | sed 's/-h-\([0-9.]*\)/ -h \1/;s/-stiff/ -kappa 1e12/;s/-d0/ -T0 d0/;s/-newton/ -method newton/'); \
+	  flags=$$(echo "-$$run" | sed 's/-h-\([0-9.]*\)/ -h \1/;s/-\(tol\|eps\)-\(.*\)/ -\1 \2/;s/-stiff/ -kappa 1e12/;s/-d0/ -T0 d0/;s/-newton/ -method newton/'); \
 	  case $$flags in *newton*) ;; *) flags="-method paper $$flags";; esac; \
 	  case $$flags in *-h*) ;; *) flags="-h 0.5 $$flags";; esac; \
 	  $(FREEFEM) edp/main.edp -order 1 $$flags -vtu 0 -estimate 0 -out $(RESULTS)/paper/$$run >/dev/null || exit 1; \
@@ -339,8 +340,8 @@ pictures: $(RESULTS)/figures/figure1.png $(RESULTS)/figures/sphere/summary.json 
 	$(SMALL) $(RESULTS)/parts/foot/state.png --width 720 --out edp/tutorial/foot.png && \
 	$(SMALL) $(RESULTS)/fretting/xnewton/hysteresis.png --width 720 --out edp/tutorial/hysteresis.png && \
 	$(SMALL) $(RESULTS)/parts-3d/wheel-on-rail/check/faces.png --width 640 --out edp/tutorial/faces.png
-	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
-	PYTHONPATH=. $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
+	PYTHONPATH=.:tests $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-peers.png
+	PYTHONPATH=.:tests $(PYTHON) tests/campaigns/pictures.py --out postprocess/readme-stability.png
 	for lab in edp/labs/*/; do \
 	  name=$$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' $$lab/README.md); \
 	  $(SMALL) $$(find $(RESULTS)/labs/$$(basename $$lab) -name $$name) --width $$(case $$name in stress*) echo 560;; *) echo 700;; esac) --out $$lab/figure.png || exit 1; \
@@ -400,11 +401,14 @@ coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold,
 conditioning: $(VENV)/run.stamp | system ## condition of plain Newton's tangent and its steps, into results/conditioning/
 	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/conditioning.py && $(DRAW_CAMPAIGN)
 
+models: $(VENV)/run.stamp | system ## walls, tangents, plain Newton and xnewton on 75 problems and two meshes, into results/models/
+	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/models.py && $(DRAW_CAMPAIGN)
+
 mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
-	@$(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
+	@PYTHONPATH=tests $(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
 
 # ---------------------------------------------------------------- labs
 
@@ -421,6 +425,9 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
 	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
 	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
+
+notebooks: $(VENV)/run.stamp ## a notebook for Jupyter of each lab, from the labs' own pages, into results/notebooks/
+	@$(PYTHON) -m postprocess notebooks --out $(RESULTS)/notebooks
 
 page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
 	@$(PYTHON) -m postprocess play --out $(RESULTS)/page/algorithm1.html

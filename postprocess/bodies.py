@@ -428,7 +428,7 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False
     begins = {"axis": " from the axis", "middle": " from the middle of the pressure"}
     origin = next(iter(origins)) if len(origins) == 1 else "middle"
     words = f"arc length{begins[origin]} [{units.length}]" if origin else f"$x$ [{units.length}]"
-    axes.set_xlabel(style.folded(words, 30 if narrow else 60))
+    axes.set_xlabel(style.folded(words, 27 if narrow else 60))
     axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
     if rubs:
         colour = style.curve(min(seen))["color"] if len(seen) == 1 else style.BLACK

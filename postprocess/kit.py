@@ -128,7 +128,7 @@ def algorithm() -> Markup:
         code, _, words = line.partition("//")
         number = re.match(r" line (\d+)", words)
         out.append(f"{f'{number[1]:>2} ' if number else '   '}{code.rstrip()}")
-    return Markup(f'<pre class="algorithm">{html.escape(chr(10).join(out))}</pre>')
+    return Markup(f'<pre class="algorithm" tabindex="0">{html.escape(chr(10).join(out))}</pre>')
 
 
 # ---------------------------------------------------------------- pages

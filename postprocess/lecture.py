@@ -238,7 +238,7 @@ def tangents(figure: Figure) -> None:
     axes.set_xlim(0, 1.1)
     axes.set_xlabel("overlap $s$")
     axes.set_ylabel("pressure")
-    axes.text(0.8, 0.4, r"the law $\kappa s^m$", color=style.BLUE)
+    axes.text(0.8, 0.66, r"the law $\kappa s^m$", color=style.BLUE, ha="right")
     axes.text(0.02, 0.06, r"the body $k(\delta - s)$", color=style.GREY)
 
 
@@ -449,7 +449,7 @@ def uniform(figure: Figure) -> None:
         axes.set_ylim(-0.31, 0.1)
         axes.set_xlabel("place $x$ on the contact line")
         axes.set_title(name)
-    left.legend(loc="upper center", bbox_to_anchor=(0.5, 0.62))
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
 def proximal(figure: Figure) -> None:

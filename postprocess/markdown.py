@@ -104,9 +104,11 @@ def tables(text: str) -> list[tuple[list[str], list[list[str]]]]:
 def table(lines: list[str], words: Callable[[str], str]) -> str:
     """A table's lines, its head first, then a rule."""
     (head, rows) = tables("\n".join(lines))[0]
-    top = "".join(f'<th scope="col">{words(cell)}</th>' for cell in head)
+    top = "".join(f'<th scope="col">{words(cell)}</th>' if cell else "<td></td>" for cell in head)
     body = "".join(
         f'<tr><th scope="row">{words(first)}</th>{"".join(f"<td>{words(cell)}</td>" for cell in others)}</tr>'
         for first, *others in rows
     )
-    return f'<div class="scroll"><table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+    name = html.escape(", ".join(cell for cell in head if cell), quote=True)
+    scroll = f'<div class="scroll" role="region" tabindex="0" aria-label="Table: {name}">'
+    return f"{scroll}<table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>"

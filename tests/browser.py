@@ -115,9 +115,18 @@ class Page:
     def wait(self, expression):
         """Until an expression is true."""
         deadline = time.monotonic() + SECONDS
-        while not self.evaluate(expression):
+        while not self.holds(expression):
             assert time.monotonic() < deadline, f"never true: {expression}"
             time.sleep(0.05)
+
+    def holds(self, expression):
+        """Whether an expression is true; in a page that is left for the next one it is not."""
+        try:
+            return self.evaluate(expression)
+        except AssertionError as error:
+            if "navigated" in str(error) or "context" in str(error):
+                return False
+            raise
 
     def occurred(self, *methods):
         self.evaluate("1")  # what has happened so far has been told by the time this is answered

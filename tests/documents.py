@@ -233,6 +233,28 @@ class Site:
         shutil.copy(ROOT / "tests/data/site.css", static)
 
 
+# What the theme leaves out: the levels of headings, names of regions, the keyboard for what scrolls
+MENDED = {
+    '<p class="caption" role="heading">': '<p class="caption" role="heading" aria-level="2">',
+    '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="All pages">',
+    '<aside class="toc-drawer">': '<aside class="toc-drawer" aria-label="This page">',
+    '<th class="head"><p></p></th>': "<td></td>",
+    '<div class="highlight"><pre>': '<div class="highlight"><pre tabindex="0">',
+}
+TABLE = re.compile(r'<div class="table-wrapper[^"]*"(?=>)')
+
+
+def mend(path):
+    """A page of the site, made accessible."""
+    text = path.read_text()
+    for found, instead in MENDED.items():
+        text = text.replace(found, instead)
+    text = TABLE.sub(r'\g<0> role="region" aria-label="Table" tabindex="0"', text)
+    if "<h1" not in text:
+        text = re.sub(r"(<article[^>]*>)", r"\1<h1>Search</h1>", text, count=1)
+    path.write_text(text)
+
+
 def build(out, root=ROOT, chapters=CHAPTERS, answers=False):
     """Builds the site into a folder; the exit code of Sphinx."""
     from sphinx.cmd.build import main  # a development dependency: nothing else of the package wants it
@@ -248,6 +270,8 @@ def build(out, root=ROOT, chapters=CHAPTERS, answers=False):
             code = main(words)
     print("".join(dict.fromkeys(said.getvalue().splitlines(keepends=True))), end="", file=sys.stderr)  # each once
     shutil.rmtree(Path(out, "_sources"), ignore_errors=True)
+    for path in Path(out).rglob("*.html"):
+        mend(path)
     return code
 
 

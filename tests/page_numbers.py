@@ -171,9 +171,8 @@ def run(command):
 
 
 def printed(stdout, label):
-    """The number after the last place where a run printed this label, but where it says the number's error."""
-    lines = "\n".join(line for line in stdout.splitlines() if not line.startswith("  within"))
-    found = re.findall(re.escape(label) + r"\s*[:=]?\s*([-+]?\d[\d.]*(?:e[-+]?\d+)?)", lines)
+    """The number after the last place where a run printed this label."""
+    found = re.findall(re.escape(label) + r"\s*[:=]?\s*([-+]?\d[\d.]*(?:e[-+]?\d+)?)", stdout)
     if not found:
         raise RuntimeError(f"{label} is not printed:\n{stdout[-2000:]}")
     return float(found[-1])

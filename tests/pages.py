@@ -133,17 +133,25 @@ def freefem(script, *flags):
 def told(script, *flags):
     """{flag: (default, unit, meaning, allowed)} as -help prints them beside other flags."""
     found = {}
-    for line in freefem(script, *flags, "-help", "all").splitlines():
+    lines = freefem(script, *flags, "-help", "all").splitlines()
+    head = next(line for line in lines if line.startswith("flag "))
+    of_default, of_unit, of_meaning = (head.index(word) for word in ("default", "unit", "meaning"))
+    for line in lines:
         if line.startswith("-"):
             name, default = line.split()[:2]
-            late = max(len(default) - 14, 0)
-            meaning = line[54 + late :]
+            late = max(len(default) + 1 - of_unit + of_default, 0)
+            meaning = line[of_meaning + late :]
             depth, opens = 0, len(meaning)  # what is allowed stands in the last parentheses, with others in them
             while depth or opens == len(meaning):
                 opens -= 1
                 depth += (meaning[opens] == ")") - (meaning[opens] == "(")
             default = "results/SCENE/METHOD" if name == "-out" else default
-            found[name] = default, line[32 + late : 54 + late].strip(), meaning[:opens].strip(), meaning[opens + 1 : -1]
+            found[name] = (
+                default,
+                line[of_unit + late : of_meaning + late].strip(),
+                meaning[:opens].strip(),
+                meaning[opens + 1 : -1],
+            )
     return found
 
 

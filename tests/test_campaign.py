@@ -8,6 +8,7 @@ import bench
 import campaign
 import conditioning
 import coverage
+import models
 import peers
 import pictures
 import pytest
@@ -94,6 +95,7 @@ def campaigns(tmp_path_factory):
     lists["coverage/coverage"] = coverage.cases(), coverage.COLUMNS
     lists["coverage/space"] = coverage.cases_in_space(), coverage.COLUMNS
     lists["stability/stability"] = stability.cases(), stability.COLUMNS
+    lists["models/models"] = models.cases(), models.COLUMNS
     for name, (cases, further) in lists.items():
         columns = [*campaign.COLUMNS, *further]
         rows = [made_up(item, columns, place % 9) for place, item in enumerate(cases)]
@@ -160,3 +162,37 @@ def test_the_quick_campaign(part, tmp_path):
         assert [row["flags"] for row in grid if value(row, name) > most] == [], name
     for row in quick:
         assert value(row, "newton") <= 10 and value(row, "adaptations") <= 2, row["flags"]
+
+
+COUNTS = {  # models / steps of kappa = 1e3, m = 3 and of 1e9, 20, at h = 1
+    "plain Newton": ["1 / 8", "1 / 36"],
+    "walls from T⁰ = 0": ["3 / 12", "2 / 10"],
+    "walls from T⁰ = d0": ["2 / 9", "3 / 14"],
+    "walls from T⁰ = d0, uniform": ["2 / 10", "2 / 11"],
+    "tangents": ["3 / 8", "3 / 9"],
+    "`xnewton`, no start": ["1 / 4", "1 / 4"],
+    "`xnewton`": ["1 / 2", "1 / 2"],
+}
+
+
+def test_a_few_models(tmp_path):
+    """Walls, tangents, plain Newton, xnewton: solved in these models and steps, to one force, no bound below the error."""
+    rows = models.run(tmp_path / "few.csv", models.few(), jobs=2)
+    assert models.faults(rows) == []
+    found = {name: [f"{row['models']} / {row['newton']}" for row in rows if row["name"] == name] for name in COUNTS}
+    assert found == COUNTS
+    ratios = [value(row, "leastOverError") for row in rows if row["leastOverError"]]
+    assert len(ratios) >= 4 and max(ratios) < 2
+
+
+@pytest.mark.long
+def test_all_models(tmp_path):
+    """All 1050 runs: none fails, and the table is that of the page, counts within one step, means within a tenth."""
+    rows = models.run(tmp_path / "models.csv", models.cases(), jobs=2)
+    assert models.faults(rows) == []
+    told = [line.split(" | ") for line in models.table(rows).splitlines()[2:]]
+    for line, expected in zip(told, pictures.cells("models")[1:], strict=True):
+        found = [cell.strip("| ") for cell in line]
+        assert found[:2] == expected[:2] and found[4] == expected[4]
+        assert abs(int(found[3]) - int(expected[3])) <= 1
+        assert abs(float(found[2]) - float(expected[2])) <= 0.1

@@ -513,7 +513,7 @@ def test_what_several_motions_need(tmp_path, friction, other):
     for found in needs:
         assert abs(found["force"]) == pytest.approx(contact["value"], rel=1e-6)
         assert found["error"] == pytest.approx(contact["error"], rel=0.01)
-    assert re.search("move flat:  force [0-9.]+ ± ", done.stdout)
+    assert re.search("move flat: force +[0-9.]+ ± ", done.stdout)
     if run["linearised"]:
         force, *others = (
             change["change"] for change in run["linearised"]["changes"] if change["kind"] in ("force", "needed")

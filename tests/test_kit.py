@@ -3,6 +3,7 @@
 import csv
 import re
 
+import access
 import pytest
 from browser import CHROMIUM, Browser
 from freefem import FREEFEM, ROOT, execute, run_in, short_of
@@ -74,6 +75,35 @@ def test_slides_on_a_screen(made, tmp_path):
         page = browser.open(made / "slides.html", 1280, 720)
         sizes = page.evaluate("[...document.querySelectorAll('section')].map(s => s.scrollHeight)")
         assert max(sizes) <= 720 and page.messages == []
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
+@pytest.mark.long
+def test_for_everyone(made, tmp_path):
+    """Slides and sheets: no serious fault on a desk and on a phone, no control that Tab does not come to or show."""
+    pytest.importorskip("axe_core_python")
+    with Browser(tmp_path) as browser:
+        for name in ("slides", "index", "notes", "handout-0-algorithm", "handout-3-threshold", "crib", "algorithm1"):
+            assert access.wrong(browser, made / f"{name}.html") == [], name
+        for name, least in (("slides", 4), ("index", 20)):
+            page = browser.open(made / f"{name}.html", 1280, 720)
+            assert access.walked(page) == ([], []), name
+            assert page.evaluate("controls.length") >= least
+        # arrows turn the slides, but scroll what is wider than a phone
+        page = browser.open(made / "slides.html", 390, 800)
+        page.evaluate("document.querySelector('pre.algorithm').focus()")
+        before = page.evaluate("scrollY")
+        for kind in ("rawKeyDown", "keyUp"):
+            page.call(
+                "Input.dispatchKeyEvent", type=kind, key="ArrowRight", code="ArrowRight", windowsVirtualKeyCode=39
+            )
+        assert page.evaluate("scrollY") == before
+        page.evaluate("document.activeElement.blur()")
+        for kind in ("rawKeyDown", "keyUp"):
+            page.call(
+                "Input.dispatchKeyEvent", type=kind, key="ArrowRight", code="ArrowRight", windowsVirtualKeyCode=39
+            )
+        page.wait(f"scrollY != {before}")
 
 
 # ---------------------------------------------------------------- answers

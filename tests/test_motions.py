@@ -121,9 +121,7 @@ def test_unfelt_motion(tmp_path):
     problem = Problem(1, motions=3)
     problem.G[:, 2] = 1e-14 * problem.x
     problem.t[2] = 0
-    stdout = problem.solve(tmp_path)
-    assert "motion 2: fixed, no gap feels it and no load works on it" in stdout
-    values = told(stdout)
+    values = told(problem.solve(tmp_path))
     assert values["converged"] == 1
     assert list(values["fixed"]) == [0, 0, 1]
     problem.check(values, [None, None])

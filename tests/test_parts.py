@@ -554,11 +554,10 @@ def test_check(tmp_path):
     """-check 1 says what it read, writes files to draw it, and solves nothing."""
     run = solve(tmp_path, stack(), "units mm MPa\n" + STACK + 'clamp bottom\npressure "upper top" 2\n', "-check", 1)
     said = run.stdout
-    assert "block: held by clamp bottom" in said and "upper: held by contact only" in said
-    for motion in ("along x", "along y", "rotation"):
-        assert f"    free: upper: {motion}" in said
-    assert "top upper bottom: 25 points, 25 with something opposite, gaps from " in said and "hard contact" in said
-    assert "newton" not in said
+    assert re.search("^  body +block: .*; held by clamp bottom$", said, re.M)
+    assert re.search("^  body +upper: .*; held by contact only; free: along x, along y, rotation$", said, re.M)
+    assert "top upper bottom: hard contact, frictionless, 25 points, initial gap " in said
+    assert "iteration" not in said
     folder = tmp_path / "out/check"
     files = {"check-boundary.csv", "check-faces.csv", "check-mesh.vtu", "check-points.csv", "check.json"}
     assert {file.name for file in folder.glob("check*")} == files
@@ -566,7 +565,7 @@ def test_check(tmp_path):
     assert [body["name"] for body in found["bodies"]] == ["block", "upper"]
     assert found["contacts"][0]["paired"] == 25
     assert found["fixed"] == ["upper: along x"]
-    assert "  upper: along x: fixed, no gap feels it and no load works on it" in said
+    assert "  note      upper: along x changes no gap and carries no load: it is set to 0" in said
     assert not (tmp_path / "out/summary.json").exists()
 
 
@@ -609,7 +608,7 @@ def test_second_order_mesh(tmp_path):
     execute(["gmsh", "-2", "-order", "2", "-v", "1", folder / "pin.geo", "-o", folder / "pin.msh"])
     code, stdout = run_parts(folder, "pin.msh", "pin.case")
     assert code == 0, stdout[-2000:]
-    assert "mesh of second order" in stdout
+    assert " curved elements P2" in stdout
     force, clearance, hole = 1000, 0.01, 10.01
     angle = pin_angle(plane_modulus(210e3, 0.3) * clearance / force)
     found = Run(code, stdout, folder / "out").pressureMax
@@ -636,7 +635,7 @@ def test_gap_vertical(tmp_path, upper):
     """A gap along the vertical is the arcs' difference at the same abscissa, also of a slave that faces down."""
     exchanged = [("contact contact master", "contact master contact")] if upper else []
     run = punch(tmp_path, "-check", 1, exchanged=exchanged)
-    assert run.stdout.count("something opposite") == 1
+    assert run.stdout.count(" initial gap ") == 1
     found = np.genfromtxt(tmp_path / "out/check/check-points.csv", delimiter=",", names=True)
     found = found[found["paired"] == 1]
     found = found[np.abs(found["x"]) < 2.5]  # near their ends splines know less
@@ -764,7 +763,7 @@ LAYERS = STEEL + 'body upper E 10 nu 0.3\nclamp bottom\nobstacle "upper top" pla
 def test_joined_bodies(tmp_path):
     """Bodies that share nodes are one part; edges between them can be no contact."""
     said = solve(tmp_path, joined().text(), LAYERS, "-check", 1).stdout
-    assert "  block+upper: held by clamp bottom" in said
+    assert "block+upper: E 100, nu 0.3 and E 10, nu 0.3; held by clamp bottom" in said
     case = LAYERS + 'contact top "upper bottom"\n'
     said = solve(tmp_path, joined().text(), case, expect=10).stdout
     assert 'edge of "top" inside the bodies, which share its nodes; allowed: each body\'s own nodes' in said

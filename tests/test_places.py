@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, listing, run_in, script, tree
+from freefem import FREEFEM, ROOT, environment, execute, listing, plotted, run_in, script, tree
 
 BLOCK, DISC = script("confined-block"), script("disc-on-block")
 QUICK = ["-h", 2, "-order", 1, "-vtu", 0, "-estimate", 0]
@@ -73,7 +73,7 @@ def test_make_in_a_read_only_checkout(places):
     code, said = by_user("make", *done, "run", "SCENE=confined-block", "ARGS=-h 5 -estimate 0", f"RESULTS={home}/r")
     assert code == 0 and (home / "r/confined-block/xnewton/summary.json").exists(), said
     python = home / ".cache/stiff-contact/venv/bin/python"
-    assert f"picture: {python} -m postprocess state {home}/r/confined-block/xnewton/" in said
+    assert plotted(said) == f"{python} -m postprocess state {home}/r/confined-block/xnewton/"
     words = [f"case.paper={BLOCK} -h 5 -estimate 0", f"RESULTS={home}/f", f"{home}/f/figures/paper/summary.json"]
     code, said = by_user("make", *done, *words)
     assert code == 0 and (home / "f/figures/paper/summary.json").exists(), said
@@ -181,7 +181,7 @@ def test_installed(tmp_path, drawn):
     code, said = execute([starter, "disc-on-block", "-h", 2, "-order", 1, "-estimate", 0], here, env)
     assert code == 0 and (here / "results/disc-on-block/xnewton/summary.json").exists(), said
     assert list((tmp_path / ".cache/stiff-contact/meshes").glob("block*.msh"))
-    command = said.splitlines()[-1].removeprefix("  picture: ")
+    command = plotted(said)
     assert command == f"'{starter}' postprocess state results/disc-on-block/xnewton/"
     if drawn:
         code, said = execute(["sh", "-c", command], here, env)

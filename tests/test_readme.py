@@ -286,13 +286,19 @@ def test_doors(door, package):
         for kind in ("pdf", "png"):
             assert (package / "results" / drawn[door] / f"state.{kind}").exists()
     else:
-        assert "adaptations 3, Newton steps 12" in said
+        assert "12 iterations, 3 models" in said or "adaptations 3, Newton steps 12" in said
     if door == "paper":
         for name in ("figure1", "figure2"):
             assert (package / f"results/figures/{name}.pdf").exists()
         claims = (package / "results/paper/claims.html").read_text()
         verdicts = re.findall(r'<span class="(\w+)">', claims)
         assert len(verdicts) == 7 and verdicts.count("fail") == 1  # plain Newton does not fail on the paper's test
+        counted = dict(re.findall(r'<th scope="row">(1e-\d+)</th>\s*<td[^>]*>(\d+ / \d+)</td>', claims))
+        assert [counted[tol] for tol in ("1e-2", "1e-12")] == [
+            "2 / 10",
+            "3 / 15",
+        ]  # 1e-2: that of -eps, which comes last
+        assert re.search(r"Newton steps, 9\s+to\s+15\s+here", claims)
         steps = {row[0].strip("`"): row[1:] for row in rows(section(CHOOSING, "Method"))}
         soft, stiff = ([steps[f"-method {words}"][k] for words in ("newton", "paper", "paper -T0 d0")] for k in (0, 1))
         for name, count in zip(("newton", "stiff-newton", "stiff", "stiff-d0"), (soft[0], *stiff), strict=True):

@@ -2,6 +2,7 @@
 
 import xml.etree.ElementTree as xml
 
+import access
 import documents
 import pytest
 from browser import CHROMIUM, Browser
@@ -114,7 +115,22 @@ def test_a_link_that_leads_nowhere(tmp_path):
         documents.Site(tmp_path, tmp_path / "out", {}).write()
 
 
+SHOWN = (
+    "index search edp/labs/3-threshold/README edp/howto/install edp/theory/friction edp/GLOSSARY tests/RESULTS".split()
+)
+
+
 @pytest.mark.long
 def test_site(tmp_path):
-    """The whole site shall be built: Sphinx's warnings and links that lead nowhere end it."""
+    """The whole site shall be built: Sphinx's warnings and dead links end it; some of its pages are for everyone."""
     assert documents.build(tmp_path / "site") == 0
+    if CHROMIUM is None:
+        return
+    pytest.importorskip("axe_core_python")
+    with Browser(tmp_path / "profile") as browser:
+        for name in SHOWN:
+            assert access.wrong(browser, tmp_path / f"site/{name}.html") == [], name
+        for name in ("index", "edp/howto/install"):
+            page = browser.open(tmp_path / f"site/{name}.html", 1200, 800)
+            assert access.walked(page) == ([], []), name
+            assert page.evaluate("controls.length") > 50

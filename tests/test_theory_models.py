@@ -29,6 +29,8 @@ from condensed import (
     table,
 )
 
+from postprocess.commands import paper
+
 ROUNDING = 1e-9  # of energies
 SMALL = 1e-6  # of the law's forces: errors below are rounding
 
@@ -466,3 +468,13 @@ def test_the_scaled_tangent_is_no_worse_than_the_bodies():
     stiff = conditioning.tangent(K, dof, 1e12 * problem.w)
     plain, scaled = conditioning.conditions(stiff)
     assert plain > 1e11 and scaled <= conditioning.conditions(K)[1] * (1 + 1e-6)
+
+
+def test_the_conditions_on_the_page_of_claims():
+    """The page of `make paper` says those of the first tangent at kappa = 1e12, m = 3, and of every scaled tangent."""
+    K, dof, problem = paper_test()
+    law = power(1e12, 3.0)
+    plain, scaled = conditioning.conditions(conditioning.tangent(K, dof, problem.w * law.slope(problem.free)))
+    said = {name: float(getattr(paper, name)) for name in ("CONDITION", "SCALED")}
+    assert said == {"CONDITION": float(f"{plain:.0e}"), "SCALED": float(f"{scaled:.0e}")}
+    assert float(f"{conditioning.conditions(K)[1]:.0e}") == said["SCALED"]

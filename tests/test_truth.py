@@ -435,7 +435,7 @@ def ring_run(tmp_path_factory):
 def test_force_about_an_axis(hip_run):
     """The force that is applied is the one that is printed."""
     assert hip_run.summary["force"] == pytest.approx(2500, rel=1e-6)
-    assert re.search(r"within  force 2500\b", hip_run.stdout)
+    assert re.search(r"resultant force +\(0, -2500\) +exact by equilibrium", hip_run.stdout)
 
 
 def test_one_meaning(rings_run):

@@ -34,4 +34,4 @@ fi
 keep "$read" "$3/.run"
 sh "$here/../case/folder.sh" "$1" publish "$3" || exit 30
 echo "checked: the geometry alone; no case file was given"
-echo "  picture: $6"
+echo "  plot      $6"

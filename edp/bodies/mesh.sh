@@ -1,6 +1,7 @@
-# mesh.sh: a mesh made by gmsh, unless it is there already: sh mesh.sh RUN MESH GEO OPTIONS-OF-GMSH...
+# mesh.sh: a mesh made by gmsh, unless it is there already: sh mesh.sh RUN MESH GEO EXPECTED OPTIONS-OF-GMSH...
 # Needs: RUN, the number of the run's process; GEO, the geometry, with all others in its folder; MESH, a file to be in a folder
-#        that is made if it is missing, beside GEO; AFTER, a variable: a file that gmsh reads after GEO, or nothing.
+#        that is made if it is missing, beside GEO; EXPECTED, how many elements, in words, for the line that says after five seconds
+#        that gmsh is at work; AFTER, a variable: a file that gmsh reads after GEO, or nothing.
 # Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in its $Comments "Gmsh" and gmsh's version; in a
 #        folder with a file .shared also MESH.of, the geometries' checksum, for there they may be another copy's of the package.
 # Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 6 no room, 130 interrupted.
@@ -9,7 +10,8 @@
 run=$1
 mesh=$2
 geo=$3
-shift 3
+expected=$4
+shift 4
 meshes=${geo%/*}
 generated=${mesh%/*}
 
@@ -33,11 +35,15 @@ mkdir "$work" 2> /dev/null || exit 4
 gmsh "$@" -v 4 "$geo" ${AFTER:+"$AFTER"} -o "$work/gmsh.msh" > "$work/log" 2>&1 &
 gmsh=$!
 (
-    while sleep 1; do
+    exec 3>&1 > /dev/null 2>&1
+    seconds=0
+    while sleep 1 3>&-; do
         test -n "$(started "$run")" || break
+        seconds=$((seconds + 1))
+        test $seconds != 5 || test "$expected" = - || echo "gmsh meshes ${geo##*/}${expected:+: about $expected elements expected} ..." >&3
     done
     kill "$gmsh"
-) > /dev/null 2>&1 &
+) &
 watch=$!
 wait "$gmsh" 2> /dev/null
 kill "$watch" 2> /dev/null

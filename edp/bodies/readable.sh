@@ -41,6 +41,7 @@ no() {
     exit "${2:-1}"
 }
 
+plane="the mesh is plane, it has no volumes: use edp/parts.edp"
 test -d "$file" && no "a folder, no mesh"
 test -f "$file" || no "no file: a pipe or a device"
 test "$case_" = none || test -f "$case_" || no "-case $case_: a folder, a pipe or a device; allowed: a case file" 3
@@ -127,6 +128,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
             -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
         grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
         test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
+        test "$space" = 0 || awk '/^\$Entities/ { getline; exit !($4 > 0) }' "$folder/outline.msh" || no "$plane"
         sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
         named
     }
@@ -189,8 +191,8 @@ case $kind in geo | step | stp | brep | iges | igs)
     fi
     kept=$generated/own-$(cat "$file" ${after:+"$after"} | cksum | tr ' ' -)$(echo "$SETS" | cksum | tr ' ' -)$how.msh
     if test "$(sh "${0%/*}/reads.sh" "$run" "$file" | wc -l)" = 1 && mkdir -p "$generated" 2> /dev/null \
-        && AFTER=$after sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "$how" $order -format msh22 $SETS $import; then
-        test "$space" = 0 || ! AFTER=$after sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" $flat -format msh22 $SETS $import \
+        && AFTER=$after sh "${0%/*}/mesh.sh" "$run" "$kept" "$file" "" "$how" $order -format msh22 $SETS $import; then
+        test "$space" = 0 || ! AFTER=$after sh "${0%/*}/mesh.sh" "$run" "${kept%.msh}-surface.msh" "$file" - $flat -format msh22 $SETS $import \
             || surface=${kept%.msh}-surface.msh
         file=$kept
         sed -n '/^\$Comments/{n;s/^Gmsh //p;q;}' "$kept" > "$folder/gmsh"
@@ -211,6 +213,9 @@ if test -n "$how"; then
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
     file=$folder/converted.msh
 fi
+# elements with a volume, of gmsh's types
+solid() { tr -d '\r' < "$1" | awk '/^\$Elements/ { on = 1 } on && NF > 5 && $2 ~ /^([4-7]|1[1-4]|1[7-9]|29|30|31)$/ { found = 1; exit } END { exit !found }'; }
+test "$space" = 0 || solid "$file" || no "$plane"
 tr -d '\r' < "$file" | sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/every curve of the geometry/d;/^[0-9] /p;}' > "$folder/names"
 test -s "$folder/names" || no "no physical groups: bodies and boundaries have no names"
 named

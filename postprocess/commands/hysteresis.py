@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--contact", type=int, default=0, metavar="N", help="in (b) the contact with this number; default 0"
     )
     parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
-    parser.add_argument("--slip", action="store_true", help="in (a) less what the bodies give while all of it sticks")
+    parser.add_argument("--slip", action="store_true", help="in (a) without the elastic displacement of the bodies")
     style.add_units(parser)
 
 
@@ -66,7 +66,7 @@ def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
     above, below = panels["a"], panels["b"]
     words = "dragged by"
     if asked.slip:
-        words = "dragged by less what the bodies give"
+        words = "displacement without its elastic part"
         table["drag"] -= flexibility(table) * table["shearForce"]
     plot_loop(above, table, f"{words} [{units.length}]")
     if (chosen.path / "slides.csv").exists():

@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> None:
             f'<svg id="{name}Line" viewBox="0 0 300 170" role="img" aria-label="{words}: overlap along x"></svg>',
         ]
         said = [f'<p><strong id="{name}End"></strong></p>', f'<p id="{name}Said"></p>']
-        columns.append("\n".join([f'<section class="{name}"><h2>{words}</h2>', *said, *pictures, "</section>"]))
+        columns.append("\n".join([f'<section class="{name}"><h3>{words}</h3>', *said, *pictures, "</section>"]))
     text = string.Template(kit.template_file("play.html")).substitute(
         style=kit.template_file("page.css"),
         methods="\n".join(columns),

@@ -38,16 +38,18 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     return panels(groups, "newton", "Newton steps to a residual of $10^{-8}$")
 
 
-def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float | None = None) -> Figure:
+def panels(
+    groups: dict[str, list[dict]], measure: str, title: str, most: float | None = None, wide: int | None = None
+) -> Figure:
     """Heat maps of the greatest count among the rows that share kappa and m, or a law: a panel for each group."""
     every = [row for rows in groups.values() for row in rows]
     others = [name for name in LAWS if any(row["law"] != "power" and law(row) == name for row in every)]
     counted = [number(row, measure) for row in every if good(row)]
     scale = LogNorm(1, most or max([10, *counted]))
-    wide = 4 if len(groups) > 4 else 2
+    wide = wide or (4 if len(groups) > 4 else 2)
     high = -(-len(groups) // wide)
     figure = Figure(
-        figsize=(style.PAGE, style.PAGE * (0.06 + high * (0.34 if wide == 4 else 0.36))), layout="constrained"
+        figsize=(style.PAGE, style.PAGE * (0.06 + high * {4: 0.34, 3: 0.24}.get(wide, 0.36))), layout="constrained"
     )
     figure.suptitle(f"{title} (hatched: failed; dot: not run)", fontsize=9, x=0.01, ha="left")
     outer = figure.add_gridspec(high, wide)
@@ -55,8 +57,12 @@ def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float 
         power = select(rows, law="power")
         kappas = sorted({number(row, "kappa") for row in power})
         exponents = sorted({number(row, "m") for row in power})
-        inner = outer[divmod(place, wide)].subgridspec(2, 1, height_ratios=[len(kappas), 1.0], hspace=0.02)
-        above, below = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
+        cell = outer[divmod(place, wide)]
+        if others:
+            inner = cell.subgridspec(2, 1, height_ratios=[len(kappas), 1.0], hspace=0.02)
+            above, below = figure.add_subplot(inner[0]), figure.add_subplot(inner[1])
+        else:
+            above = figure.add_subplot(cell)
         cells = [[select(rows, law="power", kappa=kappa, m=m) for m in exponents] for kappa in kappas]
         heat_map(above, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
         above.set_title(name, loc="left")
@@ -65,7 +71,6 @@ def panels(groups: dict[str, list[dict]], measure: str, title: str, most: float 
         above.set_ylabel(r"$\kappa$", rotation=0)
         above.set_xlabel("$m$", labelpad=0)
         if not others:
-            below.set_axis_off()
             continue
         cells = [[[row for row in rows if row["law"] != "power" and law(row) == other] for other in others]]
         heat_map(below, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))

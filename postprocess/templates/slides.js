@@ -3,6 +3,8 @@ function here() { return slides.findIndex(s => s.getBoundingClientRect().bottom 
 function go(k) { slides[Math.max(0, Math.min(slides.length - 1, k))].scrollIntoView(); }
 addEventListener("keydown", event => {
   if (event.target.tagName == "BUTTON" && event.key == " ") return;
+  const box = event.target.closest?.(".scroll, pre");
+  if (box && box.scrollWidth > box.clientWidth && /Left|Right/.test(event.key)) return;
   const by = { ArrowRight: 1, ArrowDown: 1, PageDown: 1, " ": 1, ArrowLeft: -1, ArrowUp: -1, PageUp: -1 }[event.key];
   if (by) { event.preventDefault(); go(here() + by); }
   if (event.key == "Home") go(0);

@@ -1,0 +1,268 @@
+# screen.awk: the results of a run on screen, from its summary.json: numbers with errors, warnings, files; with -verbose 1 details
+# Read by awk after json.awk. In the environment: FOLDER: of the results; ROWS: further rows; PLOT: the command that draws.
+# An error has two digits, its value as many decimals. A number that is rounding compared with others is shown as 0.
+function floor(x,   i) { i = int(x); return i > x ? i - 1 : i }
+function size(x) { return x < 0 ? -x : x }
+function digits(x, n) { return sprintf("%." n "g", x) + 0 "" }
+function decimals(x, error,   d) {          # of a value with this error; -1: six digits
+  if (error <= 0 || size(x) >= 1e9 || (x != 0 && size(x) < 1e-4)) return -1
+  d = 1 - floor(log(error) / log(10) + 1e-9)
+  if (d > 0 && size(x) * 10 ^ d >= 1e13) return -1
+  return d < 0 ? 0 : d
+}
+function shown(x, error,   d, unit) {
+  if (error >= 100) { unit = 10 ^ (floor(log(error) / log(10) + 1e-9) - 1); return sprintf("%.0f", sprintf("%.0f", x / unit) * unit) }
+  d = decimals(x, error)
+  return d < 0 ? sprintf("%.6g", x) : sprintf("%." d "f", x)
+}
+function off(x, error,   d) {
+  d = decimals(x, error)
+  return d < 0 || error >= 100 || error < 1e-4 ? digits(error, 2) : sprintf("%." d "f", error)
+}
+function percent(part, whole,   p) {
+  p = whole == 0 ? 0 : size(100 * part / whole)
+  return whole == 0 ? "" : "(" (p >= 1000 ? "more than 1000" : digits(p, 2)) " %)"
+}
+function put(text) { sub(/ +$/, "", text); print text }
+function row(name, text) { put(sprintf("  %-10s%s", name, text)) }
+function result(name, x, error, unit, note) {  # error: 0 or less: none to show
+  if (unit != "") unit = " " unit
+  if (error > 0) put(sprintf("  %-26s %14s ± %-8s%-" wide "s %-10s %s", name, shown(x, error), off(x, error), unit, percent(error, x), note))
+  else put(sprintf("  %-26s %14s%s %s", name, sprintf("%.6g", x), unit, note))
+}
+function error(path) { return known(path ".error") ? v[path ".error"] + 0 : -1 }
+function unknown(e) { return estimated && e < 0 ? "error not known" : "" }
+function also(a, b) { return a != "" && b != "" ? a ", " b : a b }
+function vector(path, n, from,   k, most, text) {  # entries from ... from + n - 1
+  most = 0
+  for (k = from; k < from + n; k++) if (size(v[path "." k]) > most) most = size(v[path "." k])
+  for (k = from; k < from + n; k++) text = text (k > from ? ", " : "(") digits(size(v[path "." k]) < 1e-6 * most ? 0 : v[path "." k], 6)
+  return text ")"
+}
+function worse(e, x, name) {                # notes the greatest relative error
+  if (e > 0 && x != 0 && e / size(x) > worst) { worst = e / size(x); worstName = name }
+}
+function peaks(   c, i, n, head, field, column, least, most) {  # peak[c]: the place of the greatest pressure of contact c
+  FS = ","
+  if ((getline < (folder "contact.csv")) <= 0) return
+  n = split($0, head, ",")
+  for (i = 1; i <= n; i++) column[head[i]] = i
+  while ((getline < (folder "contact.csv")) > 0) {
+    c = $column["contact"]
+    for (i = 1; i <= dimension; i++) {
+      if (!((c, i) in least) || $i < least[c, i]) least[c, i] = $i + 0
+      if (!((c, i) in most) || $i > most[c, i]) most[c, i] = $i + 0
+      if (!(c in top) || $column["pressure"] > top[c]) place[c, i] = $i + 0
+      if (size($i) > size(extent[c])) extent[c] = $i + 0
+    }
+    if (!(c in top) || $column["pressure"] > top[c]) top[c] = $column["pressure"] + 0
+  }
+  for (c in top) {
+    n = 0
+    for (i = 1; i <= dimension; i++) n += (most[c, i] - least[c, i]) ^ 2
+    n = n > 0 ? 10 ^ floor(log(1e-3 * sqrt(n)) / log(10)) : 1e-300
+    for (i = 1; i <= dimension; i++) peak[c] = peak[c] (i > 1 ? ", " : "at (") digits(n * floor(place[c, i] / n + 0.5), 6)
+    peak[c] = peak[c] ")"
+  }
+}
+function scene(   e, R) {
+  e = error(".estimates.force")
+  if (v[".parameters.force"] > 0) {
+    result("approach", v[".approach"], error(".estimates.approach"), "", "")
+    result("contact force", v[".force"], 0, "", "prescribed")
+    worse(error(".estimates.approach"), v[".approach"], "approach")
+  } else {
+    if (error(".estimates.approach") > 0) result("approach", v[".approach"], error(".estimates.approach"), "", "")
+    result("contact force", v[".force"], e, "", unknown(e))
+    worse(e, v[".force"], "force")
+  }
+  if (v[".pressureMax"] == 0) return
+  e = error(".estimates.pressureMax")
+  result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
+  if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
+  else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
+  if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
+  result("points in contact", v[".contactPoints"], 0, "", "of " v[".points"])
+  R = dimension == 3 ? v[".reactionZ"] : v[".reactionY"]
+  if (v[".force"] != 0 && size(R - v[".force"]) < 1e-4 * size(v[".force"]))
+    print "  balance: contact force + support reaction = 0 (to " digits(size(R / v[".force"] - 1), 1) ")"
+}
+function friction(c,   p, k, x, m, s) {
+  p = ".contacts." c
+  if (!known(p ".stickShare") || v[".friction"] == 0 && !known(p ".tied")) return
+  m = error(p ".mesh.shearForce")
+  s = error(p ".loadSteps.shearForce")
+  x = 0
+  for (k = 0; k < count[p ".shearForce"]; k++) x += v[p ".shearForce." k] ^ 2
+  if (!owned) print "  friction"
+  twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0))
+  result("  sticking part", 100 * v[p ".stickShare"], 0, "%", "of the contact")
+  twofold("dissipated", v[p ".dissipated"], -1, error(p ".loadSteps.dissipated"), "", "")
+  if (known(p ".mesh.dissipatedLastStep.value"))
+    twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", "")
+}
+function twofold(name, x, mesh, steps, unit, note) {  # two errors, of the mesh and of the load steps
+  put(sprintf("    %-24s %14s%s%s %s %s", name, shown(x, mesh > steps ? mesh : steps), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
+    steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
+}
+function contact(c,   p, q, k, F, e, x, note, unit) {
+  p = ".contacts." c
+  q = ".estimates.contacts." c
+  print "  contact " v[p ".name"] (v[p ".contactPoints"] == 0 ? " touches nowhere" : "")
+  if (v[p ".contactPoints"] == 0) return
+  F = 0
+  for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
+  F = sqrt(F)
+  e = error(q ".force")
+  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) " " percent(e, F) : unknown(e))
+  put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, note))
+  worse(e, F, "force of " v[p ".name"])
+  e = error(q ".normalForce")
+  result("  normal force", v[p ".normalForce"], e, force, unknown(e))
+  worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
+  e = error(q ".pressureMax")
+  result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
+  e = error(q ".contactLength")
+  x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
+  unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
+  result(dimension == 3 ? "  contact area" : "  contact length", x, e, unit, also(unknown(e), v[p ".contactPoints"] " of " v[p ".points"] " points"))
+  friction(c)
+}
+function stresses(   k, p, e, unit) {
+  unit = v[".units.1"]
+  for (k = 0; k < count[".stresses"]; k++) {
+    p = ".stresses." k
+    e = error(p)
+    if (k == 0) print "  greatest von Mises stress"
+    result("  " v[p ".body"], v[p ".vonMises"], e, unit, also(unknown(e), "at " vector(p ".at", dimension, 0)))
+    if (count[p ".singular"] > 0) print "      singular at " vector(p ".singular", dimension, 0) ": no bound there"
+    if (known(p ".yield"))
+      print "      " (v[p ".above"] == 0 ? "nowhere above the yield stress " v[p ".yield"] : "above the yield stress " v[p ".yield"] " in " \
+        digits(100 * v[p ".above"], 3) " % of its volume: it would yield there")
+  }
+}
+function own(   k, p, e, word, times) {
+  for (k = 0; k < count[".prescribed"]; k++)
+    if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
+  for (k = 0; k < count[".contacts"]; k++) contact(k)
+  for (k = 0; k < count[".prescribed"]; k++) {
+    p = ".prescribed." k
+    word = (p ".moment") in v ? "moment" : "force"
+    e = error(p)
+    times = v[p ".times"] > 1 ? "of the whole " v[p ".times"] " times as much: " digits(v[p ".times"] * v[p "." word], 6) : ""
+    if (v[".thickness"] != 1) times = also(times, digits(v[p "." word] * v[".thickness"], 6) " for the thickness " v[".thickness"])
+    if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
+    if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {
+      result(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : "", also(unknown(e), times))
+      worse(e, v[p "." word], word " of " v[p ".name"])
+    } else if (times != "") result(v[p ".name"], v[p "." word], 0, force, times)
+  }
+  for (k = 0; k < count[".estimates.loads"]; k++) {
+    p = ".estimates.loads." k
+    e = error(p ".way")
+    if (known(p ".way.value")) result(v[p ".name"] " moves", v[p ".way.value"], e, v[".units.0"], "")
+    worse(e, v[p ".way.value"], "displacement of " v[p ".name"])
+  }
+  for (k = 0; k < count[".supports"]; k++)
+    put(sprintf("  %-26s %14s %s", v[".supports." k ".name"] " carries", vector(".supports." k ".force", count[".supports." k ".force"], 0), force))
+  for (k = 0; k < count[".preloads"]; k++) {
+    p = ".preloads." k
+    result("preload " v[p ".name"], v[p ".force"], 0, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " digits(v[p ".shortened"], 6) ", errors not known")
+  }
+  stresses()
+}
+function path(   e) {
+  e = known(".pathErrors.pullOff") ? v[".pathErrors.pullOff"] : -1
+  result("least force", v[".pullOff"], e, "", "at the approach " digits(v[".pullOffApproach"], 6))
+  result("jumps", count[".jumps"], 0, "", "")
+  result("dissipated in jumps", v[".dissipated"], known(".pathErrors.dissipated") ? v[".pathErrors.dissipated"] : -1, "", "")
+  result("work along the path", v[".loopWork"], known(".pathErrors.loopWork") ? v[".pathErrors.loopWork"] : -1, "", "")
+  result("work by the forces", v[".workByForces"], 0, "", "")
+  if (v[".pathErrors.notKnown"] != "") print "  not known of the path: " v[".pathErrors.notKnown"]
+}
+function details(   k, n, p, list, text, width) {
+  print "\nDetails"
+  row("solver", "models " v[".adaptations"] ", Newton steps " v[".newton"] ", residual " digits(v[".residual"], 3) ", model error " digits(v[".modelError"], 3))
+  row("", "unknowns " v[".ndof"] ", factorisations " v[".factorisations"] ", back-substitutions " v[".backsolves"] \
+    (v[".iterations"] > 0 ? ", their iterations " v[".iterations"] : "") ", cost ratio " digits(v[".costRatio"], 3))
+  row("points", "in contact " v[".contactPoints"] " of " v[".points"] ", at the wall " v[".wallPoints"] ", greatest overlap " digits(v[".overlapMax"], 6))
+  if (estimated) {
+    p = ".estimates.parts."
+    row("errors", (known(".estimates.worst") ? v[".estimates.worst"] : "as force") ": inside the bodies " digits(v[p "inside"], 2) \
+      ", on the contact line " digits(v[p "line"], 2) ", model " digits(v[p "model"], 2) ", shape " digits(v[p "geometry"], 2) \
+      ", algebra " digits(v[p "algebra"], 2))
+    row("", "to lower the greatest, " v[".estimates.refine"])
+  }
+  if (v[".linearised.trusted"] == "true") {
+    for (k = 0; k < count[".linearised.changes"]; k++) {
+      p = ".linearised.changes." k
+      text = also(text, v[p ".name"] " " (v[p ".kind"] == "way" ? "displacement" : v[p ".kind"]) " " digits(v[p ".change"], 2))
+    }
+    for (k = 0; k < count[".linearised.pressureMax"]; k++) text = also(text, v[".contacts." k ".name"] " greatest pressure " digits(v[".linearised.pressureMax." k], 2))
+    row("linear", "change by the true distance and finite rotations, twice in the errors: " text)
+  }
+  for (k = 0; k < count[".bodies"]; k++) {
+    p = ".bodies." k
+    n = count[p ".motion"]
+    row("body", v[p ".name"] " moved " vector(p ".motion", dimension, 0) (n == 2 ? "" : ", turned " \
+      (dimension == 3 ? vector(p ".motion", 3, 3) : digits(v[p ".motion.2"], 6))) ", its supports carry " vector(p ".reaction", dimension, 0))
+  }
+  if (known(".geometryCorrection")) row("surfaces", "smooth ones differ from those of the mesh by " digits(v[".geometryCorrection"], 3) " at most")
+  print "\nFlags"
+  n = split(substr(names[".parameters"], 2), list, SUBSEP)
+  for (k = 1; k <= n; k++) {
+    p = "-" list[k] " " v[".parameters." list[k]]
+    if (width > 0 && width + length(p) > 110) { printf "\n"; width = 0 }
+    printf "  %-22s", p
+    width += length(p) > 22 ? length(p) + 2 : 24
+  }
+  printf "\n"
+}
+END {
+  parse("")
+  folder = ENVIRON["FOLDER"]
+  dimension = (".reactionZ" in v) ? 3 : 2
+  estimated = ".estimates.parts.inside" in v
+  owned = ".bodies.0.name" in v
+  worst = wide = 0
+  if (v[".units.0"] " " v[".units.1"] ~ /^(mm MPa|m Pa)$/) force = dimension == 3 || v[".state"] == "axisymmetric" || v[".thickness"] != 1 ? "N" : "N/" v[".units.0"]
+  if (known(".units.0")) wide = 1 + (length(force) > 4 ? length(force) : 4)
+  cost = v[".newton"] (v[".newton"] == 1 ? " iteration" : " iterations") (v[".adaptations"] > 1 ? ", " v[".adaptations"] " models" : "") ", " digits(v[".seconds.total"], 2) " s"
+  if (v[".converged"] != "true") {
+    print "NOT CONVERGED: " v[".message"]
+    print "  residual " digits(v[".residual"], 2) " (tolerance " v[".parameters.tol"] + 0 ") after " cost "; there are no results"
+  } else {
+    if (v[".accuracy.met"] == "false") {
+      print "ACCURACY NOT REACHED: " (known(".accuracy.reached") ? "estimated relative error of the " v[".accuracy.goal"] " " digits(v[".accuracy.reached"], 2) ", " : "") \
+        "wanted " v[".accuracy.asked"] + 0 ": " v[".accuracy.why"]
+      print "  solved in " cost
+    } else print "converged in " cost
+    print "\nResults (" (estimated ? "± estimated error" : (v[".notEstimated"] == "" ? "without error estimates" : "no error estimate: " v[".notEstimated"])) ")"
+    if (owned) {
+      peaks()
+      own()
+    } else {
+      scene()
+      friction(0)
+    }
+    if (known(".dragged.value")) twofold("dragged by", v[".dragged.value"], error(".dragged"), -1, "", "")
+    if (known(".creepage")) result("creepage", v[".creepage"], 0, "", "of the length rolled")
+    if (v[".friction"] > 0) {
+      print "  work of the loads " digits(v[".work"], 6) " = stored " digits(v[".stored"], 6) " + dissipated " digits(v[".dissipated"], 6)
+      if (v[".loadStepsError"] ~ /^not known/) print "  error of the load steps " v[".loadStepsError"]
+      if (estimated) print "  the errors of the mesh are those of the last load step"
+      if (estimated && owned && v[".parameters.distance"] == "linear" && !(".linearised.trusted" in v)) print "  the change by -distance exact is not in the errors"
+    }
+    if (".pullOff" in v) path()
+    if (known(".stability")) print "  the state is " (v[".stability"] > 0 ? "stable" : "NOT STABLE") " (lowest eigenvalue of its tangent " digits(v[".stability"], 3) ")"
+    if (ENVIRON["ROWS"] != "") print substr(ENVIRON["ROWS"], 2)
+  }
+  for (k = 0; k < count[".warnings"]; k++) print "warning: " v[".warnings." k]
+  if (v[".converged"] == "true" && count[".warnings"] == 0) print "  no warnings"
+  print ""
+  if (v[".converged"] == "true" && worst > 0.01) row("finer", v[".estimates.refine"] ": the error of the " worstName " is " digits(100 * worst, 2) " %")
+  row("files", folder (v[".converged"] == "true" ? "" : " (the last state, for diagnosis)"))
+  if (v[".converged"] == "true" && ENVIRON["PLOT"] != "") row("plot", ENVIRON["PLOT"])
+  if (v[".parameters.verbose"] == 1) details()
+  else row("more", "-verbose 1: error contributions, solver statistics, all flags")
+}

@@ -1,0 +1,284 @@
+"""The screens: the model first, results with errors, none without convergence; help by topics; gmsh at work."""
+
+import json
+import os
+import re
+import subprocess
+
+import pytest
+from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script
+from pages import scripts, told
+from test_examples import example
+
+EXAMPLES = ROOT / "edp/examples"
+PIN = EXAMPLES / "pin-in-hole/pin-in-hole"
+
+
+def screen(folder, summary, rows="", plot="", contact=""):
+    """What edp/report/screen.sh prints of a summary."""
+    folder.mkdir(exist_ok=True)
+    (folder / "summary.json").write_text(json.dumps(summary, indent=1).replace("\n  ", " "))
+    (folder / "contact.csv").write_text(contact)
+    return execute(["sh", ROOT / "edp/report/screen.sh", "1", f"{folder}/", rows, plot])[1]
+
+
+SUMMARY = {
+    "converged": True,
+    "message": "",
+    "warnings": [],
+    "adaptations": 1,
+    "newton": 2,
+    "force": 150.04036662364285,
+    "approach": 2.5,
+    "pressureMax": 22.557076198683834,
+    "halfWidth": None,
+    "contacts": [],
+    "contactPoints": 39,
+    "points": 81,
+    "residual": 1.9771e-08,
+    "notEstimated": "-estimate 0",
+    "estimates": None,
+    "seconds": {"total": 0.1},
+    "parameters": {"verbose": 0, "tol": 1e-06, "force": 0},
+}
+
+
+# ---------------------------------------------------------------- whole screens
+
+
+def test_screen_of_a_scene():
+    """Model, iterations, results with ± and per cent, warnings, files, in this order, in 24 lines at most."""
+    done = run("disc-on-block", "-order", 2, "-estimate", 1)
+    lines = done.stdout.splitlines()
+    heads = [
+        "disc-on-block:",
+        "  bodies ",
+        "  contact ",
+        "  load ",
+        "  solution ",
+        "  iteration ",
+        "converged in 2 iterations, ",
+    ]
+    heads += ["Results (± estimated error)", "  contact force ", "  greatest pressure ", "  contact half-width "]
+    heads += ["  balance:", "  no warnings", "  files ", "  more "]
+    places = [next(k for k, line in enumerate(lines) if line.startswith(head)) for head in heads]
+    assert places == sorted(places) and len(lines) <= 24
+    assert "law power: p = kappa (d - d0)^m, kappa 1000, m 3, d0 -0.25, frictionless" in done.stdout
+    assert re.search(r"^  contact force +150\.040 ± 0\.055 +\(0\.037 %\)$", done.stdout, re.M)
+    assert not re.search("tol|model error|factorisations|within", done.stdout)
+
+
+def test_screen_of_an_own_part(tmp_path):
+    """Bodies by their names, what equilibrium makes exact, no rounding among the digits; 35 lines at most."""
+    said = example("pin-in-hole", tmp_path, "", "-estimate", 1, size=0.6).stdout
+    assert len(said.splitlines()) <= 35
+    for line in (
+        r"  body +plate: E 210000, nu 0.3; held by clamp frame",
+        r"  body +pin\+core: E 210000, nu 0.3; held by contact only; free: along x, along y, rotation",
+        r"  contact +bore pin-surface: hard contact, frictionless, \d+ points, initial gap 0.01",
+        r"  load +weight core \(0, -1000\)",
+        r"  note +pin\+core: rotation changes no gap and carries no load: it is set to 0",
+        r"    resultant force +\(0, -1000\) N/mm  exact by equilibrium",
+        r"    greatest pressure +[\d.]+ ± [\d.]+ +MPa +\([\d.]+ %\) +at \(-?[\d.]+, -10\.\d+\)",
+        r"  clamp frame carries +\(0, 1000\) N/mm",
+    ):
+        assert re.search(f"^{line}$", said, re.M), line
+    assert not re.search(r"e-(0[7-9]|[1-9]\d)", said.split("Results")[1])
+
+
+def test_verbose(tmp_path):
+    """-verbose 1 adds statistics, shares of the error and all flags, and changes no number."""
+    flags = ["-method", "paper", "-h", 1]
+    short, long = (run_in(ROOT, script("disc-on-block"), *flags, "-verbose", k, out=tmp_path / str(k)) for k in (0, 1))
+    assert "Details" not in short.stdout and "backsolves" not in short.stdout
+    assert re.search(r"^  errors +as force: inside the bodies [\d.e-]+, on the contact line", long.stdout, re.M)
+    assert f"back-substitutions {long.backsolves}," in long.stdout and "adapt" not in long.stdout
+    listed = set(re.findall(r"  -(\S+) ", long.stdout.split("\nFlags\n")[1]))
+    assert listed == set(long.summary["parameters"])
+    left_out = {"date", "costRatio", "seconds", "parameters", "given", "estimates"}
+    assert {k: v for k, v in short.summary.items() if k not in left_out} == {
+        k: v for k, v in long.summary.items() if k not in left_out
+    }
+    models = [line.split()[-1] for line in short.stdout.splitlines() if re.search(r"   model \d+$", line)]
+    assert models == [str(k) for k in range(2, short.adaptations + 1)]
+
+
+# ---------------------------------------------------------------- what is no result
+
+
+@pytest.mark.parametrize("flags, gap, least", [((), 0.4, 0.25), (("-law", "signorini", "-d0", 0), 0.4, 0.5)])
+def test_no_contact(flags, gap, least):
+    """Where nothing touches a scene says so: the gap that is left, and the approach that closes it."""
+    done = run("disc-on-block", "-h", 2, "-u0", 0.1, *flags)
+    (text,) = done.warnings
+    assert text.startswith(f"no contact: the surfaces are {gap} apart") and text.endswith(
+        f"increase -u0 beyond {least}"
+    )
+    assert ("0.15 more than the asperity layer (d0 = -0.25)" in text) == (not flags)
+    assert f"warning: {text}" in done.stdout and "greatest pressure" not in done.stdout
+    assert run("disc-on-block", "-h", 2, "-u0", 1.02 * least, *flags).force > 0
+
+
+def test_not_converged():
+    """Without convergence: the cause with its knob, the residual, and nothing that looks like a result."""
+    done = run("disc-on-block", "-h", 2, "-maxNewton", 1, expect=20)
+    after = done.stdout.split("NOT CONVERGED: ")[1]
+    assert after.splitlines()[0] == done.message and "raise -maxNewton" in done.message
+    assert re.search(r"^  residual \S+ \(tolerance 1e-06\) after 1 iteration, .*; there are no results$", after, re.M)
+    assert not re.search("Results|contact force|greatest|plot|no warnings|±", after)
+
+
+def test_accuracy_not_reached():
+    """The headline says it, with the error and what was wanted as relative numbers."""
+    done = run("disc-on-block", "-h", 2, "-accuracy", 1e-8, "-unknowns", 3000, expect=21)
+    head = next(line for line in done.stdout.splitlines() if line.startswith("ACCURACY"))
+    assert re.match(
+        r"ACCURACY NOT REACHED: estimated relative error of the force \S+, wanted 1e-08: .*raise -unknowns", head
+    )
+    assert not re.search("^converged", done.stdout, re.M)
+    assert re.search(
+        r"^  mesh 1: \d+ unknowns, estimated relative error of the force \S+ \(wanted 1e-08\), ", done.stdout, re.M
+    )
+
+
+# ---------------------------------------------------------------- edp/report/screen.awk
+
+
+def test_numbers(tmp_path):
+    """Values have the decimals of their errors; large, small and signed ones; what is not known."""
+    for value, error, shown in (
+        (150.04036, 0.05509, "150.040 ± 0.055    (0.037 %)"),
+        (-83.4478, 0.3, "-83.45 ± 0.30     (0.36 %)"),
+        (1152.95, 740, "1150 ± 740      (64 %)"),
+        (902.06, 7.9, "902.1 ± 7.9      (0.88 %)"),
+        (0.0063209, 6.1e-06, "0.0063209 ± 6.1e-06  (0.097 %)"),
+        (3.1e-7, 2e-9, "3.1e-07 ± 2e-09    (0.65 %)"),
+        (9.9996, 0.0995, "10.000 ± 0.100    (1 %)"),
+        (0.01, 20.0, "0 ± 20       (more than 1000 %)"),
+    ):
+        estimates = {"force": {"value": value, "error": error}, "pressureMax": None, "parts": {"inside": 1}}
+        said = screen(tmp_path / "run", {**SUMMARY, "force": value, "estimates": estimates, "notEstimated": ""})
+        (line,) = (line for line in said.splitlines() if line.startswith("  contact force"))
+        assert line.removeprefix("  contact force").strip() == shown
+        assert re.search("greatest pressure +22.5571 error not known$", said, re.M)
+    said = screen(tmp_path / "run", SUMMARY, rows="\n  a row", plot="draw it")
+    assert (
+        "Results (no error estimate: -estimate 0)" in said and "\n  a row\n" in said and "  plot      draw it" in said
+    )
+
+
+def test_creepage(tmp_path):
+    """Rolling prints its creepage, friction its energies and two errors."""
+    contact = {
+        "name": "", "force": [0.016, -0.086], "contactPoints": 41, "points": 81, "shearForce": [0.0155, 1e-19],
+        "stickShare": 0.623, "dissipated": 1.2e-05, "mesh": {"shearForce": {"error": 1e-6}, "dissipatedLastStep": None},
+        "loadSteps": {"shearForce": {"error": 2e-5}, "dissipated": {"error": 3e-7}},
+    }  # fmt: skip
+    rolled = {"friction": 0.3, "work": 3, "stored": 2, "dissipated": 1, "creepage": 0.00217183, "dragged": None}
+    said = screen(tmp_path / "run", {**SUMMARY, **rolled, "contacts": [contact], "loadStepsError": "not known: why"})
+    assert re.search("^  creepage +0.00217183 of the length rolled$", said, re.M)
+    assert "0.015500 ± 1e-06 (mesh) ± 2e-05 (load steps)  on the slave (0.0155, 0)" in said
+    assert "work of the loads 3 = stored 2 + dissipated 1" in said and "error of the load steps not known: why" in said
+
+
+# ---------------------------------------------------------------- meshes
+
+
+def test_plane_mesh_in_space(tmp_path):
+    """A plane geometry, a plane mesh file, and both checked only: parts-3d.edp names the script for them."""
+    code, _ = execute(
+        ["gmsh", "-2", "-v", 0, "-format", "msh22", f"{PIN}.geo", "-setnumber", "size", 2, "-o", tmp_path / "a.msh"]
+    )
+    assert code == 0
+    for mesh, flags in ((f"{PIN}.geo", []), (tmp_path / "a.msh", []), (f"{PIN}.geo", ["-check", 1])):
+        words = ["-mesh", mesh, "-case", f"{PIN}.case", *flags]
+        said = run_in(ROOT, "edp/parts-3d.edp", *words, out=tmp_path / "out", expect=10).stdout
+        assert "the mesh is plane, it has no volumes: use edp/parts.edp" in said and said.count("\n") == 1
+
+
+def test_gmsh_at_work(tmp_path):
+    """After five seconds of gmsh the run says what is meshed, and how many elements are expected; not before."""
+    (tmp_path / "bin").mkdir()
+    for name, text in (("sleep", "command -p sleep 0.02"), ("gmsh", "command -p sleep $GMSH")):
+        (tmp_path / "bin" / name).write_text(f"#!/bin/sh\n{text}\n")
+        (tmp_path / "bin" / name).chmod(0o755)
+    (tmp_path / "a.geo").write_text("")
+    for seconds, expected, said in (
+        (0.6, "87000", "gmsh meshes a.geo: about 87000 elements expected ...\n"),
+        (0.6, "", "gmsh meshes a.geo ...\n"),
+        (0.6, "-", ""),
+        (0, "87000", ""),
+    ):
+        env = {**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}", "GMSH": str(seconds)}
+        words = [
+            "sh",
+            ROOT / "edp/bodies/mesh.sh",
+            str(os.getpid()),
+            tmp_path / "a.msh",
+            tmp_path / "a.geo",
+            expected,
+            "-2",
+        ]
+        done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stdout) == (5, said)
+
+
+@pytest.mark.parametrize("scene, flags", [("sphere-on-block", ["-h", 0.02]), ("disc-on-block", ["-h", 0.0001])])
+def test_refused_before_it_is_meshed(scene, flags, tmp_path):
+    """What cannot fit into any memory is refused before gmsh begins."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/gmsh").write_text(f"#!/bin/sh\n: > {tmp_path}/begun\n")
+    (tmp_path / "bin/gmsh").chmod(0o755)
+    env = {**environment(), "PATH": f"{tmp_path}/bin:{os.environ['PATH']}"}
+    done = run_in(ROOT, script(scene), *flags, out=tmp_path / "out", expect=10, env=env)
+    assert not (tmp_path / "begun").exists()
+    assert "unknowns take" in done.stdout and "allowed: up to" in done.stdout and done.stdout.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "scene, flags", [("disc-on-block", ["-h", 0.25, "-order", 1]), ("sphere-on-block", ["-h", 1, "-order", 1])]
+)
+def test_expected_elements(scene, flags, tmp_path):
+    """The elements expected of a mesh are those that gmsh makes, to a third."""
+    text = (ROOT / script(scene)).read_text()
+    line = 'include "solve/solve.idp"'
+    assert line in text
+    (tmp_path / "own.edp").write_text(
+        text.replace(line, 'cout << "told " << gmshExpected << " " << Th.nt << endl; exit(0);\n' + line)
+    )
+    for name in ("edp", "meshes", "freefem++.pref", "build"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    code, said = execute([*FREEFEM, "own.edp", *map(str, flags), "-out", tmp_path / "out"], tmp_path, environment())
+    expected, made = map(float, re.search(r"^told (\S+) (\S+)", said, re.M).groups())
+    assert abs(expected / made - 1) < 1 / 3, (code, expected, made)
+
+
+# ---------------------------------------------------------------- -help
+
+
+def test_help_by_topics():
+    """Each flag of each scene stands under a topic, or is the scene's own; columns are aligned; units are explained."""
+    of_scenes = {
+        flag
+        for path in (ROOT / "edp/scenes").glob("*.edp")
+        for flag in re.findall(r'Flag\("(-[\w-]+)"', path.read_text())
+    }
+    for name in (
+        "main.edp",
+        "parts.edp",
+        "scenes/sphere-on-block.edp",
+        "scenes/adhesive-sphere.edp",
+        "scenes/fretting-3d.edp",
+    ):
+        said = execute([*FREEFEM, ROOT / "edp" / name, "-help", "all"], ROOT)[1]
+        head = next(line for line in said.splitlines() if line.startswith("flag "))
+        topics = re.findall(r"\n\n([A-Z][\w ]+)\n(?=-)", said)
+        assert len(topics) == len(set(topics)) >= 6
+        own = re.search(r"\nThis scene\n((?:-.*\n)*)", said)
+        assert set(re.findall(r"^-[\w-]+", own[1] if own else "", re.M)) <= of_scenes
+        for line in said.splitlines():
+            if line.startswith("-") and len(line.split()[1]) < 16:
+                assert line[head.index("default")] != " " and line[head.index("default") - 1] == " ", line
+                assert line[head.index("meaning")] != " " and line[head.index("meaning") - 1] == " ", line
+        assert "Units are yours, consistent: lengths in one unit" in said
+    assert told("main.edp")["-kappa"] == told("main.edp", "-method", "newton")["-kappa"] and len(scripts()) > 20
