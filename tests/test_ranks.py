@@ -40,9 +40,12 @@ CASES = {
     "spheres exact": ["two-spheres", "-h", 0.5, "-layers", 2, "-order", 1, "-distance", "exact"],
     "plane": ["sphere-on-plane", "-h", 0.4, "-layers", 2, "-order", 2],
     "friction": ["fretting-3d", "-h", 1.2, "-layers", 2, "-order", 1],
+    "halved": ["sphere-on-block", "-h", 2.4, "-layers", 1, "-order", 1, "-refine", 1],
+    "halved P2": ["sphere-on-block", "-h", 4, "-layers", 1, "-order", 2, "-refine", 1, "-bodyForce", 0.1],
+    "halved twice": ["sphere-on-block", "-h", 4, "-layers", 1, "-order", 1, "-refine", 2, "-patch", 6],
     "series": ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-history", 1, "-steps", 3],
 }
-QUICK = {("loads", 3)}
+QUICK = {("loads", 3), ("halved", 2)}
 RUNS = [
     pytest.param(name, ranks, marks=[] if (name, ranks) in QUICK else [pytest.mark.long])
     for name in CASES
@@ -94,6 +97,58 @@ def test_same_answer(name, ranks, tmp_path):
     surfaces = [read_surface(tmp_path / each / "contact.vtu") for each in ("one", "many")]
     assert np.array_equal(surfaces[0].points, surfaces[1].points)
     assert np.array_equal(surfaces[0].cells, surfaces[1].cells)
+
+
+@built
+def test_halved_edges(tmp_path):
+    """Eight tetrahedra for one: volume and labels are kept, and the force is that of a gmsh mesh of half the size."""
+    times = 1
+    scene = ["sphere-on-block", "-order", 1, "-estimate", 0]
+    fine, _ = solved(1, tmp_path / "halved", *scene, "-h", 1.2 * 2**times, "-layers", 2 - times, "-refine", times)
+    code, output = on_ranks(
+        1,
+        script(scene[0]),
+        *scene[1:],
+        "-solver",
+        "direct",
+        "-h",
+        1.2 * 2**times,
+        "-layers",
+        2 - times,
+        "-refine",
+        times,
+        "-tol",
+        1e-9,
+        "-out",
+        tmp_path / "direct",
+    )
+    assert code == 0, output
+    direct = json.loads((tmp_path / "direct" / "summary.json").read_text())
+    coarse, _ = solved(1, tmp_path / "gmsh", *scene, "-h", 1.2, "-layers", 2)
+    assert fine["force"] == pytest.approx(direct["force"], rel=1e-9)
+    assert fine["points"] == coarse["points"]
+    assert fine["force"] == pytest.approx(coarse["force"], rel=0.03)
+    grids = [read_grid(tmp_path / each / "solution.vtu") for each in ("halved", "gmsh")]
+    volumes = [np.linalg.det(np.diff(grid.points[grid.cells], axis=1)) / 6 for grid in grids]
+    assert volumes[0].min() > 0
+    assert volumes[0].sum() == pytest.approx(volumes[1].sum(), rel=1e-12)
+    assert len(grids[0].skin) == len(grids[0].surface)
+    assert (np.bincount(grids[0].label) > 0).tolist() == (np.bincount(grids[1].label) > 0).tolist()
+
+
+@built
+@pytest.mark.parametrize(
+    "scene, flags, words",
+    [
+        ("two-spheres", [], "not for this mesh"),
+        ("patch-test-3d", [], "not for this mesh"),
+        ("sphere-on-block", ["-accuracy", 0.1], "not with -accuracy"),
+    ],
+)
+def test_edges_that_are_not_halved(scene, flags, words, tmp_path):
+    code, output = on_ranks(1, script(scene), "-order", 1, "-refine", 1, *flags, "-out", tmp_path / "out")
+    assert code == 10 and words in said(output)[0] and len(said(output)) == 1, output
+    assert not (tmp_path / "out").exists()
 
 
 @built

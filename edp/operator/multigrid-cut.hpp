@@ -2,7 +2,7 @@
 // A part has the tetrahedra that touch a vertex of the rank, so that its rows are complete, and those on the surfaces in contact, which
 // every rank has. These come first, in the same order on all ranks, so that what is computed on the surfaces is the same everywhere, to
 // the last digit. Rank 0 reads the file and sends each rank its part. Included by multigrid-part.hpp alone.
-// firstVertex, vertexNumber, partElements; multigridMesh(mesh, file, scale, surfaces): the part as a mesh.
+// firstVertex, vertexNumber, partElements; multigridMesh(mesh, file, scale, surfaces, halved): the part as a mesh.
 #include "multigrid-nodes.hpp"
 #include <cstdio>
 #include <cstring>
@@ -266,9 +266,11 @@ Mesh3 * meshOf(Part & part)
     return made;
 }
 
-long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & scale, KN<long> * const & surfaces)
-// This rank's part of the mesh in the file, which rank 0 reads; surfaces: the labels that every rank has. Returns the vertices of all
-// ranks, 0 if the file cannot be read, less than 0 if there are too few for the ranks.
+void refine(Part & part, const std::set<int> & labels);   // multigrid-refine.hpp
+
+long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & scale, KN<long> * const & surfaces, const long & halved)
+// This rank's part of the mesh in the file, which rank 0 reads, with its edges halved so often; surfaces: the labels that every rank has.
+// Returns the vertices of the file, 0 if it cannot be read, less than 0 if they are too few for the ranks.
 {
     startPetsc();
     keepMemory();
@@ -302,6 +304,8 @@ long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & 
         }
     }
     std::vector<int>().swap(ownerOf);
+    for (long k = 0; k < halved; k++) refine(part, labels);
+    if (ranks == 1) firstVertex.clear();
     vertexNumber = part.number;
     partElements = part.tetrahedra.size() / 5;
     for (double & x : part.at) x *= scale;

@@ -1,6 +1,6 @@
 // multigrid-part.hpp: PETSc's numbers of the nodes of a rank's mesh, and what ranks tell each other
 // The owner of a vertex is known from the cut; the owner of an edge is that of its end with the smaller number. Included by
-// multigrid-matrix.hpp alone.
+// multigrid-refine.hpp alone.
 // multigridParts(space, own): the numbers, of a part by its vertices, of a whole mesh by the cut of multigrid-nodes.hpp;
 // multigridOwned(space, nodes, elements): 1 at own ones; multigridNumbers(nodes); collect(vector, field); multigridGhosts(field): values
 // of nodes of others from their owners; rankSums(values), rankMost(value): over all ranks, the same on all.

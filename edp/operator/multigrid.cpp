@@ -243,7 +243,7 @@ void start()
     Global.Add("rankNow", "(", new OneOperator0<long>(rankNow));
     Global.Add("meetRanks", "(", new OneOperator0<long>(meetRanks));
     Global.Add("firstRankSays", "(", new OneOperator1_<long, long>(firstRankSays));
-    Global.Add("multigridMesh", "(", new OneOperator4_<long, pmesh3 *, string *, double, KN<long> *>(multigridMesh));
+    Global.Add("multigridMesh", "(", new OneOperator5_<long, pmesh3 *, string *, double, KN<long> *, long>(multigridMesh));
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
     Global.Add("multigridOwned", "(", new OneOperator3_<long, pfes3 *, KN<double> *, KN<double> *>(multigridOwned));
     Global.Add("multigridNumbers", "(", new OneOperator1_<long, KN<double> *>(multigridNumbers));
