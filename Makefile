@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage conditioning models mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage verification conditioning models mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -382,6 +382,7 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 
 bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and a part by CalculiX, into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
+	@$(PYTHON) tests/campaigns/peers_condensed.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
 	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space; \
 	else echo 'a part in space beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
@@ -406,6 +407,9 @@ models: $(VENV)/run.stamp | system ## walls, tangents, plain Newton and xnewton 
 
 mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)
+
+verification: $(VENV)/dev.stamp | system ## solve published benchmarks, and write their numbers into tests/VERIFICATION.md
+	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/campaigns/verification.py
 
 tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tests/RESULTS.md and tests/COST.md
 	@PYTHONPATH=tests $(PYTHON) tests/campaigns/tables.py $(if $(PARTIAL),--partial)
@@ -436,14 +440,14 @@ site: $(VENV)/dev.stamp ## all pages as a site to search, without the labs' answ
 	@PYTHONPATH=. $(PYTHON) tests/documents.py $(if $(TEACHER),--answers) --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
-N       ?= $(filter 0 1 2 3 4 5 6 7 8 9 10,$(MAKECMDGOALS))
+N       ?= $(filter 0 1 2 3 4 5 6 7 8 9 10 11,$(MAKECMDGOALS))
 ANSWERS ?= answers.csv
 check-lab: $(VENV)/run.stamp ## check a student's answers: make check-lab 2 ANSWERS=answers.csv, make check-lab 4 ANSWERS=mylaw.idp
 	@$(PYTHON) -m postprocess check_lab $(or $(N),none) '$(ANSWERS)'
 
 ifneq ($(filter check-lab,$(MAKECMDGOALS)),)
-.PHONY: 0 1 2 3 4 5 6 7 8 9 10
-0 1 2 3 4 5 6 7 8 9 10:
+.PHONY: 0 1 2 3 4 5 6 7 8 9 10 11
+0 1 2 3 4 5 6 7 8 9 10 11:
 	@:
 endif
 

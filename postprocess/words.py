@@ -54,6 +54,8 @@ def script(scene: str, method: str = "") -> str:
     """The file of a scene, relative to the repository's root."""
     if scene == "disc-on-block":
         return "edp/scenes/disc-on-block-ipopt.edp" if method == "ipopt" else "edp/main.edp"
+    if scene in ("parts", "parts-3d"):
+        return f"edp/{scene}.edp"
     if scene.startswith(LABS):
         return f"edp/{scene}/{scene.partition('-')[2]}.edp"
     return f"edp/scenes/{scene}.edp"

@@ -15,7 +15,7 @@ CONTROLS = """(() => {
   const all = 'a[href], button, input, select, textarea, summary, [tabindex="0"]';
   const groups = new Set(), first = each => each.type != 'radio' || !groups.has(each.form) && groups.add(each.form);
   return [...document.querySelectorAll(all)].filter(each => each.checkVisibility({visibilityProperty: true})
-    && !each.disabled && each.tabIndex >= 0 && !each.closest('[hidden]') && first(each));
+    && !each.disabled && !each.closest('[hidden]') && first(each));
 })()"""
 LOOK = "(s => [s.outlineStyle, s.outlineWidth, s.outlineColor, s.boxShadow, s.borderColor, s.backgroundColor].join())"
 
@@ -52,11 +52,11 @@ def walked(page):
     return page.evaluate(f"controls.filter(each => !reached.has(each)).map({words})"), page.evaluate("unseen")
 
 
-def too_wide(page):
-    """What makes the page wider than its window, if it is."""
+def too_wide(page, width):
+    """What makes the page wider than its window, if it is; a phone's own width grows with its content."""
     return page.evaluate(
-        "document.documentElement.scrollWidth <= innerWidth ? [] : [...document.querySelectorAll('body *')]"
-        ".filter(each => each.getBoundingClientRect().right > innerWidth + 1).map(each => each.outerHTML.slice(0, 120))"
+        f"document.documentElement.scrollWidth <= {width} ? [] : [...document.querySelectorAll('body *')]"
+        f".filter(each => each.getBoundingClientRect().right > {width} + 1).map(each => each.outerHTML.slice(0, 120))"
     )
 
 
@@ -67,6 +67,6 @@ def wrong(browser, path, prepare="0"):
         page = browser.open(path, width, height)
         page.evaluate(prepare)
         found += [f"{width}: {fault}" for fault in faults(page)]
-        found += [f"{width}: too wide: {piece}" for piece in too_wide(page)]
+        found += [f"{width}: too wide: {piece}" for piece in too_wide(page, width)]
         page.call("Page.close")
     return found

@@ -46,7 +46,7 @@ CHAPTERS = {
         *(f"edp/theory/{name}.md" for name in THEORY),
         *("edp/PAPER.md", "edp/PAPER.md#"),
     ],
-    "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/COST.md", "tests/COST.md#"],
+    "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/VERIFICATION.md", "tests/COST.md", "tests/COST.md#"],
     "Code": ["edp/README.md", "edp/README.md#", "CONTRIBUTING.md", "tests/data/README.md", "CHANGELOG.md"],
 }
 ANSWERS = ["edp/labs/*/ANSWERS.md"]  # only with --answers, reached by links

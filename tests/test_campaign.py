@@ -10,12 +10,14 @@ import conditioning
 import coverage
 import models
 import peers
+import peers_condensed
 import pictures
 import pytest
 import reference
 import stability
 import tables
 from campaign import value
+from freefem import short_of
 from text_boxes import faults
 
 from postprocess import figures, style
@@ -36,11 +38,14 @@ def test_references():
 
 
 PLANE = peers.PEER, "-order 4 -h 1", 5e-6
+HALF = peers_condensed.CONDENSED, "-order 4 -half 1", 5e-6
+WHOLE = peers_condensed.CONDENSED, "-order 5 -corners 5", 5e-6
 
 
-@pytest.mark.parametrize(
-    "script, flags, off", [PLANE, pytest.param(peers.BODIES, "-h 0.4", 2e-4, marks=pytest.mark.long)]
-)
+LONGER = (peers.BODIES, "-h 0.4", 2e-4), WHOLE
+
+
+@pytest.mark.parametrize("script, flags, off", short_of([PLANE, HALF], LONGER))
 def test_peer(tmp_path, script, flags, off):
     """The other code shall give the references' forces; where it is not installed, say in a line how to get it."""
     python = peers.PYTHON if peers.PYTHON.exists() else sys.executable
@@ -92,6 +97,7 @@ def campaigns(tmp_path_factory):
     folder = tmp_path_factory.mktemp("campaigns")
     lists = {f"bench/{name}": (cases(campaign.ROOT), columns) for name, (cases, columns, *_) in bench.PARTS.items()}
     lists["bench/peers"] = peers.cases(), peers.COLUMNS
+    lists["bench/condensed"] = peers_condensed.cases(), peers.COLUMNS
     lists["coverage/coverage"] = coverage.cases(), coverage.COLUMNS
     lists["coverage/space"] = coverage.cases_in_space(), coverage.COLUMNS
     lists["stability/stability"] = stability.cases(), stability.COLUMNS
@@ -176,7 +182,7 @@ COUNTS = {  # models / steps of kappa = 1e3, m = 3 and of 1e9, 20, at h = 1
 
 
 def test_a_few_models(tmp_path):
-    """Walls, tangents, plain Newton, xnewton: solved in these models and steps, to one force, no bound below the error."""
+    """Walls, tangents, plain Newton, xnewton: solved in these counts, to one force, no bound below the error."""
     rows = models.run(tmp_path / "few.csv", models.few(), jobs=2)
     assert models.faults(rows) == []
     found = {name: [f"{row['models']} / {row['newton']}" for row in rows if row["name"] == name] for name in COUNTS}

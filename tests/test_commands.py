@@ -23,6 +23,7 @@ RUN_BY = {
     "edp/tutorial/*.md": "test_tutorials.py::test_commands",
     "edp/ERRORS.md": "test_tutorials.py::test_commands",
     "tests/RESULTS.md": "test_readme.py::test_freefem_commands",
+    "tests/VERIFICATION.md": "test_verification.py::test_case",
     "template/README.md": "test_commands.py::test_what_is_begun",
 }
 HOWTO = {path.stem: path for path in sorted((ROOT / "edp/howto").glob("*.md")) if fences(path.read_text(), "sh")}

@@ -7,6 +7,7 @@ import re
 import shlex
 import shutil
 
+import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, environment, execute, listing, run, run_in, script, short_of, tree
 from page_numbers import agrees, printed
@@ -21,8 +22,8 @@ FOLDERS = sorted(
 )
 LABS = [folder.name for folder in FOLDERS]
 INDEX = (ROOT / "edp/labs/README.md").read_text()
-OWN_LAW, PAGE, OWN_PART = "4-own-law", "0-algorithm", "9-own-part"
-SCENES = [lab for lab in LABS if lab not in (PAGE, OWN_PART)]  # that are another scene with other defaults
+OWN_LAW, PAGE, OWN_PART, MODELS = "4-own-law", "0-algorithm", "9-own-part", "11-lennard-jones"
+SCENES = [lab for lab in LABS if lab not in (PAGE, OWN_PART, MODELS)]  # that are another scene with other defaults
 BARE = {"PATH": "/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1"}  # nothing else in the environment
 
 
@@ -105,7 +106,7 @@ def test_no_run_replaces_another(lab):
     folders = [
         (re.search(r"-out (\S+)", line) or re.search(r"-method (\S+)", line) or ["", "default"])[1]
         for line in runs
-        if "algorithm1.edp" not in line
+        if "algorithm1.edp" not in line and "models.edp" not in line  # which write nothing
     ]
     assert len(folders) == len(set(folders))
 
@@ -291,6 +292,55 @@ def test_the_page_against_the_package(plain):
     assert printed(stdout, "greatest pressure") == pytest.approx(same.pressureMax, rel=1e-9)
 
 
+ADHESIVE = {quoted(row[0])[0]: row[1:] for row in next(tables(answers(MODELS)))[1]}  # lab 11: flags, what it prints
+BRIEF = [flags for flags in ADHESIVE if flags in ("-u0 0 -model wall", "-u0 0")]
+
+
+def adhesive(*flags, code=0):
+    """Output of lab 11's page, which needs nothing of the package."""
+    found, stdout = execute([*FREEFEM, lab_script(MODELS), *map(str, flags)], ROOT, environment())
+    assert found == code, stdout
+    return stdout
+
+
+@pytest.mark.parametrize("flags", short_of(BRIEF, ADHESIVE))
+def test_models_of_an_adhesive_law(flags):
+    """Lab 11's page shall give the models, steps, forces and energies of the answers, in stable states."""
+    stdout = adhesive(*flags.split())
+    for label, cell in zip(("models", "Newton steps", "force", "energy"), ADHESIVE[flags], strict=True):
+        assert agrees(printed(stdout, label), cell), label
+    assert ", stable" in stdout
+
+
+@pytest.mark.parametrize(
+    "flags",
+    short_of(["-model newton", "-u0 -1 -model newton"], ["-w 0.003108162 -model wall", "-u0 -1.68 -from 0 -steps 5"]),
+)
+def test_where_no_state_is_found(flags):
+    """Where the answers say that a way fails, it shall say so, with exit code 20."""
+    assert adhesive(*flags.split(), code=20).startswith("NO STATE: ")
+
+
+def test_one_approach_has_two_states():
+    """From afar and from contact lab 11's page shall find two stable states, those of the package's path."""
+    afar, touching = adhesive("-u0", -1.68), adhesive("-u0", -1.68, "-from", -1.5, "-steps", 4)
+    forces = [printed(stdout, "force") for stdout in (afar, touching)]
+    assert forces[0] > -0.6 and forces[1] < -1.2 and ", stable" in afar and ", stable" in touching
+    unit = np.pi * 0.0010989011 * 10
+    flags = ["-path", "-0.0031 -0.00168", "-steps", 3, "-estimate", 0, "-order", 1]
+    near = run("adhesive-sphere", *flags).force / unit
+    assert near == pytest.approx(forces[0], rel=0.03)
+    flags[1] = "-0.0031 0 -0.00168"
+    assert run("adhesive-sphere", *flags).force / unit == pytest.approx(forces[1], rel=0.03)
+
+
+@pytest.mark.parametrize("u0", [1, pytest.param(-2, marks=pytest.mark.long)])
+def test_the_adhesive_page_against_the_package(u0):
+    """Lab 11's page, on a mesh of its own, shall have the force of the package's stable step."""
+    force = run("adhesive-sphere", "-u0", u0 * 1e-3, "-estimate", 0).force / (np.pi * 0.0010989011 * 10)
+    assert printed(adhesive("-u0", u0), "force") == pytest.approx(force, rel=0.02)
+
+
 # ---------------------------------------------------------------- what a lab says
 
 
@@ -352,7 +402,7 @@ def test_a_law_is_checked(function, change, check, steps, coating, tmp_path):
         if isinstance(expected, str):  # a wrong pressure
             assert agrees(printed(stdout, "relative difference"), expected) and expected in answers(OWN_LAW)
         elif expected:
-            assert printed(stdout, "Newton steps") == expected
+            assert printed(stdout, "converged in") == expected
             assert printed(stdout, "confined block: pressure") == 14.3811
 
 

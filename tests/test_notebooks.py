@@ -5,10 +5,12 @@ import io
 import json
 import os
 import re
+import sys
+import types
 from pathlib import Path
 
 import pytest
-from freefem import ROOT, short_of
+from freefem import ROOT
 from test_labs import LABS, answers, package_in, readme
 from test_readme import fences, section
 
@@ -88,7 +90,30 @@ def test_answers_of_a_notebook(books, tmp_path):
             assert all(well for well, _ in found) == (before == ""), (lab, found)
 
 
-@pytest.mark.parametrize("lab", short_of(["4-own-law"], LABS))
+def test_first_cell(books, tmp_path, monkeypatch, capsys):
+    """`shell` shall run in the package, show the pictures that are new, and stop at an exit code that is an error."""
+    shown = []
+    display = types.SimpleNamespace(Image=lambda path, width: path, display=shown.append)
+    monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    for name in ("edp/main.edp", "results/old.png", "results/notebooks/lab.ipynb"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("")
+    monkeypatch.chdir(tmp_path / "results/notebooks")
+    names = {}
+    exec(codes(books["2-newton"])[0], names)
+    assert names["script"] == "edp/labs/2-newton/newton.edp"
+    names["shell"]("echo done; touch results/new.png; exit 20")
+    names["shell"](".venv/bin/python -c 'print(6 * 7)'")
+    assert [path.as_posix() for path in shown] == ["results/new.png"]
+    assert capsys.readouterr().out == "done\nresults/new.png\n42\n"
+    with pytest.raises(RuntimeError, match="code 10"):
+        names["shell"]("exit 10")
+
+
+@pytest.mark.parametrize("lab", LABS)
+@pytest.mark.long
 def test_runs(lab, tmp_path):
     """A notebook shall run in a folder of the package: no error, and its commands' pictures in it."""
     nbformat, nbclient = (pytest.importorskip(name) for name in ("nbformat", "nbclient"))

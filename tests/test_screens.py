@@ -86,6 +86,21 @@ def test_screen_of_an_own_part(tmp_path):
     assert not re.search(r"e-(0[7-9]|[1-9]\d)", said.split("Results")[1])
 
 
+def test_gaps_without_rounding(tmp_path):
+    """Surfaces that touch at rest have the gap 0, not one of rounding."""
+    hip = EXAMPLES / "hip-joint/hip-joint"
+    words = ["-mesh", f"{hip}.geo", "-case", f"{hip}.case", "-set", "size", 0.4, "-check", 1]
+    said = run_in(ROOT, "edp/parts.edp", *words, out=tmp_path / "out").stdout
+    assert re.search(r"^  contact +socket ball: .*, initial gap 0 to 0\.0\d+$", said, re.M), said
+
+
+def test_rolling():
+    """The scene of rolling prints its creepage."""
+    done = run("rolling", "-h", 0.05)
+    (line,) = re.findall("^  creepage +(.*) of the length rolled$", done.stdout, re.M)
+    assert float(line) == pytest.approx(done.creepage, rel=1e-5)
+
+
 def test_verbose(tmp_path):
     """-verbose 1 adds statistics, shares of the error and all flags, and changes no number."""
     flags = ["-method", "paper", "-h", 1]

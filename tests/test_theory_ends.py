@@ -198,6 +198,64 @@ def test_walls_on_a_law_that_falls():
     assert 3 <= max(counts) < 10
 
 
+def adhesive_energy(S, free, s):
+    """1/2 (free - s) S (free - s) plus the potential of Lennard-Jones, w = 1; its gradient and Hessian."""
+    x = free - s
+    value = x @ S @ x / 2 + np.sum((-s) ** -9.0 / 9 - (-s) ** -3.0 / 3)
+    force = S @ (s - free) + s**-10.0 - s**-4.0
+    return value, force, S + np.diag(-10 * s**-11.0 + 4 * s**-5.0)
+
+
+def descended(S, free, tau, s):
+    """Overlaps s <= tau without descent left, from an admissible s: Newton's steps on a Hessian made positive."""
+    for _ in range(500):
+        value, slope, H = adhesive_energy(S, free, s)
+        moves = ~((s >= tau) & (slope < 0))
+        if np.abs(slope[moves]).max(initial=0.0) < 1e-10 * (1 + np.abs(S @ (free - s)).max()):
+            return s
+        roots, axes = np.linalg.eigh(H[np.ix_(moves, moves)])
+        step, t = np.zeros_like(s), 1.0
+        step[moves] = -axes @ ((axes.T @ slope[moves]) / np.maximum(np.abs(roots), 1e-8))
+        while t > 1e-14:
+            new = np.minimum(s + t * step, tau)
+            if adhesive_energy(S, free, new)[0] < value + 1e-4 * slope @ (new - s):
+                break
+            t /= 2
+        if t <= 1e-14:
+            return s
+        s = new
+    return s
+
+
+@pytest.mark.parametrize("softness", [1.0, 3.0])
+def test_sequences_on_a_law_that_attracts(softness):
+    """Thresholds shall rise and energies fall to a state of the law, also where bodies are softer than the attraction.
+
+    From afar and from contact the law has different states in some of them.
+    """
+    rng, others = np.random.default_rng(6), 0
+    for _ in range(30):
+        S, free, tau = spd(rng, 3) / softness, rng.uniform(-2.5, 1, 3), np.full(3, -1.0)
+        s, energies, models, ended = np.minimum(free, tau), [], 0, False
+        while not ended:
+            models += 1
+            s = descended(S, free, tau, s)
+            energies.append(adhesive_energy(S, free, s)[0])
+            p = S @ (free - s)
+            share, at = p - (s**-10.0 - s**-4.0), s >= tau
+            scale = 1e-7 * (1 + np.abs(p).max())
+            assert np.all(np.abs(share[~at]) < scale) and np.all(share[at] > -scale), "no equilibrium"
+            eq_6 = [crossing(lambda x, wanted=wanted: lennard_jones(x) - wanted, -1.0, 0.0) for wanted in p]
+            new = np.where(at & (share > 1e-9), eq_6, tau)
+            assert np.all(new >= tau) and np.all(new < 0) and models < 40
+            ended, tau = np.max((new - tau) / np.abs(new)) < 1e-9, new
+        assert np.all(np.diff(energies) <= 1e-12 * (1 + abs(energies[0])))
+        assert np.abs(share).max() < 1e-6 * (1 + np.abs(p).max()), "not on the law"
+        afar, touching = (descended(S, free, np.full(3, -1e-3), np.full(3, start)) for start in (-5.0, -1.0))
+        others += int(np.abs(afar - touching).max() > 1e-3)
+    assert others >= (4 if softness > 1 else 1)
+
+
 # ---------------------------------------------------------------- the error of a model
 
 

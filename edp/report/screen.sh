@@ -3,4 +3,4 @@
 #        PLOT, the command that draws the results, or nothing. RUN, the number of the run's process, is not used.
 # Gives: the lines of report/screen.awk on standard output.
 # Exit code: that of awk.
-FOLDER=$2 ROWS=$3 PLOT=$4 LC_ALL=C awk -f "${programs:-${0%/*}/..}/report/json.awk" -f "${programs:-${0%/*}/..}/report/screen.awk" "$2summary.json"
+FOLDER=$2 ROWS=$3 PLOT=$4 LC_ALL=C awk -f "${programs:-${0%/*}/..}/report/json.awk" -f "${programs:-${0%/*}/..}/report/screen.awk" < "$2summary.json"

@@ -22,5 +22,6 @@ PANELS = {
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """A panel a method: the most steps of three loads and two meshes; rows kappa, columns m."""
     rows = runs[0].rows("models", "name status law kappa m p0 beta u0 h order newton")
+    rows = [row | {"law": "power"} for row in rows]  # the default, and no other
     groups = {words: select(rows, name=name) for name, words in PANELS.items()}
     return panels(groups, "newton", "Newton steps, the most of three loads and two meshes", wide=3)

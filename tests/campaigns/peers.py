@@ -12,7 +12,7 @@ NGSolve is no part of the package: it has a virtual environment of its own, .ven
 import argparse
 import dataclasses
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import campaign
@@ -203,7 +203,15 @@ def alternating(ours: list, theirs: list) -> list:
 # ---------------------------------------------------------------- errors
 
 
-def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
+def coarse(item: campaign.Case, scene: str, law: dict) -> campaign.Case:
+    """The run that tells the width of the contact to a run with `-ends`."""
+    if not item.program:
+        return case("coarse", scene, method="xnewton", **COARSE[scene], **law)
+    run = case("coarse", method="ngsolve", problem=scene, **PEER_COARSE[scene], **law)
+    return dataclasses.replace(run, script=item.script, program=item.program)
+
+
+def measures(sources: Path, processes: campaign.Processes, before: Callable = coarse) -> campaign.Measure:
     """COLUMNS: errors, and of a run with `-ends` the seconds of a coarse run without, mesh to displacement."""
 
     def measure(item: campaign.Case, summary: dict, folder: Path) -> dict:
@@ -217,13 +225,10 @@ def measures(sources: Path, processes: campaign.Processes) -> campaign.Measure:
         found |= reference.compared(summary, scene, float(kappa), float(m), folder)
         if "ends" in flags:
             law = {"law": "power", "kappa": kappa, "m": m, "tol": TOL}
-            coarse = case("coarse", scene, method="xnewton", **COARSE[scene], **law)
-            if item.program:
-                coarse = case("coarse", method="ngsolve", problem=scene, **PEER_COARSE[scene], **law)
-                coarse = dataclasses.replace(coarse, script=item.script, program=item.program)
-            row = campaign.run_case(coarse, sources, processes)
+            pilot = before(item, scene, law)
+            row = campaign.run_case(pilot, sources, processes)
             if row["status"] != "converged":
-                raise RuntimeError(f"{coarse.flags}: {row['message']}")
+                raise RuntimeError(f"{pilot.flags}: {row['message']}")
             found["secondsBefore"] = contact_seconds(row) + row["seconds_mesh"]
         return found
 
@@ -273,7 +278,7 @@ def problem_words(which: tuple[str, float, float]) -> str:
 
 def theirs(row: dict[str, str]) -> bool:
     """Whether a run is the other code's."""
-    return row["script"] in (PEER, BODIES)
+    return row["script"].endswith(".py")
 
 
 def table(rows: list[dict[str, str]], column: str = "forceError", errors: tuple = ERRORS) -> str:

@@ -47,9 +47,13 @@ PROBLEMS = {
     "sphere, 1e9, 3": (r"sphere, $\kappa = 10^9$", style.GREEN, "-"),
 }
 
+CONDENSED = ("1e3, 3", "1e9, 3", "1e12, 3")  # laws of the table of the condensed peer
+
 
 def peers() -> Figure:
     """NGSolve's least CPU seconds over this package's, to the same error: a line a problem.
+
+    Dotted, with open marks: the half of the block against NGSolve on the contact's unknowns.
 
     A triangle at its end: one of the codes did not reach the next error.
     """
@@ -71,6 +75,15 @@ def peers() -> Figure:
                 way = [(errors[last], ratio[last]), (errors[last + 1], ratio[last] * level)]
                 axes.plot(*zip(*way, strict=True), color=colour, linestyle=line, linewidth=0.8)
                 axes.plot(*way[1], color=colour, marker=mark, markersize=6)
+    head, *rows = cells("peers-condensed")
+    errors = np.array([float(cell) for cell in head[2:]])
+    for which in CONDENSED:
+        (row,) = [row[2:] for row in rows if row[0] == which and row[1] == "half"]
+        ours, theirs = np.array([seconds(cell) for cell in row]).T
+        look = {"color": PROBLEMS[which][1], "markerfacecolor": "white", "linewidth": 1, "linestyle": (0, (1, 1))}
+        axes.plot(errors, theirs / ours, marker="s", markersize=4.5, **look)
+    look = {"color": style.GREY, "markerfacecolor": "white", "linestyle": (0, (1, 1)), "marker": "s", "markersize": 4.5}
+    axes.plot([], [], label="half, NGSolve condensed", **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(4e-3, 5e-8)  # the smaller error to the right

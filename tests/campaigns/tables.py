@@ -17,6 +17,7 @@ import conditioning
 import coverage
 import models
 import peers
+import peers_condensed
 import stability
 
 DOCUMENTS = [campaign.ROOT / "tests" / name for name in ("RESULTS.md", "COST.md")]
@@ -30,7 +31,7 @@ LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
 }
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
 LISTS |= {"coverage/space": coverage.cases_in_space, "conditioning/conditioning": conditioning.cases}
-LISTS |= {"models/models": models.cases}
+LISTS |= {"models/models": models.cases, "bench/condensed": peers_condensed.cases}
 # name: (CSV below results/, its rows to the table)
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "work-precision": ("bench/work_precision", bench.report_work_precision),
@@ -49,6 +50,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "peers": ("bench/peers", peers.table),
     "peers-others": ("bench/peers", peers.other_tables),
     "peers-failed": ("bench/peers", peers.failed_table),
+    "peers-condensed": ("bench/condensed", peers_condensed.table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),

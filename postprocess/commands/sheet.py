@@ -1,0 +1,329 @@
+"""write the sheet of one case: the part, its loads, pictures, results with ±, warnings and versions, to print on A4
+
+RUN is a result folder of a case (parts.edp or parts-3d.edp). The page is RUN/sheet.html, or what --out names; it needs
+no network and no further files. The case file stands on it as it is now: if it has changed since the run, a warning
+says so. A run with -vtu 0 has a sheet without the picture of its bodies.
+"""
+
+import argparse
+import contextlib
+import io
+import math
+import re
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from postprocess import page, style
+from postprocess.bodies import read_bodies, units_of
+from postprocess.commands import curve, stress
+from postprocess.output import enter, write_files
+from postprocess.page import Markup, element, joined, section, table
+from postprocess.results import ResultsError, Run, brief, is_number, read_run
+from postprocess.words import command, place, short
+
+NEWTONS = (["mm", "MPa"], ["m", "Pa"])  # units of length and pressure whose product is a newton
+NONE = "–"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", metavar="RUN", help="a case's result folder")
+    parser.add_argument("--out", metavar="FILE.html", help="where to write (default: RUN/sheet.html)")
+    parser.add_argument("--title", help="the heading (default: the name of the case file)")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Reads the run, writes the page and prints its path."""
+    chosen = read_run(arguments.folder)
+    out = Path(arguments.out) if arguments.out else chosen.path / "sheet.html"
+    if out.suffix != ".html":
+        raise ResultsError(out, "the name of a sheet ends in .html")
+    if not isinstance(chosen.summary.get("bodies"), list):
+        raise ResultsError(chosen.path, "is not a run of a case; allowed: results of parts.edp and parts-3d.edp")
+    text = build(chosen, arguments.title).encode()
+    if not arguments.out:
+        enter(chosen.path, [out.name])
+    for path in write_files({out: text}):
+        print(path)
+
+
+def build(chosen: Run, title: str | None = None) -> str:
+    """The whole page."""
+    summary = chosen.summary
+    case = Path(str(summary["parameters"].get("case", "")))
+    units = Units(summary)
+    near, more = pictures(chosen)
+    parts = [
+        section("part", "Part and loads", *given(chosen, case), near),
+        section("results", "Results", *results(summary, units), *more),
+        section("accuracy", "Errors, run and versions", *accuracy(chosen)),
+    ]
+    title = title or case.stem or chosen.path.name
+    body = joined([header(chosen, title, case, units), element("main", joined(parts), id="main")])
+    return page.document(title, element("div", body, class_="sheet"))
+
+
+class Units:
+    """The units of a run: of lengths, pressures and forces; empty where the case file names none."""
+
+    def __init__(self, summary: dict):
+        stated = summary.get("units")
+        known = isinstance(stated, list) and len(stated) == 2
+        self.length, self.stress = (brief(str(name), 20) for name in stated) if known else ("", "")
+        plane = summary.get("state") in ("strain", "stress")
+        self.force = ""
+        if known:
+            newton = stated in NEWTONS
+            area = "" if newton else f" {self.length}" + ("" if plane else "²")
+            self.force = ("N" if newton else self.stress) + (f"/{self.length}" if plane and newton else area)
+        self.plane = plane
+
+
+def header(chosen: Run, title: str, case: Path, units: Units) -> Markup:
+    """The name, the verdict in a sentence, and the warnings."""
+    summary = chosen.summary
+    warnings = [brief(text, 500) for text in summary["warnings"]]
+    if not summary["converged"]:
+        warnings.insert(0, "The run has not converged. Its numbers are no results. " + brief(summary["message"], 300))
+    warnings += changed(chosen, case)
+    state = {"strain": "plane strain", "stress": "plane stress", "axisymmetric": "axisymmetric"}
+    kind = state.get(summary.get("state", ""), "in space")
+    lead = f"Contact analysis, {kind}, linear elasticity, {brief(str(summary.get('date', '')))[:10]}."
+    lead += " Forces are for a unit of thickness." if units.plane else ""
+    if any(each.get("times", 1) != 1 for each in summary.get("prescribed") or []):
+        lead += " All numbers are those of the part that is modelled, within its planes of symmetry."
+    told = element("p", element("span", "No warnings.", class_="pass"))
+    if warnings:
+        listed = joined(element("li", text) for text in warnings)
+        told = joined([element("p", element("span", "Warnings", class_="fail")), element("ul", listed)])
+    return element("header", joined([element("h1", title), element("p", lead, class_="lead"), told]))
+
+
+def changed(chosen: Run, case: Path) -> list[str]:
+    """Sentences on the files of the case that are no longer those of the run."""
+    made = (chosen.path / "summary.json").stat().st_mtime
+    files = [("case file", case), ("geometry", Path(str(chosen.summary["parameters"].get("mesh", ""))))]
+    return [
+        f"The {name} {place(path)} has changed since the run."
+        if path.is_file()
+        else f"The {name} {place(path)} is not there any more."
+        for name, path in files
+        if not path.is_file() or path.stat().st_mtime > made + 1
+    ]
+
+
+def given(chosen: Run, case: Path) -> list[Markup]:
+    """The case file, or where it was."""
+    files = element(
+        "p", joined(["Geometry: ", element("code", place(chosen.summary["parameters"].get("mesh", "")))], "")
+    )
+    try:
+        text = case.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return [files, element("p", f"The case file {place(case)} cannot be read here.")]
+    return [
+        files,
+        element("p", joined(["Case file: ", element("code", place(case))], "")),
+        element("pre", text.rstrip()),
+    ]
+
+
+# ---------------------------------------------------------------- numbers
+
+
+def with_error(number: object, error: object = None, unit: str = "") -> str:
+    """A number with its error to two digits; without one, five digits of the number."""
+    if not is_number(number):
+        return NONE
+    known = is_number(error) and error > 0
+    text = rounded(number, error) if known else f"{number:.5g}"
+    return readable(text) + (f" {unit}" if unit else "")
+
+
+def readable(text: str) -> str:
+    """A number with a true minus sign, and an exponent without zeros in front."""
+    return re.sub(r"(?<!e)-", "−", re.sub(r"e([-+])0*(\d)", lambda found: "e" + found[1].strip("+") + found[2], text))
+
+
+def rounded(number: float, error: float) -> str:
+    """A number and its error with the digits that the error leaves."""
+    power = int(f"{error:.1e}".partition("e")[2])
+    if not -6 <= power - 1 <= 4 or abs(number) >= 1e7:
+        digits = max(0, min(8, int(f"{abs(number):e}".partition("e")[2]) - power + 1)) if number else 0
+        return f"{number:.{digits}e} ± {error:.1e}"
+    digits = max(0, 1 - power)
+    return f"{round(number, 1 - power):.{digits}f} ± {round(error, 1 - power):.{digits}f}"
+
+
+def estimated(told: object, value: object, unit: str = "") -> str:
+    """A number of the summary and what its estimate says of it."""
+    error = told.get("error") if isinstance(told, dict) else None
+    return with_error(value, error, unit)
+
+
+def vector(values: object, size: float = 0) -> str:
+    """The components of a vector; those that are rounding beside the greatest, or beside this size, are 0."""
+    if not isinstance(values, list) or not all(map(is_number, values)):
+        return NONE
+    most = max(map(abs, [*values, size]))
+    return ", ".join(with_error(0.0 if abs(each) < 1e-9 * most else each) for each in values)
+
+
+def length_of(values: object) -> float | None:
+    """The length of a vector."""
+    known = isinstance(values, list) and all(map(is_number, values))
+    return math.hypot(*values) if known else None
+
+
+def results(summary: dict, units: Units) -> list[Markup]:
+    """Tables of contacts, loads, supports and bodies."""
+    told = summary.get("estimates") or {}
+    contacts = summary.get("contacts") or []
+    estimates = told.get("contacts") or [{}] * len(contacts)
+    space = any("area" in each for each in contacts)
+    length, area = ("area", f"{units.length}²" if units.length else "") if space else ("length", units.length)
+    size = "area" if space else "contactLength"
+    most = max((abs(each["normalForce"]) for each in contacts if is_number(each.get("normalForce"))), default=0)
+    rows = [
+        [
+            f"{brief(str(each['name']))}",
+            estimated(known.get("normalForce"), each.get("normalForce"), units.force),
+            vector(each.get("force"), most),
+            estimated(known.get("pressureMax"), each.get("pressureMax"), units.stress)
+            + ("" if known.get("pressureMax") or not told else " (±: unknown)"),
+            estimated(known.get("contactLength"), each.get(size), area),
+            f"{short(each.get('contactPoints'))} of {short(each.get('points'))}",
+        ]
+        for each, known in zip(contacts, estimates, strict=True)
+    ]
+    columns = ["contact", "normal force", "resultant", "greatest pressure", length, "points in contact"]
+    first = table("Contacts", columns, rows, range(1, 6))
+    small = []
+    rubs = [
+        [
+            brief(str(each["name"])),
+            estimated((each.get("mesh") or {}).get("shearForce"), length_of(each["shearForce"]), units.force),
+            f"{100 * each['stickShare']:.3g} %" if is_number(each.get("stickShare")) else NONE,
+            with_error(each.get("dissipated")),
+        ]
+        for each in contacts
+        if "shearForce" in each
+    ]
+    if rubs:
+        small.append(table("Friction", ["contact", "shear force", "sticks on", "dissipated"], rubs, range(1, 4)))
+    ways = {each["name"]: each.get("way") for each in told.get("loads") or []}
+    loads = [
+        [
+            brief(str(each["name"])),
+            with_error(each.get("force"), None, units.force),
+            estimated(ways.get(each["name"]), (ways.get(each["name"]) or {}).get("value"), units.length),
+        ]
+        for each in summary.get("prescribed") or []
+    ]
+    if loads:
+        small.append(table("Loads", ["load", "force", "displacement along it"], loads, (1, 2)))
+    tight = [
+        [
+            brief(str(each["name"])),
+            with_error(each["preload"], None, units.force),
+            with_error(each["force"], None, units.force),
+        ]
+        for each in summary.get("preloads") or []
+    ]
+    if tight:
+        small.append(table("Preloads", ["cut", "tightened to", "carries"], tight, (1, 2)))
+    held = [[brief(str(each["name"])), vector(each.get("force"), most)] for each in summary.get("supports") or []]
+    if held:
+        small.append(table("Supports", ["support", f"carries{f', {units.force}' if units.force else ''}"], held, [1]))
+    strained = {each["body"]: each for each in summary.get("stresses") or []}
+    bodies = [
+        [
+            brief(str(each["name"])),
+            vector(each["motion"][: 3 if summary["scene"] == "parts-3d" else 2]),
+            *of_stress(strained.get(each["name"]), units),
+        ]
+        for each in summary["bodies"]
+    ]
+    columns = ["body", f"mean displacement{f', {units.length}' if units.length else ''}"]
+    columns += ["greatest von Mises stress", "at", "yield stress"] if strained else []
+    return [
+        first,
+        element("div", joined(small), class_="columns"),
+        table("Bodies", columns, bodies, range(1, len(columns))),
+    ]
+
+
+def of_stress(each: dict | None, units: Units) -> list[str]:
+    """The cells of a body's greatest stress; none without stresses in the run."""
+    if each is None:
+        return []
+    where = vector(each.get("at")) + ("; no limit at a corner" if each.get("singular") else "")
+    return [
+        with_error(each.get("vonMises"), each.get("error"), units.stress),
+        where,
+        with_error(each.get("yield"), None, units.stress),
+    ]
+
+
+def accuracy(chosen: Run) -> list[Markup]:
+    """The meaning of ±, the parts of the worst number's error, and the run."""
+    summary = chosen.summary
+    told = summary.get("estimates") or {}
+    why = brief(str(summary.get("notEstimated") or "estimates were left out"), 300)
+    words = (
+        "± is the estimated distance of a number from that of the same problem without a mesh, with exact distances. "
+        "It holds for the model: materials, loads and supports are taken as exact. Numbers without ± have no estimate."
+    )
+    worst = brief(str(told.get("worst") or ""))
+    names = {"inside": "inside the bodies", "line": "on the contact line", "geometry": "shape", "algebra": "solver"}
+    rows = [[names[key], readable(short(value, 2))] for key, value in (told.get("parts") or {}).items() if key in names]
+    tables = [table("Run", ["", ""], versions(summary))]
+    if worst and rows:
+        tables.insert(0, table(f"Parts of the error: {worst}", ["part", "error"], rows, [1]))
+    found = [element("p", words if told else f"Errors are not known: {why}.")]
+    if told.get("refine"):
+        found.append(element("p", f"To reduce the errors: {brief(str(told['refine']), 200)}."))
+    return [*found, element("div", joined(tables), class_="columns"), element("pre", command(chosen))]
+
+
+# ---------------------------------------------------------------- pictures and versions
+
+
+def pictures(chosen: Run) -> tuple[Markup, list[Markup]]:
+    """The stresses and pressures, or the reason why they are not there; the curves of a series."""
+    units = units_of(chosen, (style.Units.length, style.Units.stress))
+    more = []
+    with style.look():
+        try:
+            drawn = stress.draw(read_bodies(chosen, None), units, slide=True)
+            near = picture(drawn, "Deformed bodies with the von Mises stress, and the contact pressure")
+        except ResultsError as error:
+            near = element("p", f"No picture: {brief(str(error), 300)}.")
+        with contextlib.suppress(ResultsError):
+            words = "Loads over their displacements, and contact forces over the share of the load"
+            more.append(picture(curve.drawn(chosen, units.length), words))
+    return near, more
+
+
+def picture(figure: Figure, words: str) -> Markup:
+    file = io.BytesIO()
+    figure.savefig(file, format="png", metadata={"Software": None})
+    return page.picture(file.getvalue(), words, Markup(f"{words}."))
+
+
+def versions(summary: dict) -> list[list[str]]:
+    """The programs, the method, the size and the cost of the run."""
+    seconds = summary["seconds"].get("total")
+    rows = {
+        "package": summary.get("package"),
+        "FreeFEM": summary.get("freefem"),
+        "gmsh": summary.get("gmsh"),
+        "run at": summary.get("date"),
+        "method, element": f"{summary['method']}, P{summary['order']}",
+        "unknowns": summary["ndof"],
+        "contact points": summary["points"],
+        "linearisations": summary["newton"],
+        "residual": short(summary.get("residual"), 2),
+        "CPU seconds": f"{seconds:.2f}" if is_number(seconds) else None,
+    }
+    return [[name, NONE if value is None else brief(str(value))] for name, value in rows.items()]
