@@ -180,8 +180,8 @@ def test_whole_mesh_where_parts_do_not_go(tmp_path):
 def test_more_processes_than_parts(tmp_path):
     """A mesh with too few vertices is refused: one line, code 10, nothing written."""
     flags = ["-h", 6, "-layers", 1, "-order", 1, "-grading", 80, "-out", tmp_path / "out"]
-    code, output = on_ranks(12, script("sphere-on-block"), *flags)
-    assert code == 10 and re.match(r"-np 12: the mesh has \d+ vertices; allowed: at most", said(output)[0]), output
+    code, output = on_ranks(24, script("sphere-on-block"), *flags)
+    assert code == 10 and re.match(r"-np 24: the mesh has \d+ vertices; allowed: at most", said(output)[0]), output
     assert len(said(output)) == 1 and not (tmp_path / "out").exists()
 
 
@@ -189,7 +189,7 @@ def test_more_processes_than_parts(tmp_path):
 @pytest.mark.long
 def test_less_memory_on_each_process(tmp_path):
     """Under a limit of each process that ends a run on one process, a run on four has the answer, with its error."""
-    flags = ["-order", 1, "-h", 0.19, "-kappa", 1e9, "-vtu", 0, "-solver", "multigrid", "-out", tmp_path / "out"]
+    flags = ["-order", 1, "-h", 0.17, "-kappa", 1e9, "-vtu", 0, "-solver", "multigrid", "-out", tmp_path / "out"]
     limited = ["sh", "-c", 'ulimit -v "$0" && exec "$@"', LIMIT]
     scene = ["-nw", "-v", 0, script("sphere-on-block"), *map(flag_text, flags)]
     one, output = execute([*limited, "FreeFem++", *scene], ROOT, environment(**AS_ROOT))
@@ -197,8 +197,9 @@ def test_less_memory_on_each_process(tmp_path):
     four, output = execute([*MPIEXEC, 4, *limited, "FreeFem++-mpi", *scene], ROOT, environment(**AS_ROOT))
     assert four == 0, output[-2000:]
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
-    assert summary["force"] == pytest.approx(1883.676, rel=1e-5)
-    assert summary["estimates"]["force"]["error"] < 0.05 * summary["force"]
+    error = summary["estimates"]["force"]["error"]
+    assert abs(summary["force"] - FINER) < error < 0.05 * summary["force"]
 
 
-LIMIT = 700_000  # kB of addresses, of which the program and its libraries take 480 000
+FINER = 1879.26  # the force on a mesh with 964 392 unknowns
+LIMIT = 920_000  # kB of addresses, of which the program and its libraries take 480 000
