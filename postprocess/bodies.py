@@ -17,7 +17,7 @@ from matplotlib.tri import Triangulation
 from postprocess import style
 from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
-from postprocess.vtu import Grid, Surface, read_grid, read_surface
+from postprocess.vtu import Grid, Surface, bodies_file, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
 ZONES = {1: "#CFE8DC", 2: "#FBE3C4"}  # behind curves: sticks, slips
@@ -122,7 +122,7 @@ class Bodies:
 def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     """The bodies of a run with its files for ParaView; older runs, whose tables say less, have one contact, upwards."""
     path = run.path / "contact.csv"
-    grid, surface = read_grid(run.path / "solution.vtu"), read_surface(run.path / "contact.vtu")
+    grid, surface = read_grid(bodies_file(run.path)), read_surface(run.path / "contact.vtu")
     names = column_names(path)
     optional = "z normalX normalY normalZ contact along chain shear shearX shearY shearZ slide".split()
     optional = [name for name in optional if name in names]

@@ -16,7 +16,7 @@ from matplotlib.tri import Triangulation
 from postprocess import style
 from postprocess.bodies import FILLS, LIGHT, ZONES, Bodies, far_range, place_words, stress_range
 from postprocess.results import ResultsError
-from postprocess.vtu import Grid, cut
+from postprocess.vtu import Grid, bodies_file, cut
 
 VIEW = (-125.0, 22.0)
 EDGE = np.cos(np.radians(30))  # faces that meet at more than that have an edge
@@ -283,7 +283,7 @@ def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
     sections = [cut(turned, level + way * aside) for way in (1, -1)]
     pieces, stress, outline = max(sections, key=lambda section: len(section[0]))
     if not len(pieces):
-        raise ResultsError(bodies.run.path / "solution.vtu", "nothing lies in the section through a contact's middle")
+        raise ResultsError(bodies_file(bodies.run.path), "nothing lies in the section through a contact's middle")
     corner = np.arange(4 * len(pieces)).reshape(-1, 4)
     triangles = np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]])
     place = pieces.reshape(-1, 2)[triangles]

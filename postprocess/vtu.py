@@ -12,6 +12,7 @@ from postprocess.results import ResultsError, check_file
 TYPES = {"Float64": "<f8", "Int64": "<i8"}
 CORNERS = {3: 2, 5: 3, 10: 4}  # of VTK's lines, triangles and tetrahedra
 MOVE, PRESSURE, STRESS = "displacement[length]", "contactPressure[pressure]", "vonMises[pressure]"
+NODE = "node"  # of a piece: the number of a point among those of all pieces
 NONE = np.empty(0, int)
 
 
@@ -60,8 +61,14 @@ class Surface:
     overlap: np.ndarray
 
 
+def bodies_file(folder: Path) -> Path:
+    """solution.vtu of a run, or the index solution.pvtu of a run whose processes wrote a piece each."""
+    index = folder / "solution.pvtu"
+    return index if index.exists() else folder / "solution.vtu"
+
+
 def read_grid(path: Path) -> Grid:
-    """solution.vtu; ResultsError for a file that is missing, truncated, or no grid of bodies."""
+    """solution.vtu or solution.pvtu; ResultsError for a file that is missing, truncated, or no grid of bodies."""
     found = read_arrays(path)
     points, move, stress, types = wanted(path, found, "a run's solution", MOVE, STRESS)
     pressure = found.get(("PointData", PRESSURE), np.zeros(len(points)))
@@ -90,7 +97,7 @@ def read_surface(path: Path) -> Surface:
 
 def read_names(path: Path) -> dict[str, list[str]]:
     """The texts of a file's FieldData by their arrays' names: units; bodies and groups behind their labels."""
-    root, _ = read_xml(path)
+    root, _ = read_xml(pieces(path)[0])
     found = {}
     for element in root.iterfind("UnstructuredGrid/FieldData/Array"):
         letters = bytes(int(letter) for letter in (element.text or "").split())
@@ -99,12 +106,58 @@ def read_names(path: Path) -> dict[str, list[str]]:
 
 
 def read_arrays(path: Path) -> dict:
-    """All arrays of a file, by part and name; the points by their part alone."""
+    """All arrays of a file, or of the pieces of an index, by part and name; the points by their part alone."""
+    if path.suffix == ".pvtu":
+        return joined(path, [read_arrays(piece) for piece in pieces(path)])
     root, numbers = read_xml(path)
     found = {}
     for part in ("Points", "Cells", "PointData", "CellData"):
         for element in root.iterfind(f"UnstructuredGrid/Piece/{part}/DataArray"):
             found[part, element.get("Name") if part != "Points" else None] = array(path, element, numbers)
+    return found
+
+
+def pieces(path: Path) -> list[Path]:
+    """The files of an index; a file that is no index itself."""
+    if path.suffix != ".pvtu":
+        return [path]
+    names = [element.get("Source", "") for element in read_xml(path)[0].iterfind("PUnstructuredGrid/Piece")]
+    if not names or any(not name or Path(name).name != name for name in names):
+        raise ResultsError(path, "names no pieces, or pieces in another folder")
+    return [path.parent / name for name in names]
+
+
+def joined(path: Path, parts: list[dict]) -> dict:
+    """The arrays of all pieces as those of one file: points with the same number are one point."""
+    names = set(parts[0])
+    needed = {
+        ("Points", None),
+        ("PointData", NODE),
+        *(("Cells", name) for name in ("connectivity", "offsets", "types")),
+    }
+    if any(set(part) != names for part in parts) or needed - names:
+        raise ResultsError(path, "has pieces whose fields differ, or points without numbers")
+    numbers = [part["PointData", NODE] for part in parts]
+    if any(3 * len(number) != len(part["Points", None]) for number, part in zip(numbers, parts, strict=True)):
+        raise ResultsError(path, "has a piece that is truncated")
+    _, first, place = np.unique(np.concatenate(numbers), return_index=True, return_inverse=True)
+    starts = np.cumsum([0, *map(len, numbers)])
+    ends = np.cumsum([0, *(len(part["Cells", "connectivity"]) for part in parts)])
+    found = {}
+    for name in names:
+        shift = {("Cells", "connectivity"): starts, ("Cells", "offsets"): ends}.get(name, np.zeros(len(parts) + 1, int))
+        values = [part[name] + shift[k] if shift[k] else part[name] for k, part in enumerate(parts)]
+        if name[0] in ("Points", "PointData"):
+            wide = 3 if name[1] in (None, MOVE) else 1
+            if any(len(value) != wide * len(number) for value, number in zip(values, numbers, strict=True)):
+                raise ResultsError(path, "has a piece that is truncated")
+            found[name] = np.concatenate(values).reshape(-1, wide)[first].reshape(-1)
+        else:
+            found[name] = np.concatenate(values)
+    corner = found["Cells", "connectivity"]
+    if len(corner) and (corner.min() < 0 or corner.max() >= len(place)):
+        raise ResultsError(path, "has a cell with a point that is not there")
+    found["Cells", "connectivity"] = place[corner]
     return found
 
 

@@ -54,7 +54,7 @@ def without(package, tmp_path, *missing):
 
 INTERFACES = {
     "fast-plugin-1": "454ea60306e9757b9c40c6ac9f5a9014",
-    "multigrid-plugin-1": "d440f773ad5b1bd7e12adaced05fad85",
+    "multigrid-plugin-2": "ad8243de8d659d6dc686ce873352548b",
 }
 
 

@@ -3,7 +3,7 @@
 // that directions which are no axes need no dofs of their own. K's entries at held nodes are kept apart: for the forces of the
 // supports, and for the load of supports that are moved. The levels are PETSc's GAMG, which is told of the rigid motions.
 // multigridHold(released, turning): the projectors; multigridMatrix(matrix, more, space): PETSc's matrix; multigridSetUp(options).
-#include "multigrid-nodes.hpp"
+#include "multigrid-refine.hpp"
 
 namespace
 {

@@ -1,14 +1,15 @@
 // multigrid-nodes.hpp: the ranks of a run, and the nodes of a mesh cut into as many boxes as there are ranks
-// Every rank reads the whole mesh. A rank owns the nodes of its box and assembles every element that touches one of them, so that its
-// rows are complete and no entry is sent. PETSc numbers the nodes rank after rank. Included by multigrid.cpp alone.
+// A rank owns the nodes of its box and assembles every element that touches one of them, so that its rows are complete and no entry is
+// sent. PETSc numbers the nodes rank after rank. Included by multigrid-cut.hpp alone.
 // failed(), CHECK(call): a failure of PETSc ends the run; ranksNow, rankNow, meetRanks, firstRankSays: FreeFEM's functions of that name;
-// startPetsc(); placeNodes(V, at): coordinates (3 x nodes); multigridParts(space, own): the cut, ownerOf, numberOf, place.
+// startPetsc(); keepMemory(); placeNodes(V, at): coordinates (3 x nodes); cutNodes(nodes): ownerOf, numberOf of a whole mesh.
 #include "ff++.hpp"
 #include "AFunction_ext.hpp"
 #include <petsc.h>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <functional>
 #include <malloc.h>
 #include <new>
 #include <numeric>
@@ -157,17 +158,18 @@ void cut(std::vector<int>::iterator from, std::vector<int>::iterator to, int fir
 
 void forget();                             // what there is of another mesh: multigrid-matrix.hpp
 
-long multigridParts(pfes3 * const & space, KN<double> * const & own)
-// own: 1 at the elements of this rank, 0 at the others; returns how many they are.
+void keepMemory()
+// FreeFEM forbids the C library to give memory back: matrices come and go here.
 {
-    startPetsc();
-    forget();
-    mallopt(M_MMAP_MAX, 1 << 16);          // FreeFEM forbids it, and to give anything back: matrices come and go here
+    mallopt(M_MMAP_MAX, 1 << 16);
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 24);
-    FESpace3 & V = *(FESpace3 *) **space;
-    int ranks = ranksNow(), rank = rankNow(), nodes = V.NbOfDF / components, each = nodesOfElement(V);
-    placeNodes(V, place);
+}
+
+void cutNodes(int nodes)
+// The nodes of a whole mesh, by `place`: ownerOf, numberOf.
+{
+    int ranks = ranksNow(), rank = rankNow();
     ownerOf.assign(nodes, 0);
     std::vector<int> order(nodes);
     std::iota(order.begin(), order.end(), 0);
@@ -179,14 +181,5 @@ long multigridParts(pfes3 * const & space, KN<double> * const & own)
     firstNode = next[rank];
     numberOf.resize(nodes);
     for (int n = 0; n < nodes; n++) numberOf[n] = next[ownerOf[n]]++;
-    long count = 0;
-    for (int k = 0; k < V.Th.nt; k++)
-    {
-        bool mine = false;
-        for (int j = 0; j < each; j++) mine = mine || ownerOf[nodeOf(V, k, j)] == rank;
-        (*own)[k] = mine;
-        count += mine;
-    }
-    return count;
 }
 }

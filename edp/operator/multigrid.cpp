@@ -1,6 +1,6 @@
 // multigrid.cpp: a FreeFEM plugin on PETSc: the stiffness of bodies in space, spread over the ranks, solved by multigrid
 // Built by `make mpi`; operator/multigrid.idp is its only user. Needs PETSc 3.14 or newer; runs in FreeFem++ and FreeFem++-mpi.
-// Here: the solves, by conjugate gradients, and the forces K u; multigrid-nodes.hpp has the nodes, multigrid-matrix.hpp the matrix.
+// Here: the solves, by conjugate gradients, and the forces K u; multigrid-nodes.hpp and -part.hpp have the nodes, -matrix.hpp the matrix.
 // Another list of functions at the end, or another meaning: raise the number in the names of operator/without/ and their includes.
 // Supports that are moved: a load along what is held, a huge stiffness times the displacement, as the direct engine has it. Bodies
 // that nothing holds are grounded at dofs that are held; their rigid motions are taken from loads and displacements.
@@ -78,30 +78,6 @@ long multigridFloat(KNM<double> * const & motions)
     return rigidMotions.size();
 }
 
-Vec gathered(Vec from)
-// All of it, on every rank; the caller's to destroy.
-{
-    VecScatter all;
-    Vec here;
-    CHECK(VecScatterCreateToAll(from, &all, &here));
-    CHECK(VecScatterBegin(all, from, here, INSERT_VALUES, SCATTER_FORWARD));
-    CHECK(VecScatterEnd(all, from, here, INSERT_VALUES, SCATTER_FORWARD));
-    CHECK(VecScatterDestroy(&all));
-    return here;
-}
-
-void collect(Vec from, KN_<double> to)
-// The same back, on every rank.
-{
-    Vec here = gathered(from);
-    const double * value;
-    CHECK(VecGetArrayRead(here, &value));
-    for (int n = 0; n < (int) numberOf.size(); n++)
-        for (int c = 0; c < components; c++) to[components * n + c] = value[components * numberOf[n] + c];
-    CHECK(VecRestoreArrayRead(here, &value));
-    CHECK(VecDestroy(&here));
-}
-
 long multigridWatch(KN<long> * const & dofs)
 // The dofs whose displacements every rank is told of after a solve.
 {
@@ -137,8 +113,10 @@ long multigridSolve(KN<double> * const & forces, const double & tolerance, const
         for (double & x : moved) x /= heldStiffness;
         for (double x : moved) way = std::max(way, std::abs(x));
     }
+    if (!firstVertex.empty()) way = rankMost(way);
     // less is what the supports take of other forces
     bool moves = way * heldStiffness > 1e8 * greatest;
+    if (moves && moved.empty()) moved.assign(forces->N(), 0.);
     if (moves)
     {
         CHECK(VecSet(work, 0));
@@ -265,7 +243,13 @@ void start()
     Global.Add("rankNow", "(", new OneOperator0<long>(rankNow));
     Global.Add("meetRanks", "(", new OneOperator0<long>(meetRanks));
     Global.Add("firstRankSays", "(", new OneOperator1_<long, long>(firstRankSays));
+    Global.Add("multigridMesh", "(", new OneOperator5_<long, pmesh3 *, string *, double, KN<long> *, long>(multigridMesh));
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
+    Global.Add("multigridOwned", "(", new OneOperator3_<long, pfes3 *, KN<double> *, KN<double> *>(multigridOwned));
+    Global.Add("multigridNumbers", "(", new OneOperator1_<long, KN<double> *>(multigridNumbers));
+    Global.Add("multigridGhosts", "(", new OneOperator1_<long, KN<double> *>(multigridGhosts));
+    Global.Add("rankSums", "(", new OneOperator1_<long, KN<double> *>(rankSums));
+    Global.Add("rankMost", "(", new OneOperator1_<double, double>(rankMost));
     Global.Add("multigridHold", "(", new OneOperator2_<long, KN<double> *, Matrice_Creuse<double> *>(multigridHold));
     Global.Add("multigridMatrix", "(",
                new OneOperator3_<long, Matrice_Creuse<double> *, Matrice_Creuse<double> *, pfes3 *>(multigridMatrix));

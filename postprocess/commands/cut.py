@@ -15,7 +15,7 @@ from postprocess import style
 from postprocess.commands import small
 from postprocess.output import write_files
 from postprocess.results import ResultsError, Run, read_run
-from postprocess.vtu import MOVE, PRESSURE, STRESS
+from postprocess.vtu import MOVE, PRESSURE, STRESS, bodies_file
 
 SIZE = (3000, 1500)  # pixels, before the picture is cropped and made small
 CROP = (0, 120, 3000, 1410)
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def drawn(pyvista, chosen: Run, factor: float, unit: str) -> np.ndarray:
     """The pixels: six contact radii wide, four deep."""
-    path = chosen.path / "solution.vtu"
+    path = bodies_file(chosen.path)
     radius = chosen.summary.get("halfWidthMoment")
     if not path.exists() or not radius:
         raise ResultsError(chosen.path, "no run with a contact and -vtu 1")

@@ -16,7 +16,7 @@ from postprocess.bodies import Bodies, read_bodies, units_of
 from postprocess.commands.state import carrying
 from postprocess.output import enter, write_files
 from postprocess.results import read_run
-from postprocess.vtu import MOVE, PRESSURE, STRESS, read_names
+from postprocess.vtu import MOVE, PRESSURE, STRESS, bodies_file, read_names
 
 STATE = '''"""A state of ParaView: `File > Load State`, or `pvpython paraview.py`, which writes paraview.png."""
 
@@ -26,7 +26,7 @@ import sys
 from paraview.simple import *
 
 folder = {folder!r}
-if os.path.isfile(os.path.join(os.path.dirname(os.path.abspath(sys.argv[0] or ".")), "solution.vtu")):
+if os.path.isfile(os.path.join(os.path.dirname(os.path.abspath(sys.argv[0] or ".")), {file!r})):
     folder = os.path.dirname(os.path.abspath(sys.argv[0]))
 scale = {scale!r}  # of the displacements
 view = GetActiveViewOrCreate("RenderView")
@@ -37,7 +37,8 @@ view.Background = [1.0, 1.0, 1.0]
 
 def shown(file, name, array, top, title, unit, corner, colours, cut=None):
     """A file's grid under its displacements, coloured by an array at its points, with a scale."""
-    source = XMLUnstructuredGridReader(registrationName=name, FileName=[os.path.join(folder, file)])
+    reader = XMLPartitionedUnstructuredGridReader if file.endswith(".pvtu") else XMLUnstructuredGridReader
+    source = reader(registrationName=name, FileName=[os.path.join(folder, file)])
     moved = WarpByVector(registrationName=name + " deformed", Input=source)
     moved.Vectors = ["POINTS", {move!r}]
     moved.ScaleFactor = scale
@@ -96,7 +97,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def state(bodies: Bodies, units: style.Units, view: tuple | None) -> str:
     """The script."""
-    named = read_names(bodies.run.path / "solution.vtu")
+    named = read_names(bodies_file(bodies.run.path))
     names = named.get("bodies", []) + named.get("groups", [])
     strongest = carrying(bodies)[0][0]
     loads, normal = space.pressing(bodies, strongest)
@@ -117,7 +118,7 @@ def state(bodies: Bodies, units: style.Units, view: tuple | None) -> str:
         middle, reach = np.append(zone.mean(axis=0), 0), 0.5 * np.ptp(zone[:, 1])
     shows = [
         call(
-            "solution.vtu",
+            bodies_file(bodies.run.path).name,
             "bodies",
             STRESS,
             top,
@@ -131,6 +132,7 @@ def state(bodies: Bodies, units: style.Units, view: tuple | None) -> str:
     pressed = ("contact.vtu", "contacts", PRESSURE, bodies.coloured, "contact pressure", unit, "Lower Left Corner")
     shows.append(call(*pressed, "Inferno (matplotlib)"))
     return STATE.format(
+        file=bodies_file(bodies.run.path).name,
         folder=str(bodies.run.path.resolve()),
         scale=float(bodies.scale),
         move=MOVE,

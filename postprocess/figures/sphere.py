@@ -8,7 +8,7 @@ from matplotlib.tri import Triangulation
 from postprocess import style
 from postprocess.references import hertz
 from postprocess.results import ResultsError, Run, read_table
-from postprocess.vtu import cut, read_grid
+from postprocess.vtu import bodies_file, cut, read_grid
 
 RUNS = (1, 1)
 
@@ -101,7 +101,7 @@ def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
 
     The bodies' mean planes are d0 apart where hard contact is: they touch only in runs with -d0 0.
     """
-    path = run.path / "solution.vtu"
+    path = bodies_file(run.path)
     grid = read_grid(path)
     if not grid.space:
         raise ResultsError(path, "is not a grid of tetrahedra; the run is not one in space")
