@@ -306,3 +306,13 @@ def test_accuracy_of_own_parts(tmp_path):
     check_pin(case)
     radius = np.hypot(case.contact["x"], case.contact["y"])[::4]
     assert np.abs(radius - 10.01).max() < 1e-5
+
+
+def test_flat_elements_are_named(solved):
+    """On flat elements ± may be too small, by 2.5 times at -aspect 5: a warning says so, and only there."""
+    flat = solved("disc-on-block", "-h", 1, "-half", 1, "-aspect", 5)
+    usual = solved("disc-on-block", "-h", 1, "-half", 1, "-aspect", 2)
+    true = 4.927623  # P4, h = 0.15: 4.9276230 ± 4.5e-6
+    assert abs(usual.halfWidth - true) <= usual.estimates["halfWidth"]["error"] and not usual.warnings
+    assert abs(flat.halfWidth - true) == pytest.approx(2.5 * flat.estimates["halfWidth"]["error"], rel=0.1)
+    assert "-aspect 5: on flat elements" in flat.warnings[0]
