@@ -6,7 +6,7 @@ bodies in space is in space.py.
 
 import argparse
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -146,6 +146,11 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
         largest = np.sqrt((grid.move**2).sum(axis=1).max())
         scale = style.round_below(max(1.0, 0.05 * np.ptp(grid.points, axis=0).max() / max(largest, 1e-300)))
     return Bodies(run, grid, surface, table, titles, rigid, scale)
+
+
+def at_true_scale(bodies: Bodies) -> Bodies:
+    """For pictures of a contact: magnified displacements would show gaps and overlaps that are not there."""
+    return replace(bodies, scale=1.0)
 
 
 def write_picture(arguments: argparse.Namespace, name: str, draw: Callable) -> None:

@@ -318,7 +318,8 @@ def models(figure: Figure) -> None:
                 color=style.VERMILION,
                 linewidth=1.5 * mpl.rcParams["lines.linewidth"],
             )
-            axes.text(wall + 0.01, 0.45, r"$\lambda \geq 0$", color=style.VERMILION)
+            arrow(axes, (wall + 0.012, law(wall - d0)), (wall + 0.012, 4.8), style.BLACK, both=True)
+            axes.text(wall - 0.012, 0.5 * (law(wall - d0) + 4.8), r"$\lambda$", ha="right", va="center")
             axes.text(wall - 0.012, 5.6, "wall", color=style.VERMILION, ha="right")
         axes.text(d0 - 0.05, 1.0, "" if full else "asperities", color=style.BLUE)
         axes.set_xticks([d0, 0, *([wall] if wall else [])], ["$d_0$", "0", *(["    $T^N$"] if wall else [])])
@@ -345,7 +346,7 @@ def four_five(figure: Figure) -> None:
         axes.plot([d0 - 0.05, d0], [0, 0], color=style.BLUE)
         axes.plot(d0 + s[reach], law(s)[reach], color=style.BLUE)
         axes.plot(d0 + s, body, color=style.GREEN)
-        axes.text(d0 - 0.03, 5.3, "the body", color=style.GREEN)
+        axes.text(d0 - 0.03, 5.3, "the body's answer", color=style.GREEN)
         pale = style.VERMILION if axes is left else "#eaa987"
         axes.plot([0, 0], [law(-d0), 7], color=pale, linewidth=width)
         axes.plot(0, found, "o", color=pale)

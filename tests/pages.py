@@ -420,20 +420,22 @@ def columns():
 def statements():
     """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
     tables = (EDP / "case/case-grammar.awk").read_text()
-    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k] }'
+    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k]'
+    reader += '; for (k in example) print "example " k ": " example[k] }'
 
     def usages(space):
         environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}
         command = ["awk", reader, "/dev/null", "/dev/null"]
         said = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True).stdout
-        return dict(re.findall(r"^usage (\w+): (.*)$", said, re.M))
+        return [dict(re.findall(rf"^{kind} (\w+): (.*)$", said, re.M)) for kind in ("usage", "example")]
 
-    plane, space = usages("0"), usages("1")
-    meanings = {re.findall(r"\w+", row[0])[0]: row[1] for row in of_table("statements")}
-    rows = ["| statement | meaning |", "|---|---|"]
+    (plane, examples), (space, _) = usages("0"), usages("1")
+    meanings = {re.findall(r"\w+", row[0])[0]: row[-1] for row in of_table("statements")}
+    rows = ["| statement | example | meaning |", "|---|---|---|"]
     for word in [*(word for word in meanings if word in plane), *sorted(plane.keys() - meanings.keys())]:
         other = f"; in space `{space[word]}`" if space[word] != plane[word] else ""
-        rows.append(f"| `{plane[word]}`{other} | {meanings.get(word, '')} |")
+        example = f"`{examples[word]}`" if word in examples else ""
+        rows.append(f"| `{plane[word]}`{other} | {example} | {meanings.get(word, '')} |")
     return "\n".join(rows) + "\n"
 
 

@@ -92,7 +92,8 @@ def test_model(solved):
     exact = solved("disc-on-block", *flags, "-eps", 1e-10, "-estimate", 0)
     true = abs(rough.force - exact.force)
     assert rough.wallPoints > 0 and true > 0
-    assert rough.estimates["parts"]["model"] == pytest.approx(true, rel=0.1)
+    # a bound: the energy norm of the gain times that of the error, so some times the error of the force
+    assert true <= rough.estimates["parts"]["model"] <= 10 * true
 
 
 def test_prescribed_force(solved):

@@ -130,6 +130,15 @@ def test_pictures_show_the_whole(order, unfolded, tmp_path):
         np.testing.assert_allclose(ours[np.isfinite(ours)], theirs[np.isfinite(theirs)], atol=1e-9)
 
 
+def test_error_shares(tmp_path):
+    """The elements' shares of the error in solution.vtu shall be those of the whole: their sum is the part inside."""
+    done = run_in(ROOT, "edp/main.edp", "-half", 1, "-h", 2, "-order", 2, out=tmp_path / "out")
+    share = vtu.read_arrays(done.folder / "solution.vtu")["CellData", "errorShare[force]"]
+    cells = share[share > 0].reshape(-1, 4)  # a P2 element as four triangles
+    assert (cells == cells[:, :1]).all()
+    assert cells[:, 0].sum() == pytest.approx(done.estimates["parts"]["inside"], rel=1e-9)
+
+
 def test_accuracy(tmp_path):
     """New meshes of a half shall keep to the plane of symmetry and reach what is asked for."""
     done = run_in(ROOT, "edp/main.edp", "-half", 1, "-accuracy", 1e-6, "-order", 3, "-vtu", 0, out=tmp_path / "out")
@@ -138,6 +147,12 @@ def test_accuracy(tmp_path):
     assert len(done.accuracy["rounds"]) > 1
     assert abs(done.force / true - 1) < 1e-6
     assert abs(done.contact["x"] + done.contact["x"][::-1]).max() < 1e-12
+
+
+def test_accuracy_of_pressures(tmp_path):
+    """A peak in the plane of symmetry is no end of contact: hard contact shall have a bound of its profile."""
+    flags = ["-half", 1, "-law", "signorini", "-goal", "pressure", "-accuracy", 5e-3, "-order", 2, "-vtu", 0]
+    assert run_in(ROOT, "edp/main.edp", *flags, out=tmp_path / "out").accuracy["met"] is True
 
 
 NOT_SYMMETRIC = {

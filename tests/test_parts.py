@@ -190,6 +190,44 @@ def test_case_is_refused(plane, case, words):
     assert "allowed" in why
 
 
+@pytest.mark.parametrize("space", [0, 1])
+def test_examples_of_statements(tmp_path, monkeypatch, space):
+    """The example beside each statement of the grammar is one: the reader takes it."""
+    monkeypatch.setenv("RUBS", "1")
+    grammar = (ROOT / "edp/case/case-grammar.awk").read_text() + "\nBEGIN { for (k in example) print example[k] }"
+    environment = {**os.environ, "SPACE": str(space), "CASE": "", "RUBS": "1", "LC_ALL": "C"}
+    said = subprocess.run(
+        ["awk", grammar], env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL
+    ).stdout
+    examples = {line.split()[0]: line.split() for line in said.splitlines()}
+    assert len(examples) >= 25
+    (tmp_path / "block.msh").write_text((cube if space else block)(Mesh()).text())
+    bodies = ("body", "expand", "weight", "spin")
+    for word, words in examples.items():
+        if word in ("group", "size", "preload", "leg") or (space and word in ("thickness", "state")):
+            continue
+        if word not in ("line", "about", "gravity", "thickness", "state"):
+            words[1] = "block" if word in bodies else "top"
+        if word in ("contact", "tie"):
+            words[2] = "bottom"
+        first = "" if word == "body" else "body block E 100 nu 0.3 density 1\n"
+        obstacle = f"obstacle {'left' if space else 'right'} plane 9 0 {'0 -1 0 0' if space else '-1 0'}\n"
+        lines = first + " ".join(words) + "\n" if word not in ("state", "thickness") else " ".join(words) + "\n" + first
+        code, why, _ = read(tmp_path, lines + obstacle * (word not in ("tie",)), space=space)
+        assert code == 0 or "axisymmetric" in why, (word, why)
+
+
+def test_obstacle_in_a_later_phase(plane, monkeypatch):
+    """Its move alone, and a circle with or without R: the table is the same."""
+    monkeypatch.setenv("RUBS", "1")
+    lines = STEEL + "clamp bottom\nobstacle top circle 1.5 5 {}3 move 0 0 friction 0.1\n"
+    lines += "leg 1\nleg 2\nobstacle top {}move 0 -0.1\n"
+    tables = [read(plane, lines.format(*words)) for words in (("R ", "circle 1.5 5 R 3 "), ("", ""))]
+    assert tables[0][0] == 0 and tables[0] == tables[1]
+    code, why, _ = read(plane, lines.format("", "").replace("obstacle top move", "obstacle bottom move"))
+    assert code == 3 and "obstacle bottom: 0 obstacles of it" in why
+
+
 def test_refused_before_anything_is_written(plane):
     """The exit code is 10, with -check too, and no folder is there."""
     (plane / "a.case").write_text(GOOD + "clamp lfet")

@@ -34,9 +34,16 @@ def made(tmp_path_factory):
 
 
 @pytest.fixture
-def folder(made, tmp_path):
-    """A copy of it to be spoilt, times of files included."""
+def whole(made, tmp_path):
+    """A copy of it, times of files included."""
     return shutil.copytree(made, tmp_path / "copy")
+
+
+@pytest.fixture
+def folder(whole):
+    """A copy without solution.vtu, whose picture takes a second."""
+    (whole / "run/solution.vtu").unlink()
+    return whole
 
 
 def edit(folder, **changes):
@@ -113,20 +120,43 @@ def test_numbers_with_errors(folder):
     assert tables["Bodies"][2][-1] == "260 MPa" and tables["Bodies"][1][-1] == "–"
 
 
-def test_stands_by_itself(folder):
+def test_loads_and_friction(folder):
+    """Shear with the mesh's ±, loads with their displacement's, preloads, and the word on symmetries."""
+    summary = json.loads((folder / "run/summary.json").read_text())
+    (contact,) = summary["contacts"]
+    contact |= {"shearForce": [3.0, -4.0], "stickShare": 0.25, "dissipated": 2, "mesh": {"shearForce": {"error": 0.5}}}
+    way = {"name": "force grip", "way": {"value": 0.5, "error": 0.013}}
+    edit(
+        folder,
+        contacts=[contact],
+        prescribed=[{"name": "force grip", "force": 100, "times": 2}, {"name": "move top", "force": 7.5, "times": 1}],
+        estimates={**summary["estimates"], "loads": [way]},
+        preloads=[{"name": "cut", "preload": 20, "force": 21}],
+    )
+    found = sheet(folder)
+    assert found.tables["Friction"][1:] == [["seat journal", "5.00 ± 0.50 N/mm", "25 %", "2"]]
+    assert found.tables["Loads"][1:] == [
+        ["force grip", "100 N/mm", "0.500 ± 0.013 mm"],
+        ["move top", "7.5 N/mm", "–"],
+    ]
+    assert found.tables["Preloads"][1:] == [["cut", "20 N/mm", "21 N/mm"]]
+    assert "within its planes of symmetry" in " ".join(found.words)
+
+
+def test_stands_by_itself(whole):
     """Pictures are in the page, no link leads out; case file, command and versions are on it."""
-    found = sheet(folder, "--title", "Ring <12>")
+    found = sheet(whole, "--title", "Ring <12>")
     text = " ".join(found.words)
     assert [link for link in found.links if not link.startswith(("data:", "#"))] == []
     assert sum(link.startswith("data:image/png") for link in found.links) == 1
     assert "Ring <12>" in text and "No warnings." in text and "plane stress" in text
-    assert (folder / "shrink-fit.case").read_text().rstrip() in found.words
-    summary = json.loads((folder / "run/summary.json").read_text())
+    assert (whole / "shrink-fit.case").read_text().rstrip() in found.words
+    summary = json.loads((whole / "run/summary.json").read_text())
     run_table = dict(found.tables["Run"][1:])
     for name, key in (("package", "package"), ("FreeFEM", "freefem"), ("gmsh", "gmsh"), ("run at", "date")):
         assert run_table[name] == summary[key]
-    assert command(read_run(folder / "run")).startswith("FreeFem++ -nw -v 0 edp/parts.edp -mesh ")
-    assert command(read_run(folder / "run")) in found.words
+    assert command(read_run(whole / "run")).startswith("FreeFem++ -nw -v 0 edp/parts.edp -mesh ")
+    assert command(read_run(whole / "run")) in found.words
 
 
 def test_doubts(folder):
@@ -152,7 +182,6 @@ def test_doubts(folder):
 
 def test_without_a_picture(folder):
     """A run without solution.vtu has a sheet that says why there is no picture."""
-    (folder / "run/solution.vtu").unlink()
     found = sheet(folder)
     assert not any(link.startswith("data:image/png") for link in found.links)
     assert any(word.startswith("No picture: ") for word in found.words)
@@ -203,11 +232,11 @@ def test_units_and_vectors():
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
-def test_on_paper(folder, tmp_path):
+def test_on_paper(whole, tmp_path):
     """In a browser: no complaint, nothing wider than A4, and two pages when it is printed."""
-    sheet(folder)
+    sheet(whole)
     with Browser(tmp_path / "profile") as browser:
-        page = browser.open(folder / "run/sheet.html", A4, 1100)
+        page = browser.open(whole / "run/sheet.html", A4, 1100)
         assert page.evaluate("document.documentElement.scrollWidth") <= A4
         assert page.evaluate("[...document.images].every(each => each.naturalWidth > 400)")
         assert page.messages == [] and len(page.requests) == 1

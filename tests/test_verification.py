@@ -75,6 +75,7 @@ def test_large_strains_in_cb1():
     assert large < published < linear
 
 
+@pytest.mark.long
 def test_hertz_by_the_force_of_two_spheres():
     """The pressure of SSNV104 is that of Hertz for the force of the run, to 0.3 %."""
     case = CASES["ssnv104"]

@@ -1,5 +1,5 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk (-f FILE ...) NAMES FILE
-# Read by awk after case-words.awk, case-grammar.awk and case-groups.awk, which have what it is made of.
+# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk and case-pushed.awk, which have what it is made of.
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages;
 #        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing; SETS_OVERLAP, not
 #        empty: an element may be in several groups, of which the case needs one.
@@ -15,7 +15,7 @@ function once(key, what) {
 }
 # a boundary is held in one way
 function holds(g) {
-  if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: one of clamp, symmetry, move, rotate, force")
+  if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group")
   heldBy[g] = word[1]
   heldIn[g] = FNR
 }
@@ -47,7 +47,7 @@ function readLaw(v,   name, list, n, k, given, taken) {
 # in later legs: what was stated before, as a total reached in this leg; the statement that it changes
 function changed(key,   k) {
   if (legs < 2) return 0
-  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated there, be it as 0")
+  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated in the first leg too, with zeros for nothing yet")
   once(key SUBSEP legs, word[1] " of " word[2] " in leg " legs)
   return base[key] + 0
 }
@@ -81,7 +81,7 @@ function readShape(v,   shape) {
     nonzero("the obstacle's direction", v, 8)
   }
   if (shape != "plane") {
-    keyword("R")
+    if (at < words && word[at + 1] == "R") at++
     v[11] = number("the radius", 0, 1e300)
   }
   if (shape != "plane" && at < words && word[at + 1] == "inside") { at++; v[12] = 1 }
@@ -97,9 +97,22 @@ function readFriction(f) {
     else f[2] = number("the limit", 0, 1e300)
 }
 function putFriction(f) { row("friction " FNR " 0 0 none none none", f) }
+# obstacle SLAVE move x y [z], in a later leg: of the one obstacle of this slave
+function moveObstacle(g,   v, k) {
+  if (obstacles[g] != 1) no("obstacle " word[2] ": " obstacles[g] + 0 " obstacles of it; allowed in a later leg: its shape before move")
+  if (loadOf[obstacleKey[g]] != "move")
+    no("obstacle " word[2] ": no move here or in line " seen[obstacleKey[g]] "; allowed in several legs: a move in each, be it 0")
+  at++
+  changed(obstacleKey[g])
+  for (k = 5; k < 13; k++) v[k] = obstacleShape[g, k]
+  counted("move")
+  vector("the obstacle\047s move", 0, v, 13)
+  putChange(base[obstacleKey[g]] - 1, v)
+}
 function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
   over = 0
   g = group(dim - 1)
+  if (legs > 1 && at < words && word[at + 1] == "move") { moveObstacle(g); return }
   shape = readShape(v)
   load = law = "none"
   while (at < words) {
@@ -130,6 +143,9 @@ function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
   }
   base[key_] = statements + 1
   once(key_, "this obstacle of " nameOf[g])
+  obstacles[g]++
+  obstacleKey[g] = key_
+  for (k = 5; k < 13; k++) obstacleShape[g, k] = v[k]
   restOf[key_] = rest
   loadOf[key_] = load
   if (axial && (v[13] != 0)) no(word[1] ": a " load " off the axis; allowed with state axisymmetric: along y")
@@ -190,7 +206,9 @@ function readBody(   g, v) {
   v[0] = number("Young's modulus", 0, 1e300)
   keyword("nu")
   v[1] = number("Poisson's ratio", -1, 0.5)
-  if (at < words && word[at + 1] == "yield") { at++; v[2] = number("the yield stress", 0, 1e300) }
+  while (at < words && word[at + 1] ~ /^(yield|density)$/)
+    if (word[++at] == "yield") v[2] = number("the yield stress", 0, 1e300)
+    else density[g] = number("the density", 0, 1e300)
   put(g, 0, "none", "none", "none", v)
 }
 # clamp, symmetry, move, rotate, force, pressure, traction, weight: a group and a few numbers
@@ -277,8 +295,8 @@ FILENAME == ARGV[1] {
   if (!words) next
   at = 1
   if (!(word[1] in usage)) no(word[1] ": unknown statement; " leadTo(word[1]) "allowed: " statementNames)
-  if (legs > 1 && word[1] !~ /^(leg|obstacle|move|rotate|force|pressure|traction|weight)$/)
-    no(word[1] ": in leg " legs ", but it holds in every leg; allowed there: move, rotate, pressure, traction, weight, an obstacle\047s move")
+  if (legs > 1 && word[1] !~ /^(leg|obstacle|move|rotate|force|moment|pressure|traction|weight)$/)
+    no(word[1] ": in leg " legs ", but it holds in every leg; allowed there: move, rotate, pressure, traction, weight, a free force or moment, an obstacle\047s move")
   if (word[1] ~ /^(units|state|thickness)$/) single()
   else if (word[1] == "group") readGroup()
   else if (word[1] == "size") readSize()
@@ -290,6 +308,12 @@ FILENAME == ARGV[1] {
     else if (word[1] == "obstacle") readObstacle()
     else if (word[1] == "tie") readTie()
     else if (word[1] ~ /^(stresses|line|expand|preload)$/) readAsked()
+    else if (word[1] == "force" && pushedFreely()) readPushed()
+    else if (word[1] == "moment") readMoment()
+    else if (word[1] == "about") readAbout()
+    else if (word[1] == "spring") readSpring()
+    else if (word[1] == "spin") readSpin()
+    else if (word[1] == "gravity") readGravity()
     else readOther()
   }
   if (at < words) no(word[at + 1] ": more than the statement takes; " usageOf(word[1]))
@@ -297,6 +321,7 @@ FILENAME == ARGV[1] {
 END {
   if (failed) exit 1
   finishing = 1
+  putBodyLoads()
   if (!statements) no("it has no statement; allowed: at least body and contact or obstacle")
   for (k = 1; k <= names; k++)
     if (dimOf[k] == dim && ENVIRON["SETS_OVERLAP"] == "" && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))

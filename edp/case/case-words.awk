@@ -10,7 +10,7 @@ function no(what) {
   failed = 1
   exit 1
 }
-function usageOf(word) { return "allowed: " usage[word] }
+function usageOf(word) { return "allowed: " usage[word] (word in example ? ", as " example[word] : "") }
 
 # how many letters must be put in, left out or exchanged to make one word of the other
 function distance(a, b,   i, j, d, cost) {

@@ -33,14 +33,15 @@ function result(name, x, error, unit, note) {  # error: 0 or less: none to show
 function error(path) { return known(path ".error") ? v[path ".error"] + 0 : -1 }
 function unknown(e) { return estimated && e < 0 ? "error not known" : "" }
 function also(a, b) { return a != "" && b != "" ? a ", " b : a b }
-function vector(path, n, from,   k, most, text) {  # entries from ... from + n - 1
+function vector(path, n, from,   k, most, text, unit) {  # entries from ... from + n - 1, all with the last digit of the greatest one
   most = 0
   for (k = from; k < from + n; k++) if (size(v[path "." k]) > most) most = size(v[path "." k])
-  for (k = from; k < from + n; k++) text = text (k > from ? ", " : "(") digits(size(v[path "." k]) < 1e-6 * most ? 0 : v[path "." k], 6)
+  unit = most > 0 ? 10 ^ (floor(log(most) / log(10) + 1e-9) - 5) : 1
+  for (k = from; k < from + n; k++) text = text (k > from ? ", " : "(") digits(unit * floor(v[path "." k] / unit + 0.5), 6)
   return text ")"
 }
-function worse(e, x, name) {                # notes the greatest relative error
-  if (e > 0 && x != 0 && e / size(x) > worst) { worst = e / size(x); worstName = name }
+function worse(e, x, name, local) {         # notes the greatest relative error; local: of a pressure
+  if (e > 0 && x != 0 && e / size(x) > worst) { worst = e / size(x); worstName = name; worstLocal = local }
 }
 function peaks(   c, i, n, head, field, column, least, most) {  # peak[c]: the place of the greatest pressure of contact c
   FS = ","
@@ -79,6 +80,7 @@ function scene(   e, R) {
   if (v[".pressureMax"] == 0) return
   e = error(".estimates.pressureMax")
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
+  worse(e, v[".pressureMax"], "greatest pressure", 1)
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
   else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
   if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
@@ -122,6 +124,7 @@ function contact(c,   p, q, k, F, e, x, note, unit) {
   worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
   e = error(q ".pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
+  worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], 1)
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
@@ -139,6 +142,21 @@ function stresses(   k, p, e, unit) {
     if (known(p ".yield"))
       print "      " (v[p ".above"] == 0 ? "nowhere above the yield stress " v[p ".yield"] : "above the yield stress " v[p ".yield"] " in " \
         digits(100 * v[p ".above"], 3) " % of its volume: it would yield there")
+  }
+}
+function turns(p) { return v[p ".name"] ~ /^moment / }
+function moments(   k, p, i, e, m, unit, note, some) {
+  unit = force == "" ? "" : (force ~ /\// ? "N" : force " " v[".units.0"])
+  for (k = 0; k < count[".moments"]; k++) {
+    p = ".moments." k
+    if (v[p ".printed"] != "true") continue
+    if (!some++) print "  moments" (v[p ".point"] == "" ? "" : " about " v[p ".point"] " " vector(p ".about", dimension, 0))
+    note = also("on " v[p ".body"], v[p ".point"] == "" ? "about " vector(p ".about", dimension, 0) : "")
+    e = error(p)
+    if (dimension == 2) { result("  " v[p ".name"], v[p ".moment.0"], e, unit, note); continue }
+    m = 0
+    for (i = 0; i < 3; i++) m += v[p ".moment." i] ^ 2
+    put(sprintf("    %-24s %14s %s  %s", v[p ".name"], vector(p ".moment", 3, 0), unit, also(note, e > 0 ? "± " off(m ^ 0.5, e) " " percent(e, m ^ 0.5) : "")))
   }
 }
 function own(   k, p, e, word, times) {
@@ -160,11 +178,15 @@ function own(   k, p, e, word, times) {
   for (k = 0; k < count[".estimates.loads"]; k++) {
     p = ".estimates.loads." k
     e = error(p ".way")
-    if (known(p ".way.value")) result(v[p ".name"] " moves", v[p ".way.value"], e, v[".units.0"], "")
+    if (known(p ".way.value")) result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way.value"], e, turns(p) ? "rad" : v[".units.0"], "")
     worse(e, v[p ".way.value"], "displacement of " v[p ".name"])
   }
   for (k = 0; k < count[".supports"]; k++)
     put(sprintf("  %-26s %14s %s", v[".supports." k ".name"] " carries", vector(".supports." k ".force", count[".supports." k ".force"], 0), force))
+  for (k = 0; k < count[".guides"]; k++)
+    if (v[".guides." k ".carries"] == "true")
+      put(sprintf("  %-26s %14s %s", "guide of " v[".guides." k ".name"] " carries", vector(".guides." k ".force", count[".guides." k ".force"], 0), force))
+  moments()
   for (k = 0; k < count[".preloads"]; k++) {
     p = ".preloads." k
     result("preload " v[p ".name"], v[p ".force"], 0, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " digits(v[p ".shortened"], 6) ", errors not known")
@@ -260,7 +282,7 @@ END {
   for (k = 0; k < count[".warnings"]; k++) print "warning: " v[".warnings." k]
   if (v[".converged"] == "true" && count[".warnings"] == 0) print "  no warnings"
   print ""
-  if (v[".converged"] == "true" && worst > 0.01) row("finer", v[".estimates.refine"] ": the error of the " worstName " is " digits(100 * worst, 2) " %")
+  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstLocal ? "raise -order, or refine at the contact" (owned ? " (size contact)" : " (-h)") : v[".estimates.refine"]) ": the error of the " worstName " is " digits(100 * worst, 2) " %")
   row("files", folder (v[".converged"] == "true" ? "" : " (the last state, for diagnosis)"))
   if (v[".converged"] == "true" && ENVIRON["PLOT"] != "") row("plot", ENVIRON["PLOT"])
   if (v[".parameters.verbose"] == 1) details()

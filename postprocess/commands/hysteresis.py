@@ -129,14 +129,14 @@ def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) 
 
 def plot_shares(axes, table: dict) -> None:
     """In space: the shares of the points in contact that stick and slip."""
-    share = table["stickingPoints"] / np.maximum(table["contactPoints"], 1)
+    share = 100 * table["stickingPoints"] / np.maximum(table["contactPoints"], 1)
     steps = table["step"]
     axes.bar(steps, share, 1.0, color=STRONG[1], linewidth=0, label="sticks")
-    axes.bar(steps, 1 - share, 1.0, bottom=share, color=STRONG[2], linewidth=0, label="slips")
+    axes.bar(steps, 100 - share, 1.0, bottom=share, color=STRONG[2], linewidth=0, label="slips")
     axes.set_xlim(steps[0] - 0.5, steps[-1] + 0.5)
-    axes.set_ylim(0, 1)
+    axes.set_ylim(0, 100)
     axes.set_xlabel("load step")
-    axes.set_ylabel("share of the points in contact")
+    axes.set_ylabel("points in contact [%]")
     axes.legend(**ABOVE)
 
 

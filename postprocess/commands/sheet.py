@@ -166,7 +166,7 @@ def vector(values: object, size: float = 0) -> str:
     if not isinstance(values, list) or not all(map(is_number, values)):
         return NONE
     most = max(map(abs, [*values, size]))
-    return ", ".join(with_error(0.0 if abs(each) < 1e-9 * most else each) for each in values)
+    return ", ".join(with_error(0.0 if abs(each) < 1e-6 * most else each) for each in values)
 
 
 def length_of(values: object) -> float | None:
@@ -307,7 +307,7 @@ def pictures(chosen: Run) -> tuple[Markup, list[Markup]]:
 
 def picture(figure: Figure, words: str) -> Markup:
     file = io.BytesIO()
-    figure.savefig(file, format="png", metadata={"Software": None})
+    figure.savefig(file, format="png", bbox_inches="tight", metadata={"Software": None})
     return page.picture(file.getvalue(), words, Markup(f"{words}."))
 
 

@@ -57,13 +57,14 @@ def carrying(bodies: Bodies, amount: int = MOST) -> tuple[list[int], str]:
 
 
 def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bool = False) -> Figure:
-    """Each contact that is small from near, the bodies, the pressure over the arc length.
+    """Each contact that is small from near, at true scale, the bodies, the pressure over the arc length.
 
     With `stress` the bodies are coloured by von Mises' stress.
     """
     contacts, more = carrying(bodies)
+    true = drawn.at_true_scale(bodies)
     whole = drawn.whole_window(bodies)
-    zones = [(contact, drawn.zone_window(bodies, contact)) for contact in contacts]
+    zones = [(contact, drawn.zone_window(true, contact)) for contact in contacts]
     zones = [(contact, box) for contact, box in zones if np.ptp(box[:, 0]) < 0.5 * np.ptp(whole[:, 0])]
     letters = "abcdefghi"[: len(zones) + 2]
     near, body, curve = letters[:-2], letters[-2], letters[-1]
@@ -77,11 +78,11 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
     width = (28 if tall or each == 2 else 44) if slide else 56 // each - 2
     boxes = [*zones, (None, whole)]
     for index, (letter, (contact, box)) in enumerate(zip(near + body, boxes, strict=True)):
-        axes = panels[letter]
+        axes, shown = panels[letter], bodies if contact is None else true
         top = None if not stress else (drawn.far_range if contact is None else drawn.stress_range)(bodies)
-        colours = drawn.fill_plane(axes, bodies, top)
+        colours = drawn.fill_plane(axes, shown, top)
         if contact is not None or not zones:
-            drawn.stand_pressure(axes, bodies, box, contact, units)
+            drawn.stand_pressure(axes, shown, box, contact, units)
         axes.set_xlim(*box[:, 0])
         axes.set_ylim(*box[:, 1])
         axes.set_aspect("equal")
@@ -92,12 +93,13 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
             drawn.colour_bar(figure, colours, [axes], bodies, units)
         words = drawn.motion(bodies, units) + more
         if contact is not None:
-            words = (style.plain(bodies.names[contact]) or "contact") + drawn.origin_words(bodies, contact)
+            words = (style.plain(bodies.names[contact]) or "contact") + drawn.origin_words(true, contact)
         axes.set_anchor("W")
         drawn.title(axes, index, words, width if contact is not None or slide else 54)
     if stress and each == 2:
         drawn.colour_bar(figure, panels[near[0]].collections[0], [panels[letter] for letter in near], bodies, units)
-    for letter, (_, box) in zip(near, zones, strict=True):
+    for letter, (contact, _) in zip(near, zones, strict=True):
+        box = drawn.zone_window(bodies, contact)
         size = np.ptp(box, axis=0)
         panels[body].add_patch(Rectangle(box[0], *size, fill=False, linewidth=0.6, zorder=6))
         look = {"textcoords": "offset points", "fontsize": 7, "zorder": 7, "bbox": style.HALO}

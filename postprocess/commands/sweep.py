@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> None:
 def numbers(words: list[str]) -> list[float]:
     """Values, and ranges FROM:TO:COUNT, in order and once each."""
     found = []
-    for word in words:
+    for word in filter(None, ",".join(words).split(",")):
         try:
             parts = [float(part) for part in word.split(":")]
         except ValueError:

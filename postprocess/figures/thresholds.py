@@ -29,7 +29,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             if row < len(models):
                 number, table = models[row]
                 draw_model(axes, number, table)
-                model = f"model $N = {number}$"
+                model = f"model {number + 1}: $T^{number}$"
                 heading = title(run) if len(runs) < 3 else title(run).replace(", ", ",\n").replace(": ", ":\n")
                 axes.set_title(f"{heading}\n{model}" if row == 0 else model, fontsize=8, pad=3)
             else:

@@ -114,7 +114,19 @@ def rows_of(name):
 def page(found):
     """The tables of the page and the reasons below them, of {name: [(value, error)]}."""
     every = cases()
-    lines = ["| case | model | source |", "| --- | --- | --- |"]
+    verdicts = [
+        verdict(number, *pair)
+        for name, case in every.items()
+        for number, pair in zip(case["number"], found[name], strict=True)
+    ]
+    inside, allowed, differ = (verdicts.count(words) for words in ("inside ±", "inside the tolerance", "differs"))
+    lines = [
+        f"The {len(every)} cases have {len(verdicts)} numbers: {inside} inside ±, {allowed} inside the tolerance of "
+        f"the source. {differ} differ, for reasons that stand below the table.",
+        "",
+        "| case | model | source |",
+        "| --- | --- | --- |",
+    ]
     for name, case in every.items():
         link = f"[`{name}`](verification/{name}/{name}.case)"
         lines.append(f"| {link} {case['title']} | {case['model']} | {case['source']} |")
