@@ -132,7 +132,7 @@ def test_exchanged(said):
             assert error < 4 * moved
             assert linear.holds("pressureMax", true.known("pressureMax")[0])
             assert linear.holds("contactLength", true.known("contactLength")[0])
-            assert "to improve, use -distance exact" in linear.stdout
+            assert linear.summary["estimates"]["refine"] == "use -distance exact"
 
 
 def test_hip(said):

@@ -4,16 +4,21 @@
 function floor(x,   i) { i = int(x); return i > x ? i - 1 : i }
 function size(x) { return x < 0 ? -x : x }
 function digits(x, n) { return sprintf("%." n "g", x) + 0 "" }
-function decimals(x, error,   d) {          # of a value with this error; -1: six digits
+function exponent(x) { return floor(log(x) / log(10) + 1e-9) }
+function decimals(x, error,   d) {          # of a value with this error; -1: significant digits instead
   if (error <= 0 || size(x) >= 1e9 || (x != 0 && size(x) < 1e-4)) return -1
-  d = 1 - floor(log(error) / log(10) + 1e-9)
-  if (d > 0 && size(x) * 10 ^ d >= 1e13) return -1
+  d = 1 - exponent(error)
+  if (d > 0 && size(x) * 10 ^ d >= 1e15) return -1
   return d < 0 ? 0 : d
 }
+function significant(x, error,   n) {       # digits of x down to the second one of its error; without an error six
+  n = error > 0 && x != 0 ? exponent(size(x)) - exponent(error) + 2 : 6
+  return n < 1 ? 1 : (n > 15 ? 15 : n)
+}
 function shown(x, error,   d, unit) {
-  if (error >= 100) { unit = 10 ^ (floor(log(error) / log(10) + 1e-9) - 1); return sprintf("%.0f", sprintf("%.0f", x / unit) * unit) }
+  if (error >= 100) { unit = 10 ^ (exponent(error) - 1); return sprintf("%.0f", sprintf("%.0f", x / unit) * unit) }
   d = decimals(x, error)
-  return d < 0 ? sprintf("%.6g", x) : sprintf("%." d "f", x)
+  return d < 0 ? sprintf("%." significant(x, error) "g", x) : sprintf("%." d "f", x)
 }
 function off(x, error,   d) {
   d = decimals(x, error)
@@ -36,7 +41,7 @@ function also(a, b) { return a != "" && b != "" ? a ", " b : a b }
 function vector(path, n, from,   k, most, text, unit) {  # entries from ... from + n - 1, all with the last digit of the greatest one
   most = 0
   for (k = from; k < from + n; k++) if (size(v[path "." k]) > most) most = size(v[path "." k])
-  unit = most > 0 ? 10 ^ (floor(log(most) / log(10) + 1e-9) - 5) : 1
+  unit = most > 0 ? 10 ^ (exponent(most) - 5) : 1
   for (k = from; k < from + n; k++) text = text (k > from ? ", " : "(") digits(unit * floor(v[path "." k] / unit + 0.5), 6)
   return text ")"
 }
@@ -270,7 +275,8 @@ END {
     if (known(".dragged.value")) twofold("dragged by", v[".dragged.value"], error(".dragged"), -1, "", "")
     if (known(".creepage")) result("creepage", v[".creepage"], 0, "", "of the length rolled")
     if (v[".friction"] > 0) {
-      print "  work of the loads " digits(v[".work"], 6) " = stored " digits(v[".stored"], 6) " + dissipated " digits(v[".dissipated"], 6)
+      print "  work of the loads " digits(v[".work"], 6) ", stored " digits(v[".stored"], 6) ", dissipated " digits(v[".dissipated"], 6) \
+        ", left over " digits(v[".work"] - v[".stored"] - v[".dissipated"], 2)
       if (v[".loadStepsError"] ~ /^not known/) print "  error of the load steps " v[".loadStepsError"]
       if (estimated) print "  the errors of the mesh are those of the last load step"
       if (estimated && owned && v[".parameters.distance"] == "linear" && !(".linearised.trusted" in v)) print "  the change by -distance exact is not in the errors"

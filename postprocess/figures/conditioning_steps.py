@@ -39,7 +39,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     right.text(0.97, 0.06, f"line: {slope:.2f} $x$ + {offset:.1f}", transform=right.transAxes, ha="right", fontsize=8)
     left.set_xscale("log")
     left.set_yscale("log")
-    left.set_ylim(bottom=10)
+    left.set_ylim(bottom=min(10, scaled.min() / 10))
     left.set_xlabel(r"stiffness of the law $\kappa$")
     left.set_ylabel("condition number of the first tangent")
     right.set_xlabel(r"$x = \ln(s_0/s^*)\,/\,\ln(m/(m-1))$")
