@@ -90,6 +90,24 @@ def test_hub_under_a_moment(tmp_path, how):
     assert "  moments about P (1, 2)\n    bore seat " in run.stdout
 
 
+def test_loads_before_the_solution(tmp_path):
+    """`-check 1` prints friction, and each force, moment, spin and spring with its numbers and what it leaves free."""
+    dense = FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + "clamp rim\ncontact bore seat friction 0.2\n"
+    loads = {
+        "moment core 3000 about 1 2": (
+            "held by moment core (free to turn)",
+            "load      moment core 3000, about (1, 2)",
+        ),
+        "force core 0 -9 rigid": ("held by force core (free to move and turn)", "load      force core (0, -9), rigid"),
+        "force core 0 -9 free at 1 2": ("held by contact only", "load      force core (0, -9), free at (1, 2)"),
+        "spring core 5 5\nspin shaft 7": ("held by spring core", "load      spin shaft 7 rad per unit of time"),
+    }
+    for line, (held, load) in loads.items():
+        run = part(tmp_path, RING + RINGS, dense + line + "\n", "-check", 1)
+        assert f"body      shaft: E 210000, nu 0.3; {held}" in run.stdout and f"  {load}\n" in run.stdout, run.stdout
+        assert "hard contact, friction 0.2, " in run.stdout, run.stdout
+
+
 @pytest.mark.parametrize(
     "how", short_of(["rigid at 0.2 4", "free at 0.2 4"], ["free", "rigid", "free at 0.2 4", "rigid at 0.2 4"])
 )

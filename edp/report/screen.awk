@@ -45,8 +45,8 @@ function vector(path, n, from,   k, most, text, unit) {  # entries from ... from
   for (k = from; k < from + n; k++) text = text (k > from ? ", " : "(") digits(unit * floor(v[path "." k] / unit + 0.5), 6)
   return text ")"
 }
-function worse(e, x, name, local) {         # notes the greatest relative error; local: of a pressure
-  if (e > 0 && x != 0 && e / size(x) > worst) { worst = e / size(x); worstName = name; worstLocal = local }
+function worse(e, x, name, cure) {          # notes the greatest relative error; cure: what lowers it, if that is not the run's advice
+  if (e > 0 && x != 0 && e / size(x) > worst) { worst = e / size(x); worstName = name; worstCure = cure }
 }
 function peaks(   c, i, n, head, field, column, least, most) {  # peak[c]: the place of the greatest pressure of contact c
   FS = ","
@@ -85,7 +85,7 @@ function scene(   e, R) {
   if (v[".pressureMax"] == 0) return
   e = error(".estimates.pressureMax")
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
-  worse(e, v[".pressureMax"], "greatest pressure", 1)
+  worse(e, v[".pressureMax"], "greatest pressure", "raise -order, or refine at the contact (-h)")
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
   else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
   if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
@@ -112,7 +112,7 @@ function twofold(name, x, mesh, steps, unit, note) {  # two errors, of the mesh 
   put(sprintf("    %-24s %14s%s%s %s %s", name, shown(x, mesh > steps ? mesh : steps), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
-function contact(c,   p, q, k, F, e, x, note, unit) {
+function contact(c,   p, q, k, F, e, x, note, unit, balanced) {
   p = ".contacts." c
   q = ".estimates.contacts." c
   print "  contact " v[p ".name"] (v[p ".contactPoints"] == 0 ? " touches nowhere" : "")
@@ -120,16 +120,18 @@ function contact(c,   p, q, k, F, e, x, note, unit) {
   F = 0
   for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
   F = sqrt(F)
+  balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
   e = error(q ".force")
-  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) " " percent(e, F) : unknown(e))
+  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) " " (balanced ? "" : percent(e, F)) : unknown(e))
   put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, note))
-  worse(e, F, "force of " v[p ".name"])
+  if (!balanced) worse(e, F, "force of " v[p ".name"])
   e = error(q ".normalForce")
   result("  normal force", v[p ".normalForce"], e, force, unknown(e))
   worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
   e = error(q ".pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
-  worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], 1)
+  worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
+    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : "raise -order, or refine at the contact (size contact)")
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
@@ -288,7 +290,7 @@ END {
   for (k = 0; k < count[".warnings"]; k++) print "warning: " v[".warnings." k]
   if (v[".converged"] == "true" && count[".warnings"] == 0) print "  no warnings"
   print ""
-  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstLocal ? "raise -order, or refine at the contact" (owned ? " (size contact)" : " (-h)") : v[".estimates.refine"]) ": the error of the " worstName " is " digits(100 * worst, 2) " %")
+  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstCure == "" ? v[".estimates.refine"] : worstCure) ": the error of the " worstName " is " digits(100 * worst, 2) " %")
   row("files", folder (v[".converged"] == "true" ? "" : " (the last state, for diagnosis)"))
   if (v[".converged"] == "true" && ENVIRON["PLOT"] != "") row("plot", ENVIRON["PLOT"])
   if (v[".parameters.verbose"] == 1) details()
