@@ -59,7 +59,7 @@ def script(scene):
 
 
 def environment(**changes):
-    """The environment of a run: one thread, of CHOLMOD's OpenMP as well; ranks that wait yield; nothing of an enclosing make."""
+    """The environment of a run: one thread, of OpenMP as well; ranks that wait yield; nothing of an enclosing make."""
     kept = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
     shared = {"OPENBLAS_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
     return {**kept, **shared, **changes}
