@@ -194,6 +194,7 @@ def opened_in_paraview(folder, monkeypatch, capsys):
     text = (folder / "paraview.py").read_text()
     used = set(re.findall(r"\b[A-Z][A-Za-z]+(?=\()", text))
     assert {"WarpByVector", "ColorBy", "Render"} <= used
+    used |= {"XMLUnstructuredGridReader", "XMLPartitionedUnstructuredGridReader"}
     simple.__dict__.update({name: Recorder(calls, name) for name in used})
     monkeypatch.setitem(sys.modules, "paraview", types.ModuleType("paraview"))
     monkeypatch.setitem(sys.modules, "paraview.simple", simple)

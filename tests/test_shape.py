@@ -23,7 +23,7 @@ def sharp(folder, mesh, case, name="a.msh"):
     """Corners of the whole boundary, elements that follow it."""
     (folder / name).write_text(mesh)
     (folder / "a.case").write_text(case)
-    text = (ROOT / "edp/parts.edp").read_text().split("printCase();")[0] + SHARP
+    text = (ROOT / "edp/parts.edp").read_text().split("lookAtContacts();")[0] + SHARP
     return told(snippet(folder, text, "-mesh", name, "-case", "a.case"))
 
 

@@ -8,7 +8,7 @@ BEGIN {
   flags["Contact law"] = "law d0 p0 kappa m beta table w eps0 rho"
   flags["Friction"] = "friction compliance shearLimit drag shear legs stepErrors"
   flags["Adhesion"] = "path branch control force-coarse"
-  flags["Mesh and elements"] = "h order grading ends corners edges aspect fine layers patch symmetry half ratio points surface distance"
+  flags["Mesh and elements"] = "h order grading ends corners edges aspect fine layers refine patch symmetry half ratio points surface distance"
   flags["Accuracy"] = "estimate accuracy goal unknowns"
   flags["Solution method"] = "method model T0 threshold inner start forcing preconditioner solver eps tol maxNewton maxAdaptations damping"
   flags["Load series"] = "history steps"
