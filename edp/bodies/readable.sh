@@ -128,7 +128,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
             -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
         grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
         test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
-        test "$space" = 0 || test -n "$cad" || awk '/^\$Entities/ { getline; exit !($4 > 0) }' "$folder/outline.msh" || no "$plane"
+        test "$space" = 0 || test $cad = 1 || awk '/^\$Entities/ { getline; exit !($4 > 0) }' "$folder/outline.msh" || no "$plane"
         sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
         named
     }
