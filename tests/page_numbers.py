@@ -164,7 +164,8 @@ def run(command):
         if code not in (0, 20):
             raise RuntimeError(f"{command}: exit code {code}\n{stdout[-2000:]}")
         folder = Path(name)
-        tables = {path.stem.replace("-", "_"): table(path) for path in folder.glob("*.csv")}
+        files = [path for path in folder.glob("*.csv") if path.name != "moments.csv"]  # which has names in it
+        tables = {path.stem.replace("-", "_"): table(path) for path in files}
         keys = json.loads((folder / "summary.json").read_text(), object_hook=lambda pairs: Keys(**pairs))
     more = {"again": lambda words: Keys(**run(f"{command} {words}")), "printed": functools.partial(printed, stdout)}
     return {**GIVEN, **tables, **vars(keys), "code": code, **more}

@@ -265,7 +265,7 @@ WORDS = {
     "fix": "did you mean clamp (no displacement)?",
     "Fixed": "did you mean clamp (no displacement)?",
     "support": "did you mean clamp (no displacement)?",
-    "gravity": "did you mean weight (a force per volume on a body: density times gravity)?",
+    "acceleration": "did you mean gravity (an acceleration of all bodies with a density)?",
     "glue": "did you mean tie (two surfaces glued: no gap, no slip)?",
     "weld": "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part",
     "friction": "it stands behind a contact or an obstacle",
