@@ -68,7 +68,7 @@ def test_same_as_whole(words, unfolded, tmp_path):
         assert ours == theirs or ours == pytest.approx(theirs, rel=1e-10, abs=1e-12), name
     for name in COUNTS:
         assert half.summary[name] == whole.summary[name], name
-    assert half.newton <= whole.newton + (half.method == "xnewton")
+    assert half.newton <= whole.newton + (half.method in ("xnewton", "ipopt"))  # the last step is at rounding
     assert half.backsolves <= 1.3 * whole.backsolves + 3
     for name in ("contactLength", "halfWidthMoment", "arcs", "normalForce", "force"):
         np.testing.assert_allclose(half.contacts[0][name], whole.contacts[0][name], rtol=1e-9, atol=1e-10, err_msg=name)
