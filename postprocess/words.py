@@ -10,6 +10,7 @@ from postprocess.results import Run, is_number
 ROOT = Path(__file__).resolve().parent.parent
 
 LABS = "labs/"
+NONE = "–"  # no number
 FIGURES = ROOT / "edp" / "reference" / "figures.md"
 
 HISTORY_COLUMNS = (
@@ -33,10 +34,34 @@ def run_words(run: Run) -> str:
 def short(value: object, digits: int = 6) -> str:
     """A number with so many digits; a dash for what is not defined."""
     if value is None:
-        return "–"
+        return NONE
     if isinstance(value, bool):
         return "yes" if value else "no"
     return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
+
+
+def with_error(number: object, error: object = None, unit: str = "") -> str:
+    """A number with its error to two digits; without one, five digits of the number."""
+    if not is_number(number):
+        return NONE
+    known = is_number(error) and error > 0
+    text = rounded(number, error) if known else f"{number:.5g}"
+    return readable(text) + (f" {unit}" if unit else "")
+
+
+def readable(text: str) -> str:
+    """A number with a true minus sign, and an exponent without zeros in front."""
+    return re.sub(r"(?<!e)-", "−", re.sub(r"e([-+])0*(\d)", lambda found: "e" + found[1].strip("+") + found[2], text))
+
+
+def rounded(number: float, error: float) -> str:
+    """A number and its error with the digits that the error leaves."""
+    power = int(f"{error:.1e}".partition("e")[2])
+    if not -6 <= power - 1 <= 4 or abs(number) >= 1e7:
+        digits = max(0, min(8, int(f"{abs(number):e}".partition("e")[2]) - power + 1)) if number else 0
+        return f"{number:.{digits}e} ± {error:.1e}"
+    digits = max(0, 1 - power)
+    return f"{round(number, 1 - power):.{digits}f} ± {round(error, 1 - power):.{digits}f}"
 
 
 def history_rows(run: Run) -> list[list[str]]:

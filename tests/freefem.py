@@ -222,6 +222,13 @@ def run_in(cwd, name, *flags, out=None, expect=0, env=None):
     return Run(code, stdout, out or cwd)
 
 
+def refusal(folder, scene, *flags):
+    """The one line by which a scene refuses flags; nothing is written."""
+    done = run_in(ROOT, script(scene), *flags, out=folder / "out", expect=10)
+    assert done.stdout.count("\n") == 1 and not (folder / "out").exists(), done.stdout
+    return done.stdout
+
+
 def part(folder, mesh, case, *flags, space=False, script=None, expect=0):
     """One run, not shared, of a case's text on a mesh, a file or its text; the results are in folder/out."""
     folder.mkdir(exist_ok=True)

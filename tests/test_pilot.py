@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import reference
-from freefem import FREEFEM, ROOT, environment, execute, flag_lists, run_in, script, short_of
+from freefem import ROOT, flag_lists, refusal, run_in, short_of
 
 STIFF = ["-order", 4, "-h", 2, "-reach", 6.95, "-corners", 0.05, "-estimate", 0, "-vtu", 0]
 SHORT = [(1e9, 1)]
@@ -68,8 +68,4 @@ REFUSED = {
 @pytest.mark.parametrize("words", REFUSED)
 def test_refused(words, tmp_path):
     """What a coarse run cannot tell shall be refused by one line."""
-    scene, *flags = words.split()
-    command = [*FREEFEM, script(scene), "-ends", "auto", *flags, "-out", tmp_path / "out"]
-    code, output = execute(command, env=environment())
-    assert (code, output.count("\n")) == (10, 1), output
-    assert output.startswith(REFUSED[words])
+    assert refusal(tmp_path, *words.split(), "-ends", "auto").startswith(REFUSED[words])

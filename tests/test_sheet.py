@@ -13,9 +13,9 @@ from freefem import FREEFEM, ROOT, execute, run
 from page_numbers import number
 
 from postprocess.__main__ import main
-from postprocess.commands.sheet import Units, rounded, vector, with_error
+from postprocess.commands.sheet import Units, vector
 from postprocess.results import read_run
-from postprocess.words import command
+from postprocess.words import command, rounded, with_error
 
 EXAMPLE = ROOT / "edp/examples/shrink-fit"
 A4 = 794  # pixels across

@@ -9,7 +9,6 @@ import argparse
 import contextlib
 import io
 import math
-import re
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -20,10 +19,9 @@ from postprocess.commands import curve, stress
 from postprocess.output import enter, write_files
 from postprocess.page import Markup, element, joined, section, table
 from postprocess.results import ResultsError, Run, brief, is_number, read_run
-from postprocess.words import command, place, short
+from postprocess.words import NONE, command, place, readable, short, with_error
 
 NEWTONS = (["mm", "MPa"], ["m", "Pa"])  # units of length and pressure whose product is a newton
-NONE = "–"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -129,30 +127,6 @@ def given(chosen: Run, case: Path) -> list[Markup]:
 
 
 # ---------------------------------------------------------------- numbers
-
-
-def with_error(number: object, error: object = None, unit: str = "") -> str:
-    """A number with its error to two digits; without one, five digits of the number."""
-    if not is_number(number):
-        return NONE
-    known = is_number(error) and error > 0
-    text = rounded(number, error) if known else f"{number:.5g}"
-    return readable(text) + (f" {unit}" if unit else "")
-
-
-def readable(text: str) -> str:
-    """A number with a true minus sign, and an exponent without zeros in front."""
-    return re.sub(r"(?<!e)-", "−", re.sub(r"e([-+])0*(\d)", lambda found: "e" + found[1].strip("+") + found[2], text))
-
-
-def rounded(number: float, error: float) -> str:
-    """A number and its error with the digits that the error leaves."""
-    power = int(f"{error:.1e}".partition("e")[2])
-    if not -6 <= power - 1 <= 4 or abs(number) >= 1e7:
-        digits = max(0, min(8, int(f"{abs(number):e}".partition("e")[2]) - power + 1)) if number else 0
-        return f"{number:.{digits}e} ± {error:.1e}"
-    digits = max(0, 1 - power)
-    return f"{round(number, 1 - power):.{digits}f} ± {round(error, 1 - power):.{digits}f}"
 
 
 def estimated(told: object, value: object, unit: str = "") -> str:

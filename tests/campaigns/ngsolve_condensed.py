@@ -15,8 +15,17 @@ import time
 from types import SimpleNamespace
 
 import numpy as np
-from netgen.geom2d import SplineGeometry
-from ngsolve_contact import CORNER_RATIO, Problem, common_flags, elasticity, ng, plane_results, summary_of, write_run
+from ngsolve_contact import (
+    CORNER_RATIO,
+    Problem,
+    SplineGeometry,
+    common_flags,
+    elasticity,
+    ng,
+    plane_results,
+    summary_of,
+    write_run,
+)
 
 
 def block(problem: Problem, flags: argparse.Namespace) -> ng.Mesh:

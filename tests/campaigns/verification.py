@@ -2,17 +2,14 @@
 
 Each folder of tests/verification is a case: its case file, its geometry, and `numbers.toml` with the source, the
 published numbers, the source's tolerance, and the expression that finds each number in the files of the run. The
-program runs all cases, writes each one's found.csv, and writes tests/VERIFICATION.md between its marks.
+program runs all cases, and writes tests/VERIFICATION.md between its marks.
 
 A number is verified if it differs from the published one by no more than the error that the run estimates, or than
 the tolerance of the source. Otherwise `reason` in numbers.toml says why it differs.
 """
 
-import csv
 import json
-import math
 import re
-import sys
 import tempfile
 import tomllib
 from pathlib import Path
@@ -20,6 +17,8 @@ from types import SimpleNamespace
 
 import numpy as np
 from freefem import FREEFEM, ROOT, execute
+
+from postprocess.words import readable, with_error
 
 FOLDER = ROOT / "tests/verification"
 PAGE = ROOT / "tests/VERIFICATION.md"
@@ -89,83 +88,52 @@ def verdict(number, value, error):
 # ---------------------------------------------------------------- the page
 
 
-def to_digits(value, digits):
-    """A number for readers: this many digits after the point, negative for rounding before it."""
-    text = f"{round(value, digits):.{max(digits, 0)}f}"
-    whole, point, rest = text.lstrip("-").partition(".")
-    grouped = f"{int(whole):,}".replace(",", " ") if len(whole) > 4 else whole
-    return "−" * text.startswith("-") + grouped + point + rest
-
-
-def written(value, error):
-    """A value and its error, to two digits of the error; five digits of a value without one."""
-    size = error if error else abs(value) * 1e-3
-    digits = min(1 - math.floor(math.log10(size)), 8 - math.floor(math.log10(abs(value))))
-    return to_digits(value, digits) + (f" ± {to_digits(error, digits)}" if error is not None else "")
-
-
-def rows_of(name):
-    """The rows of a case's found.csv: value and error of each number."""
-    with open(FOLDER / name / "found.csv") as file:
-        rows = list(csv.DictReader(file))
-    return [(float(row["value"]), float(row["error"]) if row["error"] else None) for row in rows]
+def rows(name, case, numbers):
+    """The lines of the table for the numbers of a case, and the reasons of those that differ."""
+    lines, reasons = [], []
+    for number, (value, error) in zip(case["number"], numbers, strict=True):
+        given, tolerance = number["published"], number.get("tolerance")
+        shown = readable(f"{given:.6g}") + (f" (±{100 * tolerance:g} %)" if tolerance else "")
+        words = verdict(number, value, error)
+        if words == "differs":
+            reasons.append(f"- `{name}`, {number['name']}: {number['reason']}")
+            words = "explained below"
+        label = f"{number['name']}{', ' * bool(number['unit'])}{number['unit']}"
+        off = readable(f"{round(100 * (value / given - 1), 2) + 0.0:+.2f} %")
+        lines.append(f"| `{name}` | {label} | {shown} | {with_error(value, error)} | {off} | {words} |")
+    return lines, reasons
 
 
 def page(found):
     """The tables of the page and the reasons below them, of {name: [(value, error)]}."""
-    every = cases()
-    verdicts = [
-        verdict(number, *pair)
-        for name, case in every.items()
-        for number, pair in zip(case["number"], found[name], strict=True)
-    ]
-    inside, allowed, differ = (verdicts.count(words) for words in ("inside ±", "inside the tolerance", "differs"))
-    lines = [
-        f"The {len(every)} cases have {len(verdicts)} numbers: {inside} inside ±, {allowed} inside the tolerance of "
-        f"the source. {differ} differ, for reasons that stand below the table.",
-        "",
-        "| case | model | source |",
-        "| --- | --- | --- |",
-    ]
-    for name, case in every.items():
+    lines = ["| case | model | source |", "| --- | --- | --- |"]
+    for name, case in cases().items():
         link = f"[`{name}`](verification/{name}/{name}.case)"
         lines.append(f"| {link} {case['title']} | {case['model']} | {case['source']} |")
     lines += ["", "| case | number | published | package | off | verdict |", "| --- | --- | --- | --- | --- | --- |"]
     reasons = []
-    for name, case in every.items():
-        for number, (value, error) in zip(case["number"], found[name], strict=True):
-            given, tolerance = number["published"], number.get("tolerance")
-            digits = 5 - math.floor(math.log10(abs(given)))
-            shown = to_digits(given, digits).rstrip("0").rstrip(".") if digits > 0 else to_digits(given, 0)
-            shown += f" (±{100 * tolerance:g} %)" if tolerance else ""
-            words = verdict(number, value, error)
-            if words == "differs":
-                reasons.append(f"- `{name}`, {number['name']}: {number['reason']}")
-                words = "explained below"
-            label = f"{number['name']}{', ' * bool(number['unit'])}{number['unit']}"
-            off = f"{100 * (value / given - 1):+.2f} %".replace("-", "−")
-            lines.append(f"| `{name}` | {label} | {shown} | {written(value, error)} | {off} | {words} |")
-    return "\n".join([*lines, "", *reasons, ""])
+    for name, case in cases().items():
+        more, why = rows(name, case, found[name])
+        lines += more
+        reasons += why
+    return counts("\n".join(lines)) + "\n\n" + "\n".join([*lines, "", *reasons, ""])
 
 
-def with_cases(text, found):
-    """The page with its tables written anew."""
-    return MARKED.sub(lambda match: match[1] + page(found) + match[3], text)
+def counts(table):
+    """The sentences above the table."""
+    inside, allowed, differ = (
+        table.count(f"| {words} |") for words in ("inside ±", "inside the tolerance", "explained below")
+    )
+    return (
+        f"The {len(cases())} cases have {inside + allowed + differ} numbers: {inside} inside ±, {allowed} inside the "
+        f"tolerance of the source. {differ} differ, for reasons that stand below the table."
+    )
 
 
-def main(names):
-    every = cases()
-    for name in names or every:
-        numbers = solve(name, every[name])
-        with open(FOLDER / name / "found.csv", "w") as file:
-            file.write("value,error\n")
-            for value, error in numbers:
-                file.write(f"{value:.8g},{'' if error is None else f'{error:.3g}'}\n")
-        for number, (value, error) in zip(every[name]["number"], numbers, strict=True):
-            words = f"published {number['published']:g}: {verdict(number, value, error)}"
-            print(f"{name}: {number['name']}: {written(value, error)}, {words}")
-    PAGE.write_text(with_cases(PAGE.read_text(), {name: rows_of(name) for name in every}))
+def main():
+    found = {name: solve(name, case) for name, case in cases().items()}
+    PAGE.write_text(MARKED.sub(lambda match: match[1] + page(found) + match[3], PAGE.read_text()))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
