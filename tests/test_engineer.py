@@ -318,7 +318,7 @@ def test_stresses_of_a_cantilever(order, tmp_path):
     assert "no bound there" in done.stdout
     held = {one["name"]: one["force"] for one in summary(tmp_path)["supports"]}
     assert held["clamp wall"] == pytest.approx([0, 1], abs=1e-6)
-    assert "clamp wall: carries" in done.stdout
+    assert "clamp wall carries" in done.stdout
 
 
 BELOW = data("engineer/below.geo")

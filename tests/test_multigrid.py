@@ -98,7 +98,7 @@ def test_same_answer(case, ranks, tmp_path):
 
 PEAK = """import resource, subprocess, sys
 code = subprocess.call(sys.argv[1:])
-print("peak", resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+sys.stdout.write("peak %d\\n" % resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
 sys.exit(code)
 """
 
@@ -108,14 +108,14 @@ sys.exit(code)
 def test_products_are_freed(tmp_path):
     """Two ranks: what PETSc's products of matrices keep is freed; the peak falls, no digit changes, PETSc is silent."""
     peaks, found = [], []
-    for keep in ("-mat_product_clear 0", ""):
+    for keep in ("-mat_product_clear 0 -mat_freeintermediatedatastructures 0", ""):
         start = [*MPIEXEC, 2, sys.executable, "-c", PEAK, "FreeFem++-mpi", "-nw", "-v", 0, script("sphere-on-block")]
-        flags = ["-order", 1, "-h", 0.35, "-solver", "multigrid", "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"]
+        flags = ["-order", 1, "-h", 0.25, "-solver", "multigrid", "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"]
         code, output = execute([*start, *flags], env=environment(**AS_ROOT, PETSC_OPTIONS=keep))
         assert code == 0 and "WARNING" not in output and "unused" not in output, output[-2000:]
         peaks.append(max(int(line.split()[1]) for line in output.splitlines() if line.startswith("peak")))
         found.append((tmp_path / "out" / "contact.csv").read_text())
-    assert peaks[1] < 0.97 * peaks[0], peaks  # 114 for 121 MB; the program takes 50
+    assert peaks[1] < 0.95 * peaks[0], peaks  # 152 for 167 MB; the program takes 50
     assert found[0] == found[1]
 
 
@@ -293,7 +293,7 @@ def test_case_that_turns_is_refused(tmp_path):
 @pytest.mark.long
 def test_engine_chosen_by_size(tmp_path):
     """Beyond 50 000 unknowns of P1 the engine is multigrid, said in one line."""
-    flags = ["-order", 1, "-vtu", 0, "-estimate", 0, "-tol", 1e-3, "-out", tmp_path / "out"]
+    flags = ["-order", 1, "-vtu", 0, "-estimate", 0, "-tol", 1e-3, "-verbose", 1, "-out", tmp_path / "out"]
     code, output = on_ranks(1, script("sphere-on-block"), "-h", 0.265, *flags)
     assert code == 0 and output.count("engine: multigrid, for ") == 1, output
     assert "faster than -solver direct" in output and "their iterations" in output
