@@ -1,5 +1,5 @@
 # case-asks.awk: the modules that a case file asks for, read only then: awk -f case-asks.awk CASE
-# Exit code: the sum of 1 friction, legs or ties; 2 heat, conducted or not, or preload; 4 turns; 8 stresses, lines, yield; 16 a law that is not always read;
+# Exit code: the sum of 1 friction, legs or ties; 2 heat, conducted or not, or preload; 4 turns; 8 stresses, lines, yield, expansion by conducted heat; 16 a law that is not always read;
 # 32 symmetries, or an axis; 64 pressures, tractions, weights, gravity; 128 rotations. The last three count in comments and names too.
 # With -v more=1: the sum of 1 free and rigid forces, moments, spins, springs; 2 moments to be told; 4 conducted heat.
 BEGIN { end = "([ \t\r]|$)" }
@@ -7,7 +7,7 @@ $0 ~ "^[ \t]*(leg[ \t]|tie[ \t]|(contact|obstacle)[ \t].*[ \t]friction" end ")" 
 $0 ~ "^[ \t]*(expand|preload|conduct)" end { strained = 1 }
 $0 ~ "^[ \t]*conduct" end { heated = 1 }
 $0 ~ "^[ \t]*rotate" end { turns = 1 }
-$0 ~ "^[ \t]*((stresses|line)" end "|body[ \t].*[ \t]yield" end ")" { stressed = 1 }
+$0 ~ "^[ \t]*((stresses|line)" end "|body[ \t].*[ \t]yield" end "|conduct[ \t].*[ \t]expand" end ")" { stressed = 1 }
 /[ \t]law[ \t]+(exponential|barrier|table)/ { laws = 1 }
 /symmetr/ { mirrored = 1 }
 /pressure|traction|weight|gravity/ { loaded = 1 }
