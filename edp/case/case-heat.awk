@@ -41,7 +41,7 @@ function putConductance(v) { row("conductance " FNR " 0 0 none none none", v) }
 # once all is read
 function checkHeat(   some, g) {
   for (g = 1; g <= groups; g++) if (("conduct" SUBSEP g) in seen) some = 1
-  for (g in heatLine) if (!some) no("line " heatLine[g] ": a temperature, flux or film, and no body conducts; allowed: with a line conduct BODY k for each body")
+  for (g = 1; g <= groups; g++) if (!some && g in heatLine) no("line " heatLine[g] ": a temperature, flux or film, and no body conducts; allowed: with a line conduct BODY k for each body")
   if (conductances && !some) no("line " conductanceLine ": a conductance, and no body conducts; allowed: with a line conduct BODY k for each body")
   if (!some) return
   for (g = 1; g <= groups; g++)
