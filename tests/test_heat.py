@@ -241,7 +241,7 @@ def test_fluxes_and_films(state, tmp_path):
 def test_uniform_temperature(tmp_path):
     """At one temperature everywhere the fit shall be that of `expand`, in forces and stresses."""
     held = "symmetry floor\nsymmetry side\n"
-    heated = "contact seat journal conductance 1\nconduct shaft 0.05 expand 12e-6 from 20\nconduct ring 0.2 expand 23e-6 from 140\ntemperature outside 50\n"
+    heated = f"contact seat journal conductance 1\n{CONDUCTS}temperature outside 50\n"
     mesh = ROOT / "edp/examples/heated-fit/heated-fit.geo"
     for state in ("stress", "strain"):
         case = f"state {state}\n{FIT}{held}"
@@ -317,7 +317,12 @@ FLAGS = {  # flags: what the message says
 }
 CHANGES = {  # what the message says: what is changed in the case
     "upper: nothing says how it conducts": ("conduct upper 2\n", ""),
-    "line 4: a conductance, and no body conducts": ("conduct lower 1\nconduct upper 2\ncontact", "#\ncontact", "temp", "#"),
+    "line 4: a conductance, and no body conducts": (
+        "conduct lower 1\nconduct upper 2\ncontact",
+        "#\ncontact",
+        "temp",
+        "#",
+    ),
     "line 7: a temperature, flux or film, and no body conducts": ("conduct lower 1\nconduct upper 2\n", ""),
     "no temperature anywhere": ("temperature bottom 0\n", "", "temperature top 1\n", ""),
     "expand with conduct": ("clamp", "expand lower 1e-5 3\nclamp"),
@@ -355,12 +360,16 @@ def test_refused_statements(words, tmp_path):
 def read(case, folder):
     """Exit code and output of the reader, in the plane."""
     curves, bodies = "bottom top left right face foot".split(), ["lower", "upper"]
-    names = [f'1 {k} "{name}"' for k, name in enumerate(curves, 1)] + [f'2 {k} "{name}"' for k, name in enumerate(bodies, 7)]
+    names = [f'1 {k} "{name}"' for k, name in enumerate(curves, 1)] + [
+        f'2 {k} "{name}"' for k, name in enumerate(bodies, 7)
+    ]
     (folder / "names").write_text("\n".join(names) + "\n")
     (folder / "a.case").write_text(case)
     files = [word for part in PARTS for word in ("-f", ROOT / f"edp/case/case-{part}.awk")]
     given = {**os.environ, "CASE": "a.case", "SPACE": "0", "LC_ALL": "C", "RUBS": "1"}
-    done = subprocess.run(["awk", *files, folder / "names", folder / "a.case"], env=given, capture_output=True, text=True)
+    done = subprocess.run(
+        ["awk", *files, folder / "names", folder / "a.case"], env=given, capture_output=True, text=True
+    )
     return done.returncode, done.stdout
 
 

@@ -34,7 +34,7 @@ BEGIN {
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
   rubbing = "[friction MU [compliance c] [limit t]]"
-  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [law NAME ...] " rubbing " [conductance h0 [hardness H [exponent m]]], with its parameters: " lawNames
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [conductance h0 [hardness H [exponent m]]] [law NAME ...] " rubbing ", with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
   usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [interference number] [law NAME ...] " rubbing ", SHAPE one of: " shapeNames
