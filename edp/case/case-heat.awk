@@ -50,8 +50,9 @@ function checkHeat(   some, g) {
   for (g = 1; g <= groups; g++) {
     if (("expand" SUBSEP g) in seen) no("line " seen["expand", g] ": expand with conduct; allowed: conduct " nameOf[g] " k expand alpha from T")
     if (("preload" SUBSEP g) in seen) no("line " seen["preload", g] ": preload with conduct; allowed: one of them")
-    if (g in warmed && ("temperature" SUBSEP g) in seen)
-      no("line " warmed[g] ": " nameOf[g] ": a flux or film where line " seen["temperature", g] " gives the temperature does nothing; allowed: one of them")
+    key_ = "temperature" SUBSEP g
+    if (g in warmed && key_ in seen)
+      no("line " warmed[g] ": " nameOf[g] ": a flux or film where line " seen[key_] " gives the temperature does nothing; allowed: one of them")
   }
   if (!heats) no("conduct, and no temperature anywhere; allowed: at least one line temperature or film")
 }
