@@ -12,7 +12,7 @@ from freefem import ROOT, data, part, short_of, table
 from postprocess import closed_forms as forms
 from postprocess import vtu
 
-BARS, TUBE, BOX = (data(f"heat/{name}.geo") for name in ("bars", "tube", "box"))
+BARS, TUBE, BOX, RING = (data(f"heat/{name}.geo") for name in ("bars", "tube", "box", "ring"))
 SIDES = "symmetry left\nsymmetry right\n"
 HELD = f"clamp bottom\n{SIDES}temperature bottom 0\n"
 CONTACT = "contact face foot conductance 0.5 hardness 5"
@@ -98,6 +98,15 @@ def test_bars_that_expand(tmp_path):
     assert 3 < found["heat"]["rounds"] < 15
     assert "thermal strain" in found["notEstimated"] and found["estimates"] is None
     balanced(found["heat"])
+
+
+def test_open_gap(tmp_path):
+    """Where nothing touches nothing shall be conducted: each bar has its own temperature."""
+    case = f"{SOFT}contact face foot conductance 0.5\n{HELD}move top 0 0.1\ntemperature top 1\n"
+    heat = solve(tmp_path, BARS, case, "-set", "n", 3)["heat"]
+    assert heat["contacts"] == [{"name": "face foot", "heat": 0, "conductance": 0, "jump": None}]
+    assert [(body["least"], body["greatest"]) for body in heat["bodies"]] == [(0, 0), pytest.approx((1, 1), abs=1e-12)]
+    assert heat["in"] == heat["out"] == 0
 
 
 def strained(young, poisson, expansion, free, conductivity):
@@ -197,6 +206,26 @@ def test_in_space(case, tmp_path):
     assert found["heat"]["in"] == pytest.approx(400 * (flow or flux(pressure)), rel=1e-6)
     assert found["contacts"][0]["normalForce"] == pytest.approx(400 * pressure, rel=1e-6)
     balanced(found["heat"])
+
+
+@pytest.mark.long
+def test_curved_in_space(tmp_path):
+    """A ring on a shaft, whose elements follow the cylinders: pressed and heated, then with a flux and a film."""
+    faces = "symmetry floor\nsymmetry side\nsymmetry below\nsymmetry above\n"
+    held = f"{faces}temperature bore 20\ntemperature outside 60\n"
+    case = f"{FIT}{CONDUCTS}contact seat journal conductance 0.01 hardness 100\n{held}"
+    found = solve(tmp_path / "fit", RING, case, "-set", "h", 7, space=True)
+    pressure, heat, _ = exact_fit(60)
+    assert found["contacts"][0]["normalForce"] == pytest.approx(pressure * pi / 2 * 25 * 6, rel=1e-4)
+    assert found["heat"]["in"] == pytest.approx(heat / 4 * 6, rel=1e-4)
+    balanced(found["heat"])
+    given = "conduct shaft 0.05\nconduct ring 0.2\nflux bore 0.3\nfilm outside 2e-3 20\n"
+    case = f"{FIT}{given}contact seat journal interference 0.01 conductance 0.01\n{faces}"
+    heat = solve(tmp_path / "flux", RING, case, "-estimate", 0, "-set", "h", 7, space=True)["heat"]
+    assert heat["in"] == pytest.approx(0.3 * pi / 2 * 10 * 6, rel=1e-4)
+    ring = {body["name"]: body for body in heat["bodies"]}["ring"]
+    assert ring["least"] == pytest.approx(20 + 3 / (2e-3 * 45), rel=1e-3)
+    balanced(heat)
 
 
 @pytest.mark.long
