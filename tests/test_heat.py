@@ -85,6 +85,8 @@ def test_bars_in_series(tmp_path):
     bodies = {body["name"]: (body["least"], body["greatest"]) for body in found["heat"]["bodies"]}
     assert bodies["lower"] == pytest.approx((0, 20 * flux(pressure)), abs=1e-6)
     assert bodies["upper"] == pytest.approx((1 - 5 * flux(pressure), 1), abs=1e-6)
+    groups = {group["name"]: group["heat"] for group in found["heat"]["groups"]}
+    assert groups["temperature top"] == pytest.approx(20 * flux(pressure), rel=1e-6)
     balanced(found["heat"])
 
 
