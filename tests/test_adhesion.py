@@ -276,6 +276,7 @@ def test_start_on_the_model():
     assert 2 * run(SPHERE).newton < run(SPHERE, "-start", "none").newton
 
 
+@pytest.mark.long
 def test_error_of_a_path():
     """What the mesh has a path's numbers off by shall be in their errors, which are no more than some times it."""
     ends = "-path", "-0.0031 0.0011 -0.0031"
@@ -307,6 +308,7 @@ def test_accuracy_of_a_law_that_falls(tmp_path):
     assert abs(done.halfWidth - 0.1527) <= done.estimates["halfWidth"]["error"] + 1e-4
 
 
+@pytest.mark.long
 def test_path_of_forces(tmp_path):
     """Prescribed forces shall be met, on the approaches' own curve, and refused by name beyond the least one."""
     given = ["-control", "force", "-steps", 2]

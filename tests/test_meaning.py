@@ -78,6 +78,7 @@ def test_prescribed_motion(go):
     assert moved.summary["bodies"][0]["reaction"][0] == pytest.approx(7.5, rel=1e-6)
 
 
+@pytest.mark.long
 def test_mean_motion(go):
     """A body's motion is its area's mean: of a uniform strain the middle's, however the elements are spread."""
     case = "body bar E 1000 nu 0\nsymmetry left\nobstacle right plane 2 0 -1 0 move -0.01 0\n"
@@ -131,6 +132,7 @@ def test_layer(go):
     assert "overflow" not in go(bar(1, 1), case.format("-1.6")).stdout
 
 
+@pytest.mark.long
 def test_ends(go):
     """Where a group ends at a corner of the body nothing is cut off; where the body goes on smoothly it is."""
     case = "body bar E 1000 nu 0.3\nobstacle sole plane 0 0 0 1\nmove head 0 -0.01\n"
@@ -155,6 +157,7 @@ def halves(split):
     return sketch.text()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "rubs, support",
     short_of([("", "symmetry side"), (" friction 0.3", "move side 0.01 0")], [(" friction 0.3", "symmetry side")]),

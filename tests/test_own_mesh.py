@@ -209,6 +209,7 @@ def test_ends(scene, flags, said):
     assert bool(done.summary["warnings"]) is said
 
 
+@pytest.mark.long
 def test_no_force_before_touch():
     """Curved bodies a hair apart shall not press: the gap is that of the circles, not its mean over an element."""
     for order, u0, touch in ((1, 0.09999, False), (2, 0.09999, False), (1, 0.1001, True)):

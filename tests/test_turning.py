@@ -212,6 +212,7 @@ def series(folder):
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
+@pytest.mark.long
 def test_hook_in_and_out(solve, tmp_path):
     """A hook that slides over a bump, on to points that nothing faced at first, shall press, and be free at the end."""
     case = "body hook E 2800 nu 0.39\nbody catch E 2800 nu 0.39\ncontact nose bump\nclamp root\nmove base -4.8 0\n"
@@ -236,6 +237,7 @@ def slab(matrix=None):
     return mesh.text() if matrix is None else mesh.text(matrix)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turns", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_dragged_in_space(solve, tmp_path, turns):
     """A cylinder dragged over elements of a block between mirrors: hardly a force, steady energy, turned the same."""

@@ -109,6 +109,7 @@ def test_meshed_disc_counts():
     assert run("meshed-disc", "-method", "paper", "-h", 0.5).summary["newtonPerAdaptation"] == [6, 4, 2]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
 def test_many_contacts(kappa):
     """Wavy and rough surfaces: many separate contacts, to plain Newton's answer."""
