@@ -33,6 +33,7 @@ def test_stiffness_and_points(tmp_path, symmetry, points):
     assert len(values["top"]) == points
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
 def test_methods_agree(kappa):
     """The paper's scheme, Newton's method, load steps and xnewton shall find one solution, the energy's minimum."""

@@ -104,6 +104,7 @@ def test_shrink_fit(state, tmp_path):
 BLOCK = data("engineer/block.geo")
 
 
+@pytest.mark.long
 def test_heat_in_space(tmp_path):
     """A bar that heat presses against a wall: E (alpha dT - gap/length), nothing across."""
     case = "body bar E 1000 nu 0.3\nobstacle top plane 0 0 4.002 0 0 -1\nsymmetry x\nsymmetry y\nsymmetry z\n"

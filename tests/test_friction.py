@@ -383,6 +383,7 @@ def test_mindlin(tmp_path):
     assert rows["dissipated"][3] - rows["dissipated"][1] == pytest.approx(loop, rel=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("pull", "h"), [(0.6, 0.0125), pytest.param(0.3, 0.005, marks=pytest.mark.long)])
 def test_carter(tmp_path, pull, h):
     """Rolling: creepage, tractions, what sticks at the side where the surfaces come in, what is dissipated."""

@@ -47,6 +47,7 @@ def test_light_load_on_a_tight_fit(tmp_path):
     assert fit.summary["supports"][0]["force"] == pytest.approx([-pulled, 0], abs=1e-5 * pulled)
 
 
+@pytest.mark.long
 def test_press_fit_in_space(tmp_path):
     fit = case(tmp_path, SPACE_FIT, SPACE_FITTED, "-order", 1, space=True)
     contact = fit.summary["contacts"][0]
@@ -237,12 +238,14 @@ traction head 0 -0.5
 """
 
 
+@pytest.mark.long
 def test_wedge_let_go(tmp_path):
     """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
     let_go = case(tmp_path, WEDGE, WEDGED)
     assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kinds", short_of([("block",)], [(("fit", "wedge", "belt"),)]))
 def test_sample_of_the_campaign(tmp_path, kinds):
     """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""

@@ -141,6 +141,7 @@ def test_error_shares(tmp_path):
     assert cells[:, 0].sum() == pytest.approx(done.estimates["parts"]["inside"], rel=1e-9)
 
 
+@pytest.mark.long
 def test_accuracy(tmp_path):
     """New meshes of a half shall keep to the plane of symmetry and reach what is asked for."""
     done = run_in(ROOT, "edp/main.edp", "-half", 1, "-accuracy", 1e-6, "-order", 3, "-vtu", 0, out=tmp_path / "out")
@@ -151,6 +152,7 @@ def test_accuracy(tmp_path):
     assert abs(done.contact["x"] + done.contact["x"][::-1]).max() < 1e-12
 
 
+@pytest.mark.long
 def test_accuracy_of_pressures(tmp_path):
     """A peak in the plane of symmetry is no end of contact: hard contact shall have a bound of its profile."""
     flags = ["-half", 1, "-law", "signorini", "-goal", "pressure", "-accuracy", 5e-3, "-order", 2, "-vtu", 0]

@@ -343,6 +343,7 @@ def test_no_room_for_a_mesh(words, tmp_path):
     assert not (tmp_path / "out").exists() and list(folder.rglob("*.msh")) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("flags", [[], ["-history", "1", "-steps", "2"]])
 def test_folder_moved_during_a_run(flags, tmp_path):
     """A run whose results' folder is taken away shall end with one line and code 30."""

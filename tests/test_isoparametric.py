@@ -62,6 +62,7 @@ def ball(tmp_path_factory):
     return gmsh(tmp_path_factory.mktemp("ball"), BALL.format(size=0.6, order=2))
 
 
+@pytest.mark.long
 def test_linear_fields(tmp_path, ball):
     """Rigid motions cost nothing, and a field that swells is in balance with its pressure, to rounding."""
     found = fields(tmp_path, ball, ON_PLANE + f"pressure skin {-BULK3!r}\n")

@@ -169,6 +169,7 @@ def test_a_law_without_end(tmp_path, capsys, monkeypatch):
     assert "does not end: stopped after 1 seconds" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_a_law(tmp_path, capsys):
     """The answers' law shall be well; with a slope twice too steep that check alone is off."""
     (law,) = fences(answers("4-own-law"), "freefem")

@@ -446,6 +446,7 @@ def test_help_and_refusals(lab, tmp_path):
     assert listing(package) == before
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("lab, flags", [("1-law", ["-h", 5]), ("6-sphere", ["-h", 1.6, "-layers", 1, "-estimate", 0])])
 def test_the_command_of_a_run(lab, flags, tmp_path):
     """The command that a page of runs gives for a lab's run shall make that run again."""

@@ -179,6 +179,7 @@ def test_motion_of_the_whole(said):
     assert np.hypot(*motion[:2]) < 0.001 and motion[2] == pytest.approx(0.02, rel=0.01)
 
 
+@pytest.mark.long
 def test_shaft_in_hub(said):
     """A shaft that turns in its hub changes nothing."""
     geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()

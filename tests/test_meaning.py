@@ -87,6 +87,7 @@ def test_mean_motion(go):
         assert told.summary["bodies"][0]["motion"][0] == pytest.approx(-0.005, rel=1e-6)
 
 
+@pytest.mark.long
 def test_turned_body(go):
     """A body that is turned as a whole turns by the angle that is prescribed, and moves as its middle does."""
     for order in (1, 4):
@@ -177,6 +178,7 @@ def test_neighbours(go, tmp_path, rubs, support):
     assert len(pressures) == 2 and pressures[0] == pytest.approx(pressures[1], rel=1e-4) and pressures[0] > 0.3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("other", ["0 0 0 1 friction 0.2", "0 -0.001 0 1 friction 0.3"])
 def test_neighbours_unlike(go, other):
     """With friction, and unlike at the node that they share, they are refused: how forces part is not known."""

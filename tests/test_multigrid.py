@@ -203,6 +203,7 @@ def test_plugin_in_a_cache(tmp_path):
     assert code == 0, output
 
 
+@pytest.mark.long
 @built
 @pytest.mark.parametrize(
     "program, flags, allowed",

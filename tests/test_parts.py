@@ -698,6 +698,7 @@ def test_gap_vertical_forces(tmp_path):
     assert along_normals.force != pytest.approx(runs[1].force, rel=1e-5)
 
 
+@pytest.mark.long
 def test_gap_vertical_in_space(tmp_path):
     """A box on a box: the flat contact's pressure, by gaps along z and by another method."""
     case = STACK.replace('"upper bottom"', '"upper bottom" gap vertical') + 'clamp bottom\nmove "upper top" 0 0 -0.1\n'

@@ -315,6 +315,7 @@ def test_kink_without_bound(go, sides, space):
         assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
 
 
+@pytest.mark.long
 def test_kink_on_a_mirror(go):
     """Half of a kink, a line at 102 degrees to a mirror, has no bound; a coarse hole at 90 to it has one."""
     case = "body plate E 1000 nu 0.3\nobstacle pulled plane 10 0 -1 0\nsymmetry below\nsymmetry side\n"
@@ -503,6 +504,7 @@ def test_coincident_nodes(go, sides):
     assert go(sketch.text(), RINGS).summary["converged"]
 
 
+@pytest.mark.long
 def test_ball_in_space(go):
     """The same in space: the ball's rotations are held by few points."""
     part = drawn("ball in space 2")

@@ -49,6 +49,7 @@ def hertz(force, r1, r2, e1, e2, nu=0.3):
     return a, 2 * force / (np.pi * a)
 
 
+@pytest.mark.long
 def test_exchange_of_slave_and_master():
     """Exchanging slave and master shall change the force by less than the discretisation error does."""
     flags = ["-method", "xnewton", "-tol", 1e-9, "-force", 0, "-u0", 0.4, "-h", 0.2]

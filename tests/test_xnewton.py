@@ -137,6 +137,7 @@ def test_table_law(tmp_path):
     assert "line 3" in refused.stdout.splitlines()[0]
 
 
+@pytest.mark.long
 def test_sphere_about_the_axis_against_hertz():
     """A rigid sphere under a force, axisymmetric: radius and greatest pressure within 1 % of Hertz at a/20."""
     force, radius, modulus = 10, 10, 100 / (1 - 0.3**2)
