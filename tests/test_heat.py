@@ -13,7 +13,7 @@ from postprocess import closed_forms as forms
 from postprocess import vtu
 
 BARS, TUBE, BOX, RING = (data(f"heat/{name}.geo") for name in ("bars", "tube", "box", "ring"))
-SIDES = "symmetry left\nsymmetry right\n"
+SIDES = "symmetry left\nsymmetry right\nsymmetry beside\n"
 HELD = f"clamp bottom\n{SIDES}temperature bottom 0\n"
 CONTACT = "contact face foot conductance 0.5 hardness 5"
 SOFT = "body lower E 100 nu 0.3\nbody upper E 100 nu 0.3\nconduct lower 1\nconduct upper 2\n"
@@ -104,7 +104,7 @@ def test_bars_that_expand(tmp_path):
 
 def test_open_gap(tmp_path):
     """Where nothing touches nothing shall be conducted: each bar has its own temperature."""
-    case = f"{SOFT}contact face foot conductance 0.5\n{HELD}move top 0 0.1\ntemperature top 1\n"
+    case = f"{SOFT}contact face foot conductance 0.5\n{HELD}move top 0 0.1\nfilm top 2 1\n"
     heat = solve(tmp_path, BARS, case, "-set", "n", 3)["heat"]
     assert heat["contacts"] == [{"name": "face foot", "heat": 0, "conductance": 0, "jump": None}]
     assert [(body["least"], body["greatest"]) for body in heat["bodies"]] == [(0, 0), pytest.approx((1, 1), abs=1e-12)]
@@ -286,6 +286,23 @@ def test_uniform_temperature(tmp_path):
 
 
 @pytest.mark.long
+def test_uniform_temperature_under_a_force(tmp_path):
+    """The same of a bar with a force on its side, which heat moves against the bar's own stiffness."""
+    held = "clamp bottom\nsymmetry left\nforce beside -30 0\n"
+    heated = f"{CONTACT}\nconduct lower 1 expand 1e-3\nconduct upper 1 expand 1e-3\ntemperature top 10\n"
+    cooled = "contact face foot\nexpand lower 1e-3 10\nexpand upper 1e-3 10\nstresses\n"
+    flags = "-estimate", 0, "-set", "n", 4, "-tol", 1e-10
+    one, other = (
+        solve(tmp_path / name, BARS, UNLIKE + held + more, *flags) for name, more in (("a", heated), ("b", cooled))
+    )
+    assert one["contacts"][0]["normalForce"] == pytest.approx(other["contacts"][0]["normalForce"], rel=1e-8)
+    for each, of_expand in zip(one["bodies"], other["bodies"], strict=True):
+        assert each["motion"] == pytest.approx(of_expand["motion"], rel=1e-7, abs=1e-9)
+    for each, of_expand in zip(one["stresses"], other["stresses"], strict=True):
+        assert each["vonMises"] == pytest.approx(of_expand["vonMises"], rel=1e-7)
+
+
+@pytest.mark.long
 def test_thermal_stresses(tmp_path):
     """Stresses along a radius of the ring: Lame's and those of the temperature (Timoshenko and Goodier, 150)."""
     case = sleeve(60) + "line r 25.5 6 44.5 6\n"
@@ -354,11 +371,11 @@ CHANGES = {  # what the message says: what is changed in the case
         "temp",
         "#",
     ),
-    "line 7: a temperature, flux or film, and no body conducts": ("conduct lower 1\nconduct upper 2\n", ""),
+    "line 8: a temperature, flux or film, and no body conducts": ("conduct lower 1\nconduct upper 2\n", ""),
     "no temperature anywhere": ("temperature bottom 0\n", "", "temperature top 1\n", ""),
     "expand with conduct": ("clamp", "expand lower 1e-5 3\nclamp"),
     "preload with conduct": ("clamp", "preload left 3\nclamp"),
-    "line 6: top: a flux or film where line 12": ("clamp", "flux top 3\nclamp"),
+    "line 6: top: a flux or film where line 13": ("clamp", "flux top 3\nclamp"),
     "conduct of lower: stated before, in line 3": ("clamp", "conduct lower 3\nclamp"),
     "the conductance is missing": ("0.5 hardness 5", ""),
     "exponent: not allowed here": ("0.5 hardness 5", "0.5 exponent 2"),
@@ -390,9 +407,9 @@ def test_refused_statements(words, tmp_path):
 
 def read(case, folder):
     """Exit code and output of the reader, in the plane."""
-    curves, bodies = "bottom top left right face foot".split(), ["lower", "upper"]
+    curves, bodies = "bottom top left right beside face foot".split(), ["lower", "upper"]
     names = [f'1 {k} "{name}"' for k, name in enumerate(curves, 1)] + [
-        f'2 {k} "{name}"' for k, name in enumerate(bodies, 7)
+        f'2 {k} "{name}"' for k, name in enumerate(bodies, 8)
     ]
     (folder / "names").write_text("\n".join(names) + "\n")
     (folder / "a.case").write_text(case)

@@ -18,6 +18,7 @@ EndFor
 Transfinite Curve {1, 3} = n + 1;
 Transfinite Curve {11, 13} = Round(1.6 * n) + 1;
 Mesh.MeshSizeMax = 20 / n;
-Physical Curve("bottom") = {1}; Physical Curve("face") = {3}; Physical Curve("right") = {2, 12}; Physical Curve("left") = {4, 14};
+Physical Curve("bottom") = {1}; Physical Curve("face") = {3}; Physical Curve("right") = {2};
+Physical Curve("beside") = {12}; Physical Curve("left") = {4, 14};
 Physical Curve("foot") = {11}; Physical Curve("top") = {13};
 Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
