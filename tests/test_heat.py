@@ -343,7 +343,15 @@ def test_no_steady_state(tmp_path):
 def test_cold_body(tmp_path):
     """A body that is warm by nothing has no temperature."""
     case = f"{SOFT}{CONTACT}\n{HELD}move top 0 1\nflux top 0.1\n"
-    assert solve(tmp_path, BARS, case, expect=20)["message"].startswith("upper: nothing fixes its temperature")
+    found = solve(tmp_path / "bar", BARS, case, expect=20)
+    assert found["message"].startswith("upper: nothing fixes its temperature")
+    folder = ROOT / "edp/examples/roller"  # roller and plate touch, and nothing warms either of them
+    case = (folder / "roller.case").read_text() + "".join(
+        f"conduct {name} 1\n" for name in ("roller", "upper", "lower")
+    )
+    case = case.replace("upper-face", "upper-face conductance 1") + "temperature base 20\n"
+    found = solve(tmp_path / "roller", folder / "roller.geo", case, "-set", "size", 1, "-estimate", 0, expect=20)
+    assert "nothing fixes its temperature" in found["message"]
 
 
 @pytest.mark.long
