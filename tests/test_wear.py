@@ -98,3 +98,52 @@ def test_goes_on(tmp_path):
     assert worn(other)["volume"]["value"] == pytest.approx(worn(first)["volume"]["value"], rel=1e-3)
     assert worn(other)["volume"]["error"] is None and "error not known" in other.stdout
     assert other.summary["wear"]["stepsError"].startswith("not known: an odd number of wear steps")
+
+
+# ---------------------------------------------------------------- slip
+
+FRETTED = """size = {size};
+Point(1) = {{-20, 0, 0, 4}}; Point(2) = {{20, 0, 0, 4}}; Point(3) = {{20, 20, 0, 4}}; Point(4) = {{1, 20, 0, size}};
+Point(5) = {{-1, 20, 0, size}}; Point(6) = {{-20, 20, 0, 4}};
+Line(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(3) = {{3, 4}}; Line(4) = {{4, 5}}; Line(5) = {{5, 6}}; Line(6) = {{6, 1}};
+Curve Loop(1) = {{1 : 6}}; Plane Surface(1) = {{1}};
+Physical Surface("block") = {{1}}; Physical Curve("bottom") = {{1}}; Physical Curve("top") = {{4}}; Physical Curve("free") = {{2, 3, 5, 6}};
+"""
+FRETTING = "body block E 1e4 nu 0.49\nclamp bottom\ncycles {} steps {}\n"
+FRETTING += "obstacle top circle 0 120 R 100 move 0 -0.012 friction 0.5 wear 1e-6\nleg 2\n"
+CYCLE = "leg 4\nobstacle top move 0.005 -0.012\nleg 6\nobstacle top move -0.005 -0.012\nleg 4\nobstacle top move 0 -0.012\n"
+
+
+@pytest.mark.long
+def test_partial_slip(tmp_path):
+    """The worn profile of a cycle is that of Cattaneo and Mindlin, k times pressure times slip; its volume k/mu times the energy."""
+    run = part(tmp_path, FRETTED.format(size=0.08), FRETTING.format(100, 1) + CYCLE, "-estimate", 0)
+    profile = rows(run)
+    shear, force = np.abs(rows(run, "series.csv")["shearForce"]).max(), run.summary["contacts"][0]["normalForce"]
+    modulus, x = plane_modulus(1e4, 0.49), np.abs(profile["x"])
+    half = np.sqrt(4 * force * 100 / (np.pi * modulus))
+    stick, peak = half * np.sqrt(1 - shear / (0.5 * force)), 2 * force / (np.pi * half)
+    t = np.clip(x, stick, half)
+    slip = 0.5 * peak / (modulus * half) * (t * np.sqrt(t**2 - stick**2) - stick**2 * np.arccosh(t / stick))
+    depth = 100 * 1e-6 * peak * np.sqrt(1 - (t / half) ** 2) * 4 * slip
+    assert np.abs(profile["depth"] - depth)[x < 0.95 * half].max() < 0.08 * depth.max()
+    assert (profile["depth"][(x > half + 0.05) | (x < stick - 0.1)] == 0).all()
+    volume = worn(run)["volume"]["value"]
+    assert volume == pytest.approx(0.04 * depth.sum(), rel=0.01)
+    assert volume == pytest.approx(100 * 1e-6 / 0.5 * run.summary["contacts"][0]["dissipated"], rel=3e-3)
+    assert worn(run)["slide"] is None and "error of the wear steps not known" in run.stdout
+
+
+@pytest.mark.long
+def test_fretting_steps(tmp_path):
+    """The slip zone loses its pressure; the steps' error holds the difference; a step that is too long is refused by name."""
+    mesh, cycles = FRETTED.format(size=0.16), 8000
+    few, many = (part(tmp_path / f"{n}", mesh, FRETTING.format(cycles, n) + CYCLE) for n in (4, 8))
+    assert abs(worn(few)["depth"]["value"] - worn(many)["depth"]["value"]) < worn(few)["depth"]["error"]
+    assert abs(worn(few)["volume"]["value"] - worn(many)["volume"]["value"]) < worn(few)["volume"]["error"]
+    assert worn(few)["depth"]["error"] < 0.3 * worn(few)["depth"]["value"]
+    deepest = rows(many)["depth"].argmax()
+    plain = part(tmp_path / "plain", mesh, (FRETTING + CYCLE).format(1, 1).replace(" wear 1e-6", "").replace("cycles 1 steps 1\n", ""))
+    assert many.contact["pressure"][deepest] < 0.9 * plain.contact["pressure"][deepest]
+    long = part(tmp_path / "long", mesh, FRETTING.format(100 * cycles, 1) + CYCLE, expect=20)
+    assert "cycles is too long for this mesh: use cycles 800000 steps " in long.stdout

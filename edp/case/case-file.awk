@@ -156,7 +156,7 @@ function readObstacle(   g, k, v, f, wear, shape, load, law, next_, over, rest) 
   measured(g, "none")
   put(g, 0, shape, load, law, v)
   if (0 in f) putFriction(f)
-  if (0 in wear) putWear(wear, law, g)
+  if (0 in wear) putWear(wear, law, g, (0 in f) ? f[0] : 0)
 }
 # gaps of one slave, in space of all contacts, are measured in one way
 function measured(g, gap,   all) {
@@ -192,7 +192,7 @@ function readContact(   side, v, f, wear, law, gap, next_, over) {
   v[4] -= over
   put(side[0], side[1], gap, "none", law, v)
   if (0 in f) putFriction(f)
-  if (0 in wear) putWear(wear, law, side[0])
+  if (0 in wear) putWear(wear, law, side[0], (0 in f) ? f[0] : 0)
 }
 # a contact whose surfaces neither part nor slide: a statement "tied" of its own behind it
 function readTie(   side, v) {

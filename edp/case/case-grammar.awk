@@ -55,7 +55,7 @@ BEGIN {
   usage["group"] = "group NAME " manyOf[dim - 1] " N ..., " manyOf[dim] " N ..., box x y" at3 " x y" at3 ", plane x y" at3 " nx ny" \
     (space ? " nz" : "") ", near x y" at3 " or between BODY BODY"
   usage["size"] = "size NAME number or size contact number"
-  wearing = "[wear K slide S [from FILE]]"
+  wearing = "[wear K [slide S] [from FILE]]"
   sub(/\[friction/, wearing " [friction", usage["contact"])
   sub(/\[friction/, wearing " [friction", usage["obstacle"])
   usage["cycles"] = "cycles NUMBER [steps NUMBER]"

@@ -1,13 +1,14 @@
 # case-worn.awk: wear behind a contact or an obstacle, and the cycles of a case
 # Read by awk before case-file.awk, whose functions it uses. Wear becomes the statement "wear" of the table, behind that of its contact:
-# wear coefficient, sliding distance of a cycle, and the file of a worn profile. "cycles" has their number, and that of the wear steps.
+# wear coefficient, sliding distance of a cycle (0: the slip of load phases), and the file of a worn profile. "cycles" has their number,
+# and that of the wear steps.
 
-# wear K slide S [from FILE]
+# wear K [slide S] [from FILE]
 function readWear(f,   path) {
   if (ENVIRON["WEARS"] == "") no("wear: read by parts.edp and parts-3d.edp alone; allowed here: contacts without it")
   f[0] = number("the wear coefficient", 0, 1e300)
-  keyword("slide")
-  f[1] = number("the sliding distance of a cycle", 0, 1e300)
+  f[1] = 0
+  if (at < words && word[at + 1] == "slide") { at++; f[1] = number("the sliding distance of a cycle", 0, 1e300) }
   wornFile = ""
   if (at >= words || word[at + 1] != "from") return
   at++
@@ -17,8 +18,12 @@ function readWear(f,   path) {
   if (system("test -f \047" path "\047 && test -r \047" path "\047") != 0)
     no(wornFile ": no such file; allowed: the worn.csv of a run")
 }
-function putWear(f, law, g) {
+function putWear(f, law, g, mu) {
   if (law !~ /^(none|signorini)$/) no("wear: with the law " law "; allowed: hard contact, no law or signorini")
+  if (mu > 0 && f[1]) no("wear: slide with friction, whose slip is computed; allowed: wear K")
+  if (!(mu > 0) && !f[1]) no("wear: no sliding distance and no friction; allowed: wear K slide S, or friction MU and legs")
+  if (mu > 0) slips = FNR
+  else glides = FNR
   row("wear " FNR " " g " 0 none none none", f)
   wearLine = FNR
   if (wornFile != "") { files++; fileLine[files] = statements - 1 " " wornFile }
@@ -38,5 +43,7 @@ function readCycles(   v) {
 # at the end of the case
 function checkWear() {
   if (wearLine && !("cycles" in seen)) no("line " wearLine ": wear without cycles; allowed: a line cycles N")
+  if (slips && glides) no("line " glides ": wear with slide, in line " slips " wear by friction; allowed: one kind for all contacts")
+  if (slips && legs < 2) no("line " slips ": wear by friction without a cycle; allowed: a first leg that loads, and further legs that are one cycle")
   if (!wearLine && ("cycles" in seen)) no("line " seen["cycles"] ": cycles without wear; allowed: wear K slide S behind a contact or an obstacle")
 }
