@@ -181,7 +181,7 @@ REFUSED = {  # @: an obstacle
 }
 
 
-@pytest.mark.parametrize("lines, words", REFUSED.items())
+@pytest.mark.parametrize("lines, words", list(REFUSED.items()))
 def test_refused(tmp_path, monkeypatch, lines, words):
     """Each mistake in a case: one line with the file, the line, and what is allowed."""
     monkeypatch.setenv("WEARS", "1")
@@ -283,7 +283,7 @@ def test_partial_slip(tmp_path):
 @pytest.mark.long
 def test_fretting_steps(tmp_path):
     """The slip zone loses its pressure; the steps' error holds the difference; too long a step stops the run."""
-    mesh, cycles = FRETTED.format(size=0.16), 8000
+    mesh, cycles = FRETTED.format(size=0.16), 4000
     few, many = (part(tmp_path / f"{n}", mesh, FRETTING.format(cycles, n) + CYCLE) for n in (4, 8))
     assert abs(worn(few)["depth"]["value"] - worn(many)["depth"]["value"]) < worn(few)["depth"]["error"]
     assert abs(worn(few)["volume"]["value"] - worn(many)["volume"]["value"]) < worn(few)["volume"]["error"]
@@ -291,6 +291,6 @@ def test_fretting_steps(tmp_path):
     deepest = rows(many)["depth"].argmax()
     unworn = (FRETTING + CYCLE).replace(" wear 1e-6", "").replace("cycles {} steps {}\n", "")
     plain = part(tmp_path / "plain", mesh, unworn, "-estimate", 0)
-    assert many.contact["pressure"][deepest] < 0.9 * plain.contact["pressure"][deepest]
+    assert many.contact["pressure"][deepest] < 0.95 * plain.contact["pressure"][deepest]
     long = part(tmp_path / "long", mesh, FRETTING.format(100 * cycles, 1) + CYCLE, expect=20)
-    assert "cycles is too long for this mesh: use cycles 800000 steps " in long.stdout
+    assert "cycles is too long for this mesh: use cycles 400000 steps " in long.stdout
