@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 from freefem import execute, part, short_of
-from test_parts import Mesh, block, cube, read
+from test_parts import Mesh, block, cube, read, stack
 
 from postprocess.closed_forms import plane_modulus
 
@@ -56,6 +56,19 @@ def test_column(tmp_path):
     limit = 0.02 * (1 - np.exp(-k * slide * cycles * stiffness))
     assert abs(worn(run)["depth"]["value"] - limit) < worn(run)["depth"]["error"] < 0.1 * limit
     assert run.summary["factorisations"] == 1 and run.summary["newton"] <= 3 * steps
+
+
+def test_stack(tmp_path):
+    """Two confined blocks of different meshes wear on each other, as two springs in series."""
+    case = "body block E 100 nu 0.3\nbody upper E 50 nu 0.3\nsymmetry bottom\nsymmetry left\nsymmetry right\n"
+    case += 'symmetry "upper left"\nsymmetry "upper right"\nmove "upper top" 0 -0.02\n'
+    case += 'contact top "upper bottom" wear 2e-3 slide 4\ncycles 6 steps 3\n'
+    run = part(tmp_path, stack(), case, "-order", 1, "-tol", 1e-10)
+    modulus = 0.7 / (1.3 * 0.4)
+    stiffness = 1 / (1 / (100 * modulus) + 1 / (50 * modulus))
+    depth = 0.02 * (1 - (1 + 2e-3 * 4 * 2 * stiffness) ** -3)
+    assert rows(run)["depth"] == pytest.approx(depth, rel=1e-6)
+    assert run.summary["wear"]["contacts"][0]["coefficient"] == 2e-3
 
 
 def test_punch(tmp_path):
