@@ -116,6 +116,9 @@ def test_goes_on(tmp_path):
     assert rows(second)["depth"] == pytest.approx(rows(whole)["depth"], rel=1e-8)
     other = part(tmp_path / "other", PUNCHED.format(size=0.3), FLAT.format(file, 1e-9, 1))
     assert worn(other)["volume"]["value"] == pytest.approx(worn(first)["volume"]["value"], rel=1e-3)
+    assert "the worn depth is " not in other.stdout
+    deep = part(tmp_path / "deep", PUNCHED.format(size=0.5), FLAT.format("", 4000, 1), "-order", 1)
+    assert "the worn depth is " in deep.stdout and "only gaps wear, not the mesh" in deep.stdout
     assert worn(other)["volume"]["error"] is None and "error not known" in other.stdout
     assert other.summary["wear"]["stepsError"].startswith("not known: an odd number of wear steps")
 
