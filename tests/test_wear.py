@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from freefem import execute, part, short_of
+from freefem import ROOT, execute, part, short_of
 from test_parts import Mesh, block, cube, read, stack
 
 from postprocess.closed_forms import plane_modulus
@@ -71,6 +71,7 @@ def test_stack(tmp_path):
     assert run.summary["wear"]["contacts"][0]["coefficient"] == 2e-3
 
 
+@pytest.mark.long
 def test_punch(tmp_path):
     """A flat punch: the volume is k F s; at last the pressure is uniform, the profile that of the loaded surface."""
     run = part(tmp_path, PUNCHED.format(size=0.25), FLAT.format("", 400, 20))
@@ -93,6 +94,7 @@ def test_punch(tmp_path):
     )  # a half-plane's
 
 
+@pytest.mark.long
 def test_ball(tmp_path):
     """A stiff ball: h = sqrt(k F s/(pi R)), in ten steps and in a hundred; the error holds their difference."""
     runs = [part(tmp_path / f"{n}", PUNCHED.format(size=0.1), BALL.format(1000, n)) for n in (8, 80)]
@@ -107,6 +109,7 @@ def test_ball(tmp_path):
     )
 
 
+@pytest.mark.long
 def test_goes_on(tmp_path):
     """A run from the profile of another one ends as one run of all cycles; on another mesh the volume stays."""
     whole = part(tmp_path / "whole", PUNCHED.format(size=0.5), FLAT.format("", 40, 8), "-tol", 1e-10)
@@ -123,6 +126,7 @@ def test_goes_on(tmp_path):
     assert other.summary["wear"]["stepsError"].startswith("not known: an odd number of wear steps")
 
 
+@pytest.mark.long
 def test_two_contacts(tmp_path):
     """Only the contact with wear loses material; the screen says what wears, wear.csv has a row for each."""
     case = HELD + "obstacle top plane 0 20 0 -1 force 0 -50 wear 1e-4 slide 10\n"
@@ -243,7 +247,7 @@ def test_combinations(tmp_path, case, flags, words):
 @pytest.mark.parametrize(
     "row, words",
     short_of(
-        [("0,0,1.5,2,0,x", "")],
+        [("0,0,1.5,2,0,x", "allowed: worn.csv of a run")],
         [
             ("0,0,1.5,2,0,x", "allowed: worn.csv of a run"),
             ("0,0,1.5,2,0", "line 2: not six numbers"),
@@ -269,8 +273,8 @@ Curve Loop(1) = {{1 : 6}}; Plane Surface(1) = {{1}};
 Physical Surface("block") = {{1}}; Physical Curve("bottom") = {{1}}; Physical Curve("top") = {{4}};
 Physical Curve("free") = {{2, 3, 5, 6}};
 """
-FRETTING = "body block E 1e4 nu 0.49\nclamp bottom\ncycles {} steps {}\n"
-FRETTING += "obstacle top circle 0 120 R 100 move 0 -0.012 friction 0.5 wear 1e-6\nleg 2\n"
+FRETTING = "body block E 1e4 nu 0.49\nclamp bottom\n"
+FRETTING += "obstacle top circle 0 120 R 100 move 0 -0.012 friction 0.5 wear 1e-6\ncycles {} steps {}\nleg 2\n"
 CYCLE = (
     "leg 4\nobstacle top move 0.005 -0.012\nleg 6\nobstacle top move -0.005 -0.012\nleg 4\nobstacle top move 0 -0.012\n"
 )
@@ -300,6 +304,8 @@ def test_partial_slip(tmp_path):
 def test_fretting_steps(tmp_path):
     """The slip zone loses its pressure; the steps' error holds the difference; too long a step stops the run."""
     mesh, cycles = FRETTED.format(size=0.16), 4000
+    page = (ROOT / "edp/howto/wear.md").read_text()
+    assert "".join((FRETTING + CYCLE).format(cycles, 8).splitlines(True)[2:]) in page
     few, many = (part(tmp_path / f"{n}", mesh, FRETTING.format(cycles, n) + CYCLE) for n in (4, 8))
     assert abs(worn(few)["depth"]["value"] - worn(many)["depth"]["value"]) < worn(few)["depth"]["error"]
     assert abs(worn(few)["volume"]["value"] - worn(many)["volume"]["value"]) < worn(few)["volume"]["error"]
