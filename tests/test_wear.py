@@ -316,3 +316,18 @@ def test_fretting_steps(tmp_path):
     assert many.contact["pressure"][deepest] < 0.95 * plain.contact["pressure"][deepest]
     long = part(tmp_path / "long", mesh, FRETTING.format(100 * cycles, 1) + CYCLE, expect=20)
     assert "cycles is too long for this mesh: use cycles 400000 steps " in long.stdout
+
+
+@pytest.mark.long
+def test_slip_in_space(tmp_path):
+    """A box that slides as a whole, in space and in the plane: k p times the slip, and k/mu times what a cycle dissipates."""
+    case = "body block E 100 nu 0.3\nclamp bottom\ncycles 10 steps 1\n"
+    case += "obstacle top plane 0 {0}2 0 {0}-1 move 0 {0}-0.01 friction 0.2 wear 1e-6\nleg 1\nleg 2\n"
+    case += "obstacle top move 0.5 {0}-0.01\nleg 4\nobstacle top move -0.5 {0}-0.01\nleg 2\nobstacle top move 0 {0}-0.01\n"
+    meshes = block(Mesh(), cells=(6, 4)).text(), cube(Mesh(), size=(3, 1, 2), cells=(3, 1, 2)).text()
+    for mesh, space in zip(meshes, (False, True), strict=True):
+        run = part(tmp_path / f"{space}", mesh, case.format("0 " * space), "-order", 1, "-estimate", 0, space=space)
+        dissipated, force = (run.summary["contacts"][0][key] for key in ("dissipated", "normalForce"))
+        volume = worn(run)["volume"]["value"]
+        assert volume == pytest.approx(10 * 1e-6 / 0.2 * dissipated, rel=5e-3)
+        assert volume == pytest.approx(10 * 1e-6 * force * 2, rel=0.03)  # less what the box gives way
