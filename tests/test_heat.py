@@ -22,7 +22,7 @@ WARM = UNLIKE + "conduct lower 1 expand 1e-2 from 0.3\nconduct upper 2 expand 2e
 FIT = "body shaft E 210e3 nu 0.3\nbody ring E 70e3 nu 0.33\n"
 CONDUCTS = "conduct shaft 0.05 expand 12e-6 from 20\nconduct ring 0.2 expand 23e-6 from 140\n"
 RADII = 10, 25, 45
-PARTS = "words grammar groups pushed heat file".split()  # of the reader of case files
+PARTS = "words grammar groups pushed worn heat file".split()  # of the reader of case files
 
 
 def solve(folder, mesh, case, *flags, space=False, expect=0):
@@ -382,6 +382,7 @@ CHANGES = {  # what the message says: what is changed in the case
     "line 8: a temperature, flux or film, and no body conducts": ("conduct lower 1\nconduct upper 2\n", ""),
     "no temperature anywhere": ("temperature bottom 0\n", "", "temperature top 1\n", ""),
     "expand with conduct": ("clamp", "expand lower 1e-5 3\nclamp"),
+    "line 5: wear with conduct": ("hardness 5", "hardness 5 wear 1e-8 slide 20", "clamp", "cycles 10\nclamp"),
     "preload with conduct": ("clamp", "preload left 3\nclamp"),
     "line 6: top: a flux or film where line 13": ("clamp", "flux top 3\nclamp"),
     "conduct of lower: stated before, in line 3": ("clamp", "conduct lower 3\nclamp"),
@@ -422,7 +423,7 @@ def read(case, folder):
     (folder / "names").write_text("\n".join(names) + "\n")
     (folder / "a.case").write_text(case)
     files = [word for part in PARTS for word in ("-f", ROOT / f"edp/case/case-{part}.awk")]
-    given = {**os.environ, "CASE": "a.case", "SPACE": "0", "LC_ALL": "C", "RUBS": "1"}
+    given = {**os.environ, "CASE": "a.case", "SPACE": "0", "LC_ALL": "C", "RUBS": "1", "WEARS": "1"}
     done = subprocess.run(
         ["awk", *files, folder / "names", folder / "a.case"], env=given, capture_output=True, text=True
     )

@@ -44,6 +44,7 @@ function checkHeat(   some, g) {
   for (g = 1; g <= groups; g++) if (!some && g in heatLine) no("line " heatLine[g] ": a temperature, flux or film, and no body conducts; allowed: with a line conduct BODY k for each body")
   if (conductances && !some) no("line " conductanceLine ": a conductance, and no body conducts; allowed: with a line conduct BODY k for each body")
   if (!some) return
+  if (wearLine) no("line " wearLine ": wear with conduct; allowed: one of them")
   for (g = 1; g <= groups; g++)
     if (("body" SUBSEP g) in seen && !(("conduct" SUBSEP g) in seen))
       no("line " seen["body", g] ": " nameOf[g] ": nothing says how it conducts, as others do; allowed: a line conduct " nameOf[g] " k")
