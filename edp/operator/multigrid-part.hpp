@@ -3,7 +3,8 @@
 // multigrid-refine.hpp alone.
 // multigridParts(space, own): the numbers, of a part by its vertices, of a whole mesh by the cut of multigrid-nodes.hpp;
 // multigridOwned(space, nodes, elements): 1 at own ones; multigridNumbers(nodes); collect(vector, field); multigridGhosts(field): values
-// of nodes of others from their owners; rankSums(values), rankMost(value): over all ranks, the same on all.
+// of nodes of others from their owners; rankSums(values), rankMost(value): over all ranks, the same on all; multigridGreatest(field): the
+// dof of all ranks where a field is greatest.
 #include "multigrid-cut.hpp"
 
 namespace
@@ -208,5 +209,20 @@ double rankMost(const double & value)
     double most = value;
     if (mpiRuns()) MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     return most;
+}
+long multigridGreatest(KN<double> * const & field)
+// The dof where a field, right at own nodes, is greatest over all ranks, of several the one with PETSc's least number; -1 on ranks whose
+// mesh does not have its node.
+{
+    int each = field->N() / numberOf.size();
+    double most = -1e300;
+    long first = std::numeric_limits<long>::max(), here = -1;
+    for (long d = 0; d < field->N(); d++) if (ownNode(d / each)) most = std::max(most, (*field)[d]);
+    most = rankMost(most);
+    auto number = [&](long d) { return (long) each * numberOf[d / each] + d % each; };
+    for (long d = 0; d < field->N(); d++) if (ownNode(d / each) && (*field)[d] == most) first = std::min(first, number(d));
+    if (mpiRuns()) MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LONG, MPI_MIN, MPI_COMM_WORLD);
+    for (long d = 0; d < field->N(); d++) if (number(d) == first) here = d;
+    return here;
 }
 }
