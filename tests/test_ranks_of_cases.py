@@ -1,4 +1,4 @@
-"""Cases in space on several processes, each with its part of the mesh: the answers, estimates and pictures of one process.
+"""Cases in space on several processes, each with its part of the mesh: answers, estimates and pictures of one process.
 
 Skipped where `make mpi` has not built the plugin.
 """
@@ -18,6 +18,7 @@ from postprocess.vtu import bodies_file, read_grid, read_surface
 TURN = turn_in_space(1)
 STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
 DOWN, ASIDE, PRESS, AT = (vector(at, TURN, 3) for at in ((0, 0, -1), (2e-3, 1e-3, -1e-2), (0, 0, -1e-2), (0, 0, 2.01)))
+MOVED = STACK + f'move "upper top" {ASIDE}\n'
 FLOATS = STACK + f'symmetry "upper left"\npressure "upper top" 2\ntraction "upper front" {DOWN}\n'
 RUBS = STACK.replace('bottom"', 'bottom" friction 0.3', 1)
 CASES = {
@@ -26,7 +27,8 @@ CASES = {
     # a guided force beside a support, a free one, weights
     "pulled": (
         2,
-        STACK + f'clamp "upper left"\nforce "upper right" {DOWN}\nforce "upper top" {ASIDE} free\nweight block {DOWN}\n',
+        STACK
+        + f'clamp "upper left"\nforce "upper right" {DOWN}\nforce "upper top" {ASIDE} free\nweight block {DOWN}\n',
         ["-order", 2],
     ),
     # two contacts, an interference, an obstacle under a force
@@ -36,9 +38,10 @@ CASES = {
         'symmetry "upper left"\nsymmetry "upper front"\n',
         ["-order", 1, "-points", "nodal", "-estimate", 0],
     ),
-    "tie": (2, STACK.replace("contact", "tie") + f'move "upper top" {ASIDE}\n', ["-order", 2]),
+    "tie": (2, MOVED.replace("contact", "tie"), ["-order", 2]),
     "legs": (3, RUBS + f'leg 1\nmove "upper top" {PRESS}\nleg 2\nmove "upper top" {ASIDE}\n', ["-order", 1]),
-    "series": (2, STACK + f'move "upper top" {ASIDE}\n', ["-order", 1, "-distance", "exact", "-history", 1, "-steps", 2, "-estimate", 0]),
+    "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
+    "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),
 }
 QUICK = {"floats"}
 RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
