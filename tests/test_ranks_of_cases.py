@@ -13,7 +13,7 @@ from test_multigrid import built, on_ranks
 from test_parts import Mesh, cube, turn_in_space, vector
 from test_ranks import in_order
 
-from postprocess.vtu import bodies_file, read_grid, read_surface
+from postprocess.vtu import bodies_file, read_arrays, read_grid, read_surface
 
 TURN = turn_in_space(1)
 STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
@@ -26,7 +26,7 @@ CASES = {
     "floats": (3, FLOATS, ["-order", 1]),
     # a guided force beside a support, a free one, weights
     "pulled": (
-        2,
+        3,
         STACK
         + f'clamp "upper left"\nforce "upper right" {DOWN}\nforce "upper top" {ASIDE} free\nweight block {DOWN}\n',
         ["-order", 2],
@@ -118,6 +118,8 @@ def same_pictures(one, many):
     for field in ("cells", "surface"):
         assert len(getattr(grids[0], field)) == len(getattr(grids[1], field)), field
     assert np.array_equal(*(np.bincount(grid.label) for grid in grids))
+    shares = [read_arrays(bodies_file(each)).get(("CellData", "errorShare[force]"), np.zeros(1)) for each in (one, many)]
+    assert shares[1].sum() == pytest.approx(shares[0].sum(), rel=5e-3)
     surfaces = [read_surface(each / "contact.vtu") for each in (one, many)]
     assert np.array_equal(surfaces[0].points, surfaces[1].points)
     assert np.array_equal(surfaces[0].cells, surfaces[1].cells)
