@@ -118,7 +118,9 @@ def same_pictures(one, many):
     for field in ("cells", "surface"):
         assert len(getattr(grids[0], field)) == len(getattr(grids[1], field)), field
     assert np.array_equal(*(np.bincount(grid.label) for grid in grids))
-    shares = [read_arrays(bodies_file(each)).get(("CellData", "errorShare[force]"), np.zeros(1)) for each in (one, many)]
+    shares = [
+        read_arrays(bodies_file(each)).get(("CellData", "errorShare[force]"), np.zeros(1)) for each in (one, many)
+    ]
     assert shares[1].sum() == pytest.approx(shares[0].sum(), rel=5e-3)
     surfaces = [read_surface(each / "contact.vtu") for each in (one, many)]
     assert np.array_equal(surfaces[0].points, surfaces[1].points)
