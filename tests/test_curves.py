@@ -12,10 +12,13 @@ from postprocess.results import read_run
 from postprocess.series import curves, driving, read_series
 
 PUNCH = data("curves/punch.geo")
-ONE = PUNCH.split("Rectangle(2)")[0] + """
+ONE = (
+    PUNCH.split("Rectangle(2)")[0]
+    + """
 Physical Surface("base") = {1}; Physical Curve("bottom") = {1}; Physical Curve("top-of-base") = {3};
 Physical Curve("side") = {4}; Mesh.MeshSizeMax = 0.5;
 """
+)
 PUNCHED = """body base E 1000 nu 0.3
 body punch E 1000 nu 0.3
 contact foot top-of-base friction 0.3
@@ -36,7 +39,7 @@ def area(run, *names):
 
 
 def test_columns_of_a_path(tmp_path, capsys):
-    """Press, pull to and fro: each row is in balance; the area under the curves is the work; hysteresis finds the pull."""
+    """Press, pull to and fro: rows are in balance; the area under the curves is the work; hysteresis finds the pull."""
     run = case(tmp_path, PUNCH, PUNCHED)
     rows = series(run)
     along, across = rows["move head x displacement"], rows["move head y displacement"]
@@ -85,7 +88,7 @@ weight base 0 -3
 
 
 def test_columns_of_loads(tmp_path):
-    """Tractions have columns by axis where they change direction; a weight keeps its own, and its displacement is its work."""
+    """Tractions that change direction have columns by axis; a weight keeps its own, its displacement is its work."""
     rows = series(case(tmp_path, PUNCH, LOADED))
     assert rows["traction head x reaction"] == pytest.approx([0, 0, 0.25, 0.5], abs=1e-9)
     assert rows["traction head y reaction"] == pytest.approx([-2, -4, -4, -4], rel=1e-9)
@@ -150,17 +153,16 @@ def clips(tmp_path_factory):
 
 @pytest.mark.long
 def test_clip_in_and_out(clips, capsys):
-    """Friction turns the contact force by its angle, against the motion; the loop's area is what friction dissipates."""
+    """Friction turns the contact force by its angle, against the motion; the loop is what friction dissipates."""
     for mu, run in clips.items():
         rows = series(run)
         slope = rows["ramp circle force x"][:-1] / -rows["ramp circle force y"][:-1]
         angle = radians(30) + np.arctan(mu) * np.sign(9.5 - np.arange(19))
         turned = np.arctan(slope) - angle  # the ramp's own rotation: small, and nearly that of its deflection
         assert np.abs(turned).max() < 0.06 and (mu or turned[9] == pytest.approx(turned[8], abs=0.01))
-        loop = np.trapezoid if hasattr(np, "trapezoid") else np.trapz
         way = np.append(0, rows["obstacle ramp displacement"])
         force = np.append(0, rows["obstacle ramp reaction"])
-        done = loop(force, way)
+        done = (0.5 * (force[1:] + force[:-1]) * np.diff(way)).sum()
         assert done == pytest.approx(rows["dissipated"][-1], rel=0.15, abs=1e-5)
         assert area(run) == pytest.approx(done, rel=1e-9)
     free, rubbed = (series(clips[mu])["obstacle ramp reaction"][:10] for mu in (0, 0.2))
@@ -180,7 +182,7 @@ SHARE = SHANK / (SHANK + SLEEVE)
 
 
 def test_joint_diagram_with_friction(tmp_path):
-    """Tightened, heated, then pulled in phases: tension and clamping force of each row, and the energies, in closed form."""
+    """Tightened, heated, then pulled: tension and clamping force of each row, and the energies, in closed form."""
     text = f"{JOINT}expand sleeve 1e-4 50\nleg 4\ntraction top 0 0\nleg 2\ntraction top 0 2\n"
     run = case(tmp_path, BOLT, text, "-estimate", 1)
     rows = series(run)
@@ -192,7 +194,7 @@ def test_joint_diagram_with_friction(tmp_path):
     tension, clamp = rows["preload cut force"], rows["seat under normal force"]
     # friction hinders the sleeve's expansion along the seat a little
     assert rows["stored"] == pytest.approx(tension**2 / (2 * SHANK) + clamp**2 / (2 * SLEEVE), rel=5e-4)
-    assert (rows["stored"][:1] == pytest.approx(20**2 / (2 * SHANK) + 20**2 / (2 * SLEEVE), rel=1e-6))
+    assert rows["stored"][:1] == pytest.approx(20**2 / (2 * SHANK) + 20**2 / (2 * SLEEVE), rel=1e-6)
     assert rows["work"] == pytest.approx(rows["stored"] + rows["dissipated"], rel=1e-5)
     assert rows["step"][0] == rows["leg"][0] == 0
     (one,) = run.summary["preloads"]
@@ -214,9 +216,9 @@ def test_bolt_that_follows_a_force_in_phases(tmp_path):
 @pytest.mark.parametrize("pull, code", [(0.3, 0), (0.33, 20)])
 def test_joint_slips(tmp_path, pull, code):
     """Under an axial load of 10 the seat bears 0.02 of what clamps it, 0.314, and no more."""
-    text = f"{JOINT.replace('0.2', '0.02')}leg 2\ntraction top 0 3.3333333333\ntraction side 0 0\nleg 2\ntraction top 0 3.3333333333\n"
+    axial = "leg 2\ntraction top 0 3.3333333333\n"
+    text = f"{JOINT.replace('0.2', '0.02')}{axial}traction side 0 0\n{axial}"
     run = case(tmp_path, SIDE, f"{text}traction side {-pull / 10} 0\n", expect=code)
-    assert 0.02 * (20 - 10 * (1 - SHARE)) == pytest.approx(0.3142857, rel=1e-6)
     assert code or abs(series(run)["seat under force x"][-1]) == pytest.approx(pull, rel=1e-3)
     assert not code or "sleeve: along x: no equilibrium" in run.message
 
@@ -324,7 +326,7 @@ def test_strains_that_are_not_small(tmp_path):
         ("leg", "the number of steps is missing after leg; allowed: leg STEPS, as leg 8"),
         ("obstacle seat ring 1 2 3", "allowed: plane x y nx ny, circle x y R r, as obstacle top circle 0 12 R 10 move"),
         ("obstacle seat circle 1 2 3 law", "as law power kappa 1e6 m 3 d0 -0.001"),
-        ("group more faces 3", "faces: unknown; a case in space is run by edp/parts-3d.edp; allowed: group NAME curves"),
+        ("group more faces 3", "faces: unknown; a case in space is run by edp/parts-3d.edp; allowed: group"),
     ],
 )
 def test_refusals_with_examples(tmp_path, line, words):
