@@ -5,12 +5,15 @@ import re
 import shlex
 from pathlib import Path
 
-from postprocess.results import Run, is_number
+from postprocess import style
+from postprocess.results import Run, brief, is_number
 
 ROOT = Path(__file__).resolve().parent.parent
 
 LABS = "labs/"
 NONE = "–"  # no number
+NEWTONS = (["mm", "MPa"], ["m", "Pa"])  # units of length and pressure whose product is a newton
+UNNAMED = (style.Units.length, style.Units.stress)  # of a command line without --units
 FIGURES = ROOT / "edp" / "reference" / "figures.md"
 
 HISTORY_COLUMNS = (
@@ -29,6 +32,35 @@ def run_words(run: Run) -> str:
     """Scene, method and discretisation."""
     summary = run.summary
     return f"{summary['scene']}, {summary['method']}, P{summary['order']}, h = {short(summary['h'])}"
+
+
+class Units:
+    """The units of a case's run: of lengths, pressures, forces, moments and energies; empty where nothing names them.
+
+    `given` are those of the command line. In the plane forces, moments and energies are those of a unit of thickness.
+    """
+
+    def __init__(self, summary: dict, given: tuple[str, str] | None = None):
+        stated = summary.get("units")
+        if given and tuple(given) != UNNAMED:
+            stated = list(given)
+        known = isinstance(stated, list) and len(stated) == 2
+        self.length, self.stress = (brief(str(name), 20) for name in stated) if known else ("", "")
+        self.plane = summary.get("state") in ("strain", "stress")
+        self.force = self.moment = self.energy = ""
+        if not known:
+            return
+        newton = "N" if stated in NEWTONS else ""
+        self.force, self.moment = (self.product(newton, power) for power in (2, 3))
+        # a newton metre of energy is a joule
+        self.energy = self.moment.replace("N m", "J") if self.length == "m" else self.moment
+
+    def product(self, newton: str, power: int) -> str:
+        """A pressure times this power of a length, in the plane one less: of a unit of thickness."""
+        power -= self.plane
+        if newton:
+            return {1: f"N/{self.length}", 2: "N", 3: f"N {self.length}"}[power]
+        return f"{self.stress} {self.length}" + {1: "", 2: "²", 3: "³"}[power]
 
 
 def short(value: object, digits: int = 6) -> str:

@@ -490,7 +490,6 @@ def test_rotation_drags(tmp_path, coarse_punch):
     ("text", "words"),
     [
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
-        (PUNCH + "move pushed 0 -1\nexpand upper 1e-5 10\n", "expand, preload: allowed in edp/parts.edp, without "),
         (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "allowed: at least 0 and below"),
         (PUNCH + LEGS + "clamp free\n", "clamp: in leg 2, but it holds in every leg"),
@@ -500,7 +499,6 @@ def test_rotation_drags(tmp_path, coarse_punch):
         (PUNCH + f"{PLANE} move 0 0\nleg 1\nleg 1\n{PLANE} move 0 1 friction 0.3\n", "interference unlike line"),
         (PUNCH.replace("contact contact", "tie contact").replace("gap", "#"), "tie: not with -distance exact"),
         (PUNCH.replace("contact contact", "tie contact").replace("gap", "#"), "tie: not with -points nodal"),
-        (PUNCH.replace(" friction 0.3", "") + LEGS + "move pushed 0 -2\n", "2 legs without friction"),
     ],
 )
 def test_refusals_of_a_case(tmp_path, coarse_punch, text, words):

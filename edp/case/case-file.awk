@@ -21,9 +21,9 @@ function holds(g) {
 }
 # law NAME and its parameters: kappa m p0 beta d0, all of those that it takes
 function readLaw(v,   name, list, n, k, given, taken) {
-  if (at >= words) no("a law's name is missing; allowed: " lawNames)
+  if (at >= words) no("a law's name is missing; allowed: " lawNames ", as " example["law"])
   name = word[++at]
-  if (!(name in takes)) no(name ": unknown law; " meant(name, lawWords) "allowed: " lawNames)
+  if (!(name in takes)) no(name ": unknown law; " meant(name, lawWords) "allowed: " lawNames ", as " example["law"])
   if (name == "table") {
     if (at >= words) no("the file of the law table is missing; allowed: " lawNames)
     lawFile = line_ = word[++at]
@@ -74,7 +74,7 @@ function put(a, b, shape, load, law, v) {
 function readShape(v,   shape) {
   if (at >= words) no("a shape is missing after " word[words] "; " usageOf("obstacle"))
   shape = word[++at]
-  if (!(shape in isShape)) no(shape ": unknown shape; " meant(shape, shapeWords) "allowed: " shapeNames)
+  if (!(shape in isShape)) no(shape ": unknown shape; " meant(shape, shapeWords) "allowed: " shapeNames ", as " example["obstacle"])
   vector("the obstacle's place", 0, v, 5)
   if (shape == "plane" || shape == "cylinder") {
     vector("the obstacle's direction", 0, v, 8)

@@ -31,6 +31,7 @@ BEGIN {
     "|spin rotor 1500" (space ? " about 0 0 0 axis 0 0 1" : "") "|gravity 0" place3 " -9810|pressure top 12|traction top 0" place3 " -5" \
     "|leg 8|tie pad disc|weight core 0" place3 " -77e-6|group bore near 12 0" place3 "|size contact 0.05|state axisymmetric", list, "|")
   for (k in list) { line = list[k]; sub(/ .*/, "", line); example[line] = list[k] }
+  example["law"] = "law power kappa 1e6 m 3 d0 -0.001"
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
   rubbing = "[friction MU [compliance c] [limit t]]"

@@ -37,7 +37,7 @@ function readGroup(   name, how, k, text) {
     no(name ": the mesh or geometry has a group of this name; allowed: another name")
   if (at >= words) no("what it is picked by is missing after " name "; " usageOf("group"))
   how = word[++at]
-  if (index(" " pickWords " ", " " how " ") == 0) no(how ": unknown; " meant(how, pickList) usageOf("group"))
+  if (index(" " pickWords " ", " " how " ") == 0) no(how ": unknown; " (!space && how ~ /^(faces|volumes)$/ ? "a case in space is run by edp/parts-3d.edp; " : meant(how, pickList)) usageOf("group"))
   text = how
   if (how == manyOf[dim] || how == manyOf[dim - 1]) {
     if (at >= words) no("numbers are missing after " how "; " usageOf("group"))

@@ -226,7 +226,9 @@ function own(   k, p, e, word, times) {
   moments()
   for (k = 0; k < count[".preloads"]; k++) {
     p = ".preloads." k
-    result("preload " v[p ".name"], v[p ".force"], 0, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " digits(v[p ".shortened"], 6) ", errors not known")
+    e = known(p ".error") ? v[p ".error"] : -1
+    result("preload " v[p ".name"], v[p ".force"], e, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " \
+      (e < 0 ? digits(v[p ".shortened"], 6) ", errors not known" : shown(v[p ".shortened"], v[p ".shortenedError"]) " ± " off(v[p ".shortened"], v[p ".shortenedError"])))
   }
   stresses()
   if (known(".heat.rounds")) heat()

@@ -1,21 +1,23 @@
-"""draw a load series: what each load and motion needs, and what each contact carries
+"""draw the load curve of a case, step by step: reactions over displacements, what contacts carry, energies
 
-RUN is a run of own parts with -history 1. Left: each load or motion, its reaction against its displacement; right: the
-normal force of each contact, and the tension of each preload, against the share of the load. FILE.pdf has a FILE.png
+RUN is a run of your own model with -history 1, or with friction and load phases (leg). (a) each load or motion: its
+reaction over its displacement; (b) the normal force of each contact, and the tension of each preload; (c) the energies.
+The command prints the greatest and the least reaction of each load or motion, and its work. FILE.pdf has a FILE.png
 beside it.
 """
 
 import argparse
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.bodies import units_of
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, column_names, read_run, read_table
+from postprocess.results import Run, read_run
+from postprocess.series import Curve, curves, legs, read_series
+from postprocess.words import Units
 
-BASIC = "step fraction".split()
-SIZE = (style.PAGE, 0.42 * style.PAGE)
+ENERGIES = {"work": "work of the loads", "stored": "stored", "stored energy": "stored", "dissipated": "dissipated"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,42 +27,70 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Reads the run, draws its series and prints the paths."""
+    """Reads the run, draws its series, prints the extremes and the paths."""
     chosen = read_run(arguments.folder)
+    units = Units(chosen.summary, arguments.units)
+    for each in curves(read_series(chosen)):
+        print(extremes(each, units))
     with style.look():
-        figure = drawn(chosen, units_of(chosen, arguments.units).length)
+        figure = drawn(chosen, units)
         write_own(figure, arguments.out, chosen.path / "curve.pdf")
 
 
-def series(chosen: Run) -> dict:
-    """All columns of series.csv; ResultsError where it has none of a case."""
-    path = chosen.path / "series.csv"
-    read_table(path, BASIC, "; run the case with -history 1")
-    return read_table(path, column_names(path))
+def extremes(each: Curve, units: Units) -> str:
+    """The greatest and the least reaction of a load or motion, where they occur, and the work up to the end."""
+    force, way = (units.moment, "rad") if each.turns else (units.force, units.length)
+    said = []
+    for word, at in (("greatest", int(np.argmax(each.force))), ("least", int(np.argmin(each.force)))):
+        said.append(f"{word} {value(each.force[at], force)} at {value(each.way[at], way)}")
+    return f"{each.name}: {', '.join(said)}; work {value(each.work()[-1], units.energy)}"
 
 
-def drawn(chosen: Run, length: str) -> Figure:
-    table = series(chosen)
-    pushed = [name.removesuffix(" reaction") for name in table if name.endswith(" reaction")]
+def value(number: float, unit: str) -> str:
+    return f"{number:.5g}" + (f" {unit}" if unit else "")
+
+
+def in_unit(words: str, unit: str) -> str:
+    return f"{words} [{unit}]" if unit else words
+
+
+def drawn(chosen: Run, units: Units) -> Figure:
+    """The figure: two panels, or three if the energies are known."""
+    table = read_series(chosen)
+    pushed = curves(table)
     carried = [name for name in table if name.endswith(" normal force") or name.startswith("preload ")]
-    if not pushed and not carried:
-        raise ResultsError(chosen.path / "series.csv", "has no loads and contacts of a case")
-    figure = Figure(figsize=SIZE, layout="constrained")
-    left, right = figure.subplots(1, 2)
-    for index, name in enumerate(pushed):
-        place, force = ([0, *table[f"{name} {what}"]] for what in ("displacement", "reaction"))
-        tight = any(other.startswith("preload ") for other in table)  # then the way does not begin at 0
-        part = slice(1, None) if tight else slice(None)
-        left.plot(place[part], force[part], label=style.plain(name), **style.curve(index))
+    energies = [name for name in ENERGIES if name in table]
+    panels = 3 if energies else 2
+    figure = Figure(figsize=(style.PAGE, (0.42 if panels == 2 else 0.34) * style.PAGE), layout="constrained")
+    axes = figure.subplots(1, panels)
+    for index, each in enumerate(pushed):
+        axes[0].plot(each.way, each.force, label=style.plain(each.name), **style.curve(index))
+    phased = legs(table)[-1] > 1
+    place = table["step"] if phased or "fraction" not in table else table["fraction"]
+    tight = any(name.startswith("preload ") for name in carried)  # bolts carry before the first step
     for index, name in enumerate(carried):
-        share = table["fraction"]
-        right.plot(share, table[name], label=style.plain(name), **style.curve(index + len(pushed)))
-    left.set_xlabel(f"displacement along the load [{length}]")
-    left.set_ylabel("load, or what the motion needs")
-    right.set_xlabel("share of the load")
-    right.set_ylabel("force carried")
-    right.set_xlim(left=0)
-    for axes in (left, right):
-        if axes.lines:
-            axes.legend()
+        x, y = (place, table[name]) if tight else (np.append(0, place), np.append(0, table[name]))
+        axes[1].plot(x, y, label=style.plain(name), **style.curve(index + len(pushed)))
+    for index, name in enumerate(energies):
+        axes[2].plot(np.append(0, place), np.append(0, table[name]), label=ENERGIES[name], **style.curve(index))
+    turns = pushed and all(each.turns for each in pushed)
+    axes[0].set_xlabel("rotation [rad]" if turns else in_unit("displacement along the load", units.length))
+    axes[0].set_ylabel(in_unit("moment" if turns else "reaction", units.moment if turns else units.force))
+    axes[1].set_ylabel(in_unit("force carried", units.force))
+    for each in axes[1:]:
+        each.set_xlabel("load step" if place is table["step"] else "share of the load")
+    if energies:
+        axes[2].set_ylabel(in_unit("energy", units.energy))
+    for each in axes:
+        each.update_datalim([(0, 0)])
+        each.autoscale_view()
+        each.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
+        each.axvline(0, color=style.GREY, linewidth=0.5, zorder=0)
+        if each.get_legend_handles_labels()[0]:
+            each.legend()
+    for each in axes[1:]:
+        each.set_xlim(left=0)
+        ends = np.flatnonzero(np.diff(legs(table))) if phased else []
+        for end in ends:
+            each.axvline(table["step"][end], color=style.GREY, linewidth=0.5, linestyle=":", zorder=0)
     return figure

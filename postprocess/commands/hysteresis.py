@@ -1,8 +1,9 @@
-"""draw what friction did: the loop of shear force against displacement, and where it sticks and slips, step by step
+"""draw what friction did: the loop of force against displacement, and where it sticks and slips, step by step
 
-RUN is a run with friction and several load steps, best with -history 1. (a) the shear force over how far the obstacle
-or the upper body has been dragged, the area of the last closed loop shaded, with what friction dissipated in it; (b) in
-the plane, load step by load step, where the contact sticks and slips; in space, the shares of the points that do.
+RUN is a run with friction and several load steps. (a) of a scene the shear force over how far the obstacle or the
+upper body has been dragged; of a case the reaction over the displacement of the load or motion that does most in the
+last load phase. The area of the last closed loop is shaded, with what friction dissipated in it; (b) in the plane, load
+step by load step, where the contact sticks and slips; in space, the shares of the points that do.
 """
 
 import argparse
@@ -15,7 +16,9 @@ from matplotlib.patches import Rectangle
 from postprocess import style
 from postprocess.bodies import ZONES, units_of, zones
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, read_run, read_table
+from postprocess.results import ResultsError, Run, column_names, read_run, read_table
+from postprocess.series import curves, driving, read_series
+from postprocess.words import Units
 
 COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
 STRONG = {1: style.GREEN, 2: style.ORANGE}
@@ -27,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--contact", type=int, default=0, metavar="N", help="in (b) the contact with this number; default 0"
     )
+    parser.add_argument("--along", metavar="NAME", help="in (a) of a case this load or motion, as 'move top x'")
     parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
     parser.add_argument("--slip", action="store_true", help="in (a) without the elastic displacement of the bodies")
     style.add_units(parser)
@@ -36,7 +40,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Reads the run, draws it and prints the paths."""
     chosen = read_run(arguments.folder)
     with style.look():
-        figure = draw(chosen, units_of(chosen, arguments.units), arguments)
+        figure = draw(chosen, units_of(chosen, arguments.units), arguments, Units(chosen.summary, arguments.units))
         write_own(figure, arguments.out, chosen.path / "hysteresis.pdf")
 
 
@@ -59,16 +63,39 @@ def flexibility(table: dict) -> float:
     return (drag[pulls] / shear[pulls]).min()
 
 
-def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
+def of_case(chosen: Run, table: dict, named: str | None) -> tuple[dict, str]:
+    """The table with displacement and reaction of one load or motion in place of drag and shear; and its name."""
+    path = chosen.path / "series.csv"
+    whole = read_series(chosen)
+    if named is None:
+        each = driving(whole)
+    else:
+        found = {each.name: each for each in curves(whole)}
+        if named not in found:
+            raise ResultsError(path, f"{named}: no load or motion; allowed: {', '.join(found)}")
+        each = found[named]
+    if each is None:
+        raise ResultsError(path, "has no load or motion that does work in the last load phase; allowed: --along NAME")
+    rows = len(table["step"])
+    return {**table, "drag": each.way[-rows:], "shearForce": each.force[-rows:]}, each.name
+
+
+def draw(chosen: Run, units: style.Units, asked: argparse.Namespace, own: Units) -> Figure:
     """The figure, one column of a page wide, or a slide."""
     table = read_table(chosen.path / "series.csv", COLUMNS, "; run it with friction")
+    name = ""
+    if any(column.endswith(" reaction") for column in column_names(chosen.path / "series.csv")):
+        table, name = of_case(chosen, table, asked.along)
     figure, panels = style.sheet([("a", 1.0), ("b", 0.9)], "ab", asked.slide)
     above, below = panels["a"], panels["b"]
-    words = "dragged by"
+    words = f"displacement of {style.plain(name)}" if name else "dragged by"
     if asked.slip:
         words = "displacement without its elastic part"
         table["drag"] -= flexibility(table) * table["shearForce"]
-    plot_loop(above, table, f"{words} [{units.length}]")
+    turns = name.startswith(("rotate ", "moment "))
+    force = own.moment if turns else own.force
+    said = ("moment" if turns else "reaction") if name else "shear force"
+    plot_loop(above, table, f"{words} [{'rad' if turns else units.length}]", f"{said} [{force}]" if force else said)
     if (chosen.path / "slides.csv").exists():
         plot_zones(below, chosen, asked.contact, len(table["step"]), units)
     else:
@@ -78,7 +105,7 @@ def draw(chosen: Run, units: style.Units, asked: argparse.Namespace) -> Figure:
     return figure
 
 
-def plot_loop(axes, table: dict, words: str) -> None:
+def plot_loop(axes, table: dict, words: str, said: str) -> None:
     drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
     closed = last_loop(drag, shear)
     energy = f"dissipated {lost[-1]:.3g}"
@@ -100,7 +127,7 @@ def plot_loop(axes, table: dict, words: str) -> None:
             ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
     axes.set_xlabel(style.folded(words, 36), loc="left", multialignment="left")  # the power of ten is at the right end
-    axes.set_ylabel("shear force")
+    axes.set_ylabel(said)
     axes.set_title(f"energy: {energy}", loc="right", fontsize=8)
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
 

@@ -19,9 +19,7 @@ from postprocess.commands import curve, stress
 from postprocess.output import enter, write_files
 from postprocess.page import Markup, element, joined, section, table
 from postprocess.results import ResultsError, Run, brief, is_number, read_run
-from postprocess.words import NONE, command, place, readable, short, with_error
-
-NEWTONS = (["mm", "MPa"], ["m", "Pa"])  # units of length and pressure whose product is a newton
+from postprocess.words import NONE, Units, command, place, readable, short, with_error
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,22 +57,6 @@ def build(chosen: Run, title: str | None = None) -> str:
     title = title or case.stem or chosen.path.name
     body = joined([header(chosen, title, case, units), element("main", joined(parts), id="main")])
     return page.document(title, element("div", body, class_="sheet"))
-
-
-class Units:
-    """The units of a run: of lengths, pressures and forces; empty where the case file names none."""
-
-    def __init__(self, summary: dict):
-        stated = summary.get("units")
-        known = isinstance(stated, list) and len(stated) == 2
-        self.length, self.stress = (brief(str(name), 20) for name in stated) if known else ("", "")
-        plane = summary.get("state") in ("strain", "stress")
-        self.force = ""
-        if known:
-            newton = stated in NEWTONS
-            area = "" if newton else f" {self.length}" + ("" if plane else "²")
-            self.force = ("N" if newton else self.stress) + (f"/{self.length}" if plane and newton else area)
-        self.plane = plane
 
 
 def header(chosen: Run, title: str, case: Path, units: Units) -> Markup:
@@ -274,8 +256,8 @@ def pictures(chosen: Run) -> tuple[Markup, list[Markup]]:
         except ResultsError as error:
             near = element("p", f"No picture: {brief(str(error), 300)}.")
         with contextlib.suppress(ResultsError):
-            words = "Loads over their displacements, and contact forces over the share of the load"
-            more.append(picture(curve.drawn(chosen, units.length), words))
+            words = "Loads over their displacements, contact forces, and energies"
+            more.append(picture(curve.drawn(chosen, Units(chosen.summary)), words))
     return near, more
 
 

@@ -3,7 +3,7 @@
 # 32 symmetries, or an axis; 64 pressures, tractions, weights, gravity; 128 rotations. The last three count in comments and names too.
 # With -v more=1: the sum of 1 free and rigid forces, moments, spins, springs; 2 moments to be told; 4 wear; 8 conducted heat.
 BEGIN { end = "([ \t\r]|$)" }
-$0 ~ "^[ \t]*(leg[ \t]|tie[ \t]|(contact|obstacle)[ \t].*[ \t]friction" end ")" { rubs = 1 }
+$0 ~ "^[ \t]*((leg|tie)" end "|(contact|obstacle)[ \t].*[ \t]friction" end ")" { rubs = 1 }
 $0 ~ "^[ \t]*(expand|preload|conduct)" end { strained = 1 }
 $0 ~ "^[ \t]*conduct" end { heated = 1 }
 $0 ~ "^[ \t]*rotate" end { turns = 1 }
