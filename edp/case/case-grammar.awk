@@ -18,7 +18,7 @@ BEGIN {
   usage["line"] = "line NAME x y" at3 " x y" at3
   usage["expand"] = "expand NAME alpha dT, two numbers"
   usage["preload"] = "preload NAME force"
-  usage["plastic"] = "plastic BODY yield hardening, the yield stress and its increase per plastic strain"
+  usage["plastic"] = "plastic BODY yield hardening, two numbers"
   place3 = space ? " 0" : ""
   split("thickness 12|body pin E 210e3 nu 0.3|line middle 0 0" place3 " 0 20" place3 "|expand ring 12e-6 -180|preload cut 8000|plastic core 350 2000" \
     "|contact bore pin friction 0.15|obstacle top " (space ? "sphere 0 0 12 R 10 move 0 0 -0.1" : "circle 0 12 R 10 move 0 -0.1") \
