@@ -17,7 +17,7 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (7955, 114), "edp/parts.edp": (17260, 166), BARE: (5510, 79)}  # lines, files
+READ = {"edp/main.edp": (7978, 115), "edp/parts.edp": (17260, 167), BARE: (5510, 80)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 107,
     "of these by two other files or more": 19,
