@@ -2,7 +2,7 @@
 
 A rigid sphere or cylinder of radius 1 is pressed into a large block with E = 1. `grid.csv` has a row for each of 48
 problems: hardening 0.05, 0.01 and 1e-4 E, depth 1.6 to 80 times (cylinder: twice that) the sphere's at first yield, in
-one load step or ten. `hardness.csv` has the mean pressure over Y along one path without hardening, `first.csv` the
+one load step or ten. `hardness.csv` has the mean pressure over Y at the end of a path without hardening, `first.csv` the
 greatest elastic pressure over Y at first yield. With `--calculix` two meshed bodies are solved by CalculiX too, where
 `ccx` is installed, on the same mesh and in the same steps. Code 1: a run of the grid failed.
 """
@@ -11,6 +11,7 @@ import argparse
 import csv
 import json
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -98,28 +99,28 @@ def grid_row(sphere: bool, hardening: float, depth: float, steps: int, h: float 
     if code:
         return row | {"message": summary.get("message", "")}
     found, flow = summary["contacts"][0], summary["plastic"]
-    row |= problem.row(found["normalForce"], found["contactLength"] / (2 if sphere else 1))
+    row |= problem.row(found["normalForce"], found["contactLength"])
     names = "newton", "backsolves", "factorisations", "ndof"
     row |= {"plasticStrain": flow["bodies"][0]["strainMax"], "most": flow["mostIterations"]}
     return row | {"iterations": flow["iterations"], **{key: summary[key] for key in names}}
 
 
-def hardness(h: float, steps: int, depth: float) -> list[dict]:
-    """The path of a sphere into an ideally plastic block, a row each load step."""
+def hardness(h: float, steps: int, depth: float) -> dict:
+    """The end of a path of a sphere into an ideally plastic block."""
     problem = Indentation(True, 0.0, depth)
     with tempfile.TemporaryDirectory() as name:
-        code, _, rows = solve(Path(name), geometry(h), problem.case([(steps, 1)]), "-estimate", 0)
+        code, summary, _ = solve(Path(name), geometry(h), problem.case([(steps, 1)]), "-estimate", 0)
     if code:
-        return [{"code": code}]
-    radii = [float(row["contactPoints"]) * h / 2 for row in rows]
-    return [problem.row(float(row["force"]), a) for row, a in zip(rows, radii, strict=True)]
+        return {"depth": depth, "steps": steps, "code": code}
+    found = summary["contacts"][0]
+    return {"depth": depth, "steps": steps, "code": 0} | problem.row(found["normalForce"], found["contactLength"])
 
 
 def first_yield(sphere: bool, h: float = 0.04, steps: int = 20) -> tuple[float, float]:
     """Greatest pressure of the elastic contact, by Hertz from the force, over Y: before and after the first yield."""
     problem = Indentation(sphere, 0.0, 1.2 if sphere else 5.0)
     with tempfile.TemporaryDirectory() as name:
-        legs = [(1, 0.75), (steps, 1)] if sphere else [(1, 0.6), (steps, 1)]
+        legs = [(1, 0.75 if sphere else 0.4), (steps, 1)]
         _, _, rows = solve(Path(name), geometry(h, 24), problem.case(legs), "-estimate", 0)
     yields = [float(row["plasticStrain"]) > 0 for row in rows].index(True)
     return tuple(hertz(problem, float(rows[k]["force"])) for k in (yields - 1, yields))
@@ -146,7 +147,7 @@ def beside_calculix(size: float, steps: int, penalty: float) -> dict:
         text = text.replace("*STATIC\n1,1.", f"*STATIC,DIRECT\n{1 / steps:g},1.")
         (folder / "a.inp").write_text(text)
         calculix.timed(["ccx", "-i", "a"], folder)
-        totals = calculix.re.findall(r"total force.*\n\n +(\S+) +(\S+)", (folder / "a.dat").read_text())
+        totals = re.findall(r"total force.*\n\n +(\S+) +(\S+)", (folder / "a.dat").read_text())
         pressed = calculix.CASE.split("leg 1")[0].replace(f" friction {calculix.FRICTION}", "")
         case = pressed + FLOWS + f"leg {steps}\nmove pushed 0 -{calculix.PRESS}\n"
         (folder / "a.case").write_text(case)
@@ -181,10 +182,10 @@ def main(argv: list[str] | None = None) -> int:
         calculix.say(rows[-1])
     write(arguments.out / "grid.csv", rows)
     first = [dict(zip(("before", "after"), first_yield(sphere), strict=True)) for sphere in (True, False)]
-    path = hardness(0.02, 40, 80)
+    path = [hardness(0.02, steps, 400) for steps in (10, 20, 40)]
     write(arguments.out / "first.csv", first)
     write(arguments.out / "hardness.csv", path)
-    for row in (*first, path[-1]):
+    for row in (*first, *path):
         calculix.say(row)
     failed = sum(row["code"] != 0 for row in rows)
     print(f"{len(rows)} problems, {failed} failed, at most {max(row.get('factorisations', 0) for row in rows)} factorisation")
