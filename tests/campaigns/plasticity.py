@@ -23,6 +23,7 @@ import campaign
 
 FOLDER = campaign.RESULTS_FOLDER / "plasticity"
 YOUNG_OVER_YIELD, POISSON = 400.0, 0.3
+SHALLOW = 40000.0  # E over Y of the hardness: the slope of the surfaces stays small
 MODULUS = 1 / (1 - POISSON**2)
 HARDENING, DEPTHS, STEPS = (0.05, 0.01, 0.0001), (1.6, 5, 20, 80), (1, 10)
 FLOW = "*PLASTIC\n0.5,0.\n1.5,1."  # CalculiX's words for FLOWS
@@ -45,9 +46,9 @@ def geometry(h: float = 0.05, size: float = 12) -> str:
 class Indentation:
     """A problem in units of the block: 1 is 1.15 times the contact radius that an ideally plastic body would have."""
 
-    def __init__(self, sphere: bool, hardening: float, depth: float):
-        """depth: over that of the sphere, or of the cylinder's formula in its place, at first yield."""
-        self.sphere, self.hardening, self.limit = sphere, hardening, 1 / YOUNG_OVER_YIELD
+    def __init__(self, sphere: bool, hardening: float, depth: float, over: float = YOUNG_OVER_YIELD):
+        """depth: over that of the sphere, or of the cylinder's formula in its place, at first yield; over: E over Y."""
+        self.sphere, self.hardening, self.limit = sphere, hardening, 1 / over
         first = (1.60 if sphere else 1.67) * self.limit
         self.yielding = (math.pi / 2 if sphere else 2) * first / MODULUS  # the contact's radius or half-width then
         self.depth = depth * self.yielding**2
@@ -71,7 +72,7 @@ class Indentation:
         a = radius * self.unit
         whole = force * self.unit**2 if self.sphere else 2 * force * self.unit
         mean = whole / (math.pi * a**2 if self.sphere else 2 * a) if a else 0.0
-        return {"force": whole / self.force, "meanPressure": mean / self.limit, "strain": a / self.limit}
+        return {"force": whole / self.force, "meanPressure": mean / self.limit, "strain": a / self.limit * MODULUS}
 
 
 def solve(folder: Path, mesh: str, case: str, *flags) -> tuple[int, dict, list[dict]]:
@@ -107,7 +108,7 @@ def grid_row(sphere: bool, hardening: float, depth: float, steps: int, h: float 
 
 def hardness(h: float, steps: int, depth: float) -> dict:
     """The end of a path of a sphere into an ideally plastic block."""
-    problem = Indentation(True, 0.0, depth)
+    problem = Indentation(True, 0.0, depth, SHALLOW)
     with tempfile.TemporaryDirectory() as name:
         code, summary, _ = solve(Path(name), geometry(h), problem.case([(steps, 1)]), "-estimate", 0)
     if code:
