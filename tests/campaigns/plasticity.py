@@ -1,10 +1,10 @@
-"""Plastic bodies under a sphere and a cylinder: 48 problems, hardness, first yield: `make plasticity`, results/plasticity/.
+"""Plastic bodies under a sphere and a cylinder: 48 problems, hardness, first yield: `make plasticity`.
 
-A rigid sphere or cylinder of radius 1 is pressed into a large block with E = 1. `grid.csv` has a row for each of 48
-problems: hardening 0.05, 0.01 and 1e-4 E, depth 1.6 to 80 times (cylinder: twice that) the sphere's at first yield, in
-one load step or ten. `hardness.csv` has the mean pressure over Y at the end of a path without hardening, `first.csv` the
-greatest elastic pressure over Y at first yield. With `--calculix` two meshed bodies are solved by CalculiX too, where
-`ccx` is installed, on the same mesh and in the same steps. Code 1: a run of the grid failed.
+A rigid sphere or cylinder of radius 1 is pressed into a large block with E = 1. In results/plasticity/, `grid.csv` has a
+row for each of 48 problems: hardening 0.05, 0.01 and 1e-4 E, depth 1.6 to 80 times (cylinder: twice that) the sphere's
+at first yield, in one load step or ten. `hardness.csv` has the mean pressure over Y at the end of a path without
+hardening, `first.csv` the greatest elastic pressure over Y at first yield. With `--calculix` two meshed bodies are
+solved by CalculiX too, where `ccx` is installed, on the same mesh and in the same steps. Code 1: a run of the grid failed.
 """
 
 import argparse
@@ -80,7 +80,9 @@ def solve(folder: Path, mesh: str, case: str, *flags) -> tuple[int, dict, list[d
     (folder / "a.geo").write_text(mesh)
     (folder / "a.case").write_text(case)
     words = ["-mesh", folder / "a.geo", "-case", folder / "a.case", "-vtu", 0, "-out", folder / "out", *flags]
-    done = subprocess.run([*campaign.FREEFEM, "edp/parts.edp", *map(str, words)], cwd=campaign.ROOT, capture_output=True)
+    done = subprocess.run(
+        [*campaign.FREEFEM, "edp/parts.edp", *map(str, words)], cwd=campaign.ROOT, capture_output=True
+    )
     series = folder / "out/series.csv"
     rows = list(csv.DictReader(series.read_text().splitlines())) if series.exists() else []
     return done.returncode, campaign.read_summary(folder / "out/summary.json"), rows
@@ -157,7 +159,13 @@ def beside_calculix(size: float, steps: int, penalty: float) -> dict:
         summary = json.loads((folder / "out/summary.json").read_text())
     here, there = summary["contacts"][0]["normalForce"], -float(totals[-1][1])
     strain = max(body["strainMax"] for body in summary["plastic"]["bodies"])
-    return {"force": here, "calculix": there, "off": here / there - 1, "increments": len(totals), "plasticStrain": strain}
+    return {
+        "force": here,
+        "calculix": there,
+        "off": here / there - 1,
+        "increments": len(totals),
+        "plasticStrain": strain,
+    }
 
 
 def write(path: Path, rows: list[dict]) -> None:
@@ -189,7 +197,8 @@ def main(argv: list[str] | None = None) -> int:
     for row in (*first, *path):
         calculix.say(row)
     failed = sum(row["code"] != 0 for row in rows)
-    print(f"{len(rows)} problems, {failed} failed, at most {max(row.get('factorisations', 0) for row in rows)} factorisation")
+    factorised = max(row.get("factorisations", 0) for row in rows)
+    print(f"{len(rows)} problems, {failed} failed, at most {factorised} factorisation")
     return int(failed > 0)
 
 
