@@ -1,10 +1,10 @@
 """Plastic bodies under a sphere and a cylinder: 48 problems, hardness, first yield: `make plasticity`.
 
-A rigid sphere or cylinder of radius 1 is pressed into a large block with E = 1. In results/plasticity/, `grid.csv` has a
-row for each of 48 problems: hardening 0.05, 0.01 and 1e-4 E, depth 1.6 to 80 times (cylinder: twice that) the sphere's
-at first yield, in one load step or ten. `hardness.csv` has the mean pressure over Y at the end of a path without
-hardening, `first.csv` the greatest elastic pressure over Y at first yield. With `--calculix` two meshed bodies are
-solved by CalculiX too, where `ccx` is installed, on the same mesh and in the same steps. Code 1: a run of the grid
+A rigid sphere or cylinder of radius 1 is pressed into a large block with E = 1. In results/plasticity/, `grid.csv` has
+a row for each of 48 problems: hardening 0.05, 0.01 and 1e-4 E, depth 1.6 to 80 times (cylinder: twice that) the
+sphere's at first yield, in one load step or ten. `hardness.csv` has the mean pressure over Y at the end of a path
+without hardening, `first.csv` the greatest elastic pressure over Y at first yield. With `--calculix` two meshed bodies
+are solved by CalculiX too, where `ccx` is installed, on the same mesh and in the same steps. Code 1: a run of the grid
 failed.
 """
 
