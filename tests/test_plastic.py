@@ -214,6 +214,26 @@ def test_turned_and_rescaled(tmp_path):
     assert found[0][0] > 1e-3
 
 
+@pytest.mark.long
+def test_press_fit(tmp_path):
+    """Rings that only contact holds, one of which yields: as about an axis, where two rectangles stand for them."""
+    bodies = "body inner E 210e3 nu 0.3\nbody outer E 210e3 nu 0.3\nplastic outer 12 1000\n"
+    folder = ROOT / "edp/examples/press-fit"
+    flags = "-estimate", 0, "-set", "edges", 96
+    free = part(tmp_path / "free", folder / "press-fit.geo", f"{bodies}contact hub shaft\nleg 1\n", *flags)
+    mesh = block(Mesh(), size=(10.002, 0.5), cells=(16, 1), at=(10, 0), prefix="in", name="inner")
+    mesh = block(mesh, size=(10, 0.5), cells=(24, 1), at=(20, 0), prefix="out", name="outer")
+    sides = "".join(f"symmetry {body}{side}\n" for body in ("in", "out") for side in ("bottom", "top"))
+    case = f"state axisymmetric\n{bodies}contact outleft inright\n{sides}leg 1\n"
+    ring = part(tmp_path / "ring", mesh.text(), case, "-estimate", 0)
+    pressures = [run.contact["pressure"] @ run.contact["weight"] / run.contact["weight"].sum() for run in (free, ring)]
+    strains = [run.summary["plastic"]["bodies"][0]["strainMax"] for run in (free, ring)]
+    shares = [run.summary["plastic"]["bodies"][0]["share"] for run in (free, ring)]
+    assert pressures[0] == pytest.approx(pressures[1], rel=2e-3) and pressures[0] < 5.3
+    assert strains[0] == pytest.approx(strains[1], rel=0.05) and strains[0] > 1e-5
+    assert shares[0] == pytest.approx(shares[1], abs=0.05)
+
+
 # ---------------------------------------------------------------- the iteration
 
 
