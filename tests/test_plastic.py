@@ -198,14 +198,14 @@ def test_errors_of_the_steps(tmp_path):
 @pytest.mark.long
 def test_turned_and_rescaled(tmp_path):
     """The same problem turned by a right angle, and in other units: the same strains."""
-    case = "body block E {E} nu 0.3\nplastic block {Y} {H}\nclamp bottom\nleg 3\n"
+    case = "body block E {E} nu 0.3\nplastic block {Y} {H}\nclamp bottom\nleg 2\n"
     case += "obstacle top circle {at} R {R} move {by}\nleg 1\nobstacle top move {back}\n"
     found = []
     for angle, length, stress in ((0, 1, 1), (np.pi / 2, 1, 1), (0, 1e-3, 1e6)):
         matrix = np.round(turn(angle)) * length
         at, by, back = (vector(matrix @ np.array(v), UNTURNED) for v in ([0.1, 6, 0], [0, -0.1, 0], [0, -0.02, 0]))
         text = case.format(E=100 * stress, Y=0.5 * stress, H=stress, at=at, by=by, back=back, R=4 * length)
-        mesh = block(Mesh(), size=(3, 2), cells=(16, 10), at=(-1.5, 0)).text(matrix)
+        mesh = block(Mesh(), size=(3, 2), cells=(10, 6), at=(-1.5, 0)).text(matrix)
         run = part(tmp_path / str(len(found)), mesh, text)
         entry = run.summary["plastic"]["bodies"][0]
         force = run.summary["contacts"][0]["normalForce"] / length / stress
@@ -246,13 +246,11 @@ def test_heavily_loaded(tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("sphere, hardening, depth, force", [(True, 0.01, 20, 64.18), (False, 1e-4, 40, 13.13)])
-def test_grid(sphere, hardening, depth, force):
-    """Problems of the campaign: the force over that at first yield, as another program has it on another mesh."""
-    row = plasticity.grid_row(sphere, hardening, depth, 10)
+def test_grid():
+    """A problem of the campaign: the force over that at first yield, as another program has it on another mesh."""
+    row = plasticity.grid_row(True, 0.01, 20, 10)
     assert row["code"] == 0 and row["factorisations"] == 1
-    if sphere:  # of a cylinder it depends on the size of the block
-        assert row["force"] == pytest.approx(force, rel=0.005)
+    assert row["force"] == pytest.approx(64.18, rel=0.005)
 
 
 def test_few_plastic_points(tmp_path):
