@@ -280,7 +280,8 @@ REFUSED = {
     (BODY.format(""), "-distance", "exact"): "plastic: not with -distance exact; allowed: linear",
     (BODY.format(""), "-history", 1): "plastic: not with -history 1; allowed: a line leg STEPS",
     (BODY.format("\nrotate left 0 0 0.1"),): "plastic: not with rotate",
-    (BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand or preload",
+    (BODY.format(" wear 1e-6 slide 1\ncycles 10"),): "plastic: not with expand, preload or wear",
+    (BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand, preload or wear",
     (BODY.format("").replace("nu 0.3", "nu 0.3 yield 2"),): "plastic: not with yield of the same body",
     (BODY.format("").replace("1 0\nclamp", "0 0\nclamp"),): "0: the yield stress is out of range; allowed: above 0",
     (
@@ -305,4 +306,4 @@ def test_refused_in_space(tmp_path):
     """In space plasticity is refused, with and without the script's option."""
     case = "body block E 100 nu 0.3\nplastic block 1 0\nclamp bottom\nobstacle top plane 0 0 1 0 0 -1 move 0 0 -0.1\n"
     run = part(tmp_path, cube(Mesh()).text(), case, space=True, expect=10)
-    assert "plastic: not with expand or preload, nor in space" in run.stdout.splitlines()[0]
+    assert "plastic: not with expand, preload or wear, nor in space" in run.stdout.splitlines()[0]
