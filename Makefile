@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage verification conditioning models mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -404,6 +404,11 @@ conditioning: $(VENV)/run.stamp | system ## condition of plain Newton's tangent 
 
 models: $(VENV)/run.stamp | system ## walls, tangents, plain Newton and xnewton on 75 problems and two meshes, into results/models/
 	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/models.py && $(DRAW_CAMPAIGN)
+
+plasticity: $(VENV)/run.stamp | system ## 48 problems of plastic bodies, hardness, first yield, CalculiX if it is there, into results/plasticity/
+	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/plasticity.py
+	@if command -v ccx >/dev/null; then PYTHONPATH=.:tests $(PYTHON) tests/campaigns/plasticity.py --calculix; \
+	else echo 'the comparison with CalculiX: no ccx here (Debian: calculix-ccx)'; fi
 
 mutants: $(VENV)/dev.stamp | system ## small errors planted in the scripts, and which of them no test sees: make mutants [COUNT=200], into results/mutants/
 	@$(PYTHON) tests/campaigns/mutants.py $(COUNT)

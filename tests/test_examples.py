@@ -332,7 +332,8 @@ def test_page(name):
     words = [line.split("#")[0].split() for line in case.splitlines()]
     words = [word for word in words if word and word[0] not in ("units", "state", "size", "leg", "cycles")]
     used = [word[1:3] if word[0] == "contact" else word[1:2] for word in words]
-    boundary = {group for word, groups in zip(words, used, strict=True) for group in groups if word[0] != "body"}
+    of_bodies = "body", "plastic"
+    boundary = {group for word, groups in zip(words, used, strict=True) for group in groups if word[0] not in of_bodies}
     assert boundary <= named
     (commands,) = fences(page, "sh")
     first, second = commands.splitlines()

@@ -53,7 +53,7 @@ function changed(key,   k) {
 }
 # a row of the table: seven words, then 16 numbers, 0 where there is none: kappa m p0 beta d0, point (3), direction (3), radius, inside, the
 # obstacle's move or force (3);  of others, in this order: body: E nu, yield stress;  move, force, traction, weight: a vector;  rotate:
-# centre, axis, angle;  pressure: the pressure;  line: both ends;  expand: alpha, dT;  preload: the force
+# centre, axis, angle;  pressure: the pressure;  line: both ends;  expand: alpha, dT;  preload: the force;  plastic: yield stress, hardening
 function row(said, v,   k) {
   for (k = 0; k < 16; k++) said = said " " sprintf("%.17g", v[k])
   table[++statements] = said
@@ -242,7 +242,7 @@ function readOther(   g, v, what) {
   base[key_] = statements + 1
   put(g, 0, "none", "none", "none", v)
 }
-# stresses, line, expand, preload: read by options on request
+# stresses, line, expand, preload, plastic: read by options on request
 function readAsked(   g, v, name) {
   name = "none"
   if (word[1] == "stresses") once("stresses", "stresses")
@@ -265,6 +265,14 @@ function readAsked(   g, v, name) {
     g = group(dim - 1)
     once("preload" SUBSEP g, "preload " nameOf[g])
     v[0] = number("the preload", 0, 1e300)
+  }
+  if (word[1] == "plastic") {
+    if (space || state == "stress") no("plastic: in plane strain and about an axis only; allowed: state strain or axisymmetric, in parts.edp")
+    if (ENVIRON["FLOWS"] == "") no("plastic: read by parts.edp alone; allowed here: elastic bodies")
+    g = group(dim)
+    once("plastic" SUBSEP g, "plastic " nameOf[g])
+    v[0] = number("the yield stress", 0, 1e300)
+    v[1] = number("the hardening modulus", -1e-300, 1e300)
   }
   put(g + 0, 0, name, "none", "none", v)
 }
@@ -313,7 +321,7 @@ FILENAME == ARGV[1] {
     else if (word[1] == "contact") readContact()
     else if (word[1] == "obstacle") readObstacle()
     else if (word[1] == "tie") readTie()
-    else if (word[1] ~ /^(stresses|line|expand|preload)$/) readAsked()
+    else if (word[1] ~ /^(stresses|line|expand|preload|plastic)$/) readAsked()
     else if (word[1] ~ /^(conduct|temperature|flux|film)$/) readHeat()
     else if (word[1] == "force" && pushedFreely()) readPushed()
     else if (word[1] == "moment") readMoment()

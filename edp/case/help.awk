@@ -10,7 +10,7 @@ BEGIN {
   flags["Adhesion"] = "path branch control force-coarse"
   flags["Mesh and elements"] = "h order grading ends corners edges aspect fine layers refine patch symmetry half ratio points surface distance"
   flags["Accuracy"] = "estimate accuracy goal unknowns"
-  flags["Solution method"] = "method model T0 threshold inner start forcing preconditioner solver eps tol maxNewton maxAdaptations damping"
+  flags["Solution method"] = "method model T0 threshold inner start forcing preconditioner solver eps tol maxNewton maxAdaptations maxPlastic damping"
   flags["Load series"] = "history steps"
   flags["Results and files"] = "states vtu plot axis out verbose"
   for (t = 1; t <= topics; t++) {

@@ -233,6 +233,28 @@ function own(   k, p, e, word, times) {
   stresses()
   if (known(".heat.rounds")) heat()
 }
+function plastic(   k, p, c, s, unit) {     # bodies that yield: of the mesh no error is known
+  if (v[".plastic.yielded"] != "true") { print "  no body yields: the results are elastic ones"; return }
+  unit = v[".units.0"] (known(".units.0") ? (v[".state"] == "axisymmetric" ? "^3" : "^2") : "")
+  print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations"
+  for (k = 0; k < count[".plastic.bodies"]; k++) {
+    p = ".plastic.bodies." k
+    twofold("greatest of " v[p ".body"], v[p ".strainMax"], -1, known(p ".strainMaxError") ? v[p ".strainMaxError"] : -1, "", "at " vector(p ".at", 2, 0))
+    twofold("yielded " (v[".state"] == "axisymmetric" ? "volume" : "area"), v[p ".volume"], -1, known(p ".volumeError") ? v[p ".volumeError"] : -1, unit, \
+      "(" digits(100 * v[p ".share"], 3) " % of " v[p ".body"] ")")
+  }
+  for (c = 0; c < count[".contacts"]; c++) {
+    p = ".plastic.contacts." c
+    if (!known(p ".normalForceError") || v[".contacts." c ".contactPoints"] == 0) continue
+    twofold("force of " v[".contacts." c ".name"], v[".contacts." c ".normalForce"], -1, v[p ".normalForceError"], force, "")
+    twofold("greatest pressure", v[".contacts." c ".pressureMax"], -1, v[p ".pressureMaxError"], v[".units.1"], "")
+  }
+  twofold("dissipated", v[".plastic.dissipated"], -1, known(".plastic.dissipatedError") ? v[".plastic.dissipatedError"] : -1, "", "")
+  s = v[".plastic.storedElastic"] + v[".plastic.storedByHardening"]
+  print "  work on the bodies " digits(v[".plastic.work"], 6) ", stored " digits(s, 6) ", dissipated " digits(v[".plastic.dissipated"], 6) \
+    ", left over " digits(v[".plastic.work"] - s - v[".plastic.dissipated"], 2)
+  if (v[".plastic.loadStepsError"] != "measured") print "  error of the load steps " v[".plastic.loadStepsError"]
+}
 function path(   e) {
   e = known(".pathErrors.pullOff") ? v[".pathErrors.pullOff"] : -1
   result("least force", v[".pullOff"], e, "", "at the approach " digits(v[".pullOffApproach"], 6))
@@ -316,6 +338,7 @@ END {
       if (estimated) print "  the errors of the mesh are those of the last load step"
       if (estimated && owned && v[".parameters.distance"] == "linear" && !(".linearised.trusted" in v)) print "  the change by -distance exact is not in the errors"
     }
+    if (".plastic.steps" in v) plastic()
     if (".pullOff" in v) path()
     if (known(".stability")) print "  the state is " (v[".stability"] > 0 ? "stable" : "NOT STABLE") " (lowest eigenvalue of its tangent " digits(v[".stability"], 3) ")"
     if (ENVIRON["ROWS"] != "") print substr(ENVIRON["ROWS"], 2)
