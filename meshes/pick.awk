@@ -1,11 +1,12 @@
 # pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
-#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE LEFT=FILE FACES=FILE LC_ALL=C awk -f pick.awk < OUTLINE.msh
+#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE KEPT=FILE PARENTS=FILE LEFT=FILE FACES=FILE LC_ALL=C
+#        awk -f pick.awk -f cad.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
 #        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
 #        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
 # Gives: on standard output a .geo file to be read after the geometry: its groups and sizes, exit code 0;  APART, if bodies that
-#        "between" names share faces: a .geo file that gives each its own, exit code 4: the outline is to be made again with
-#        it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
+#        "between" names share faces: a .geo file that gives each its own; if bodies are cut or joined, one that does this, and
+#        KEPT, what was picked before (cad.awk); exit code 4: the outline is to be made again with it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
 #        their faces and bodies, for a picture;  or one line that says what is wrong, exit code 1.
 # What is decided here is which numbers are meant; shapes are gmsh's: its outline is as near to them as quadratic elements are.
 # "near" and "between" compare places of these, "box" and "plane" all nodes of a face.
@@ -42,6 +43,7 @@ section == "$Entities" {
     t = $(at + k)
     if (t < 0) t = -t
     around[$1] = around[$1] " " t
+    sidesOf[t] = sidesOf[t] " " $1
     if (!(t in bodyOf)) bodyOf[t] = $1
     else if (bodyOf[t] != $1) { shared++; sharedBy[shared] = bodyOf[t] " " $1 }
   }
@@ -427,6 +429,8 @@ END {
     split(line, f, "\t")
     if (f[1] == "group") groupLine[++groups] = line
     if (f[1] == "size") sizeLine[++sizes] = line
+    if (f[1] == "cut") cutLine[++cuts] = line
+    if (f[1] == "join") joinLine[++joins] = line
     if (f[1] == "contact" || f[1] == "obstacle") contact[++contacts] = f[3] "\t" f[4]
     if (f[1] == "obstacle") obstacle[contacts] = 1
   }
@@ -438,8 +442,10 @@ END {
     split(sizeLine[1], f, "\t")
     no(f[2], "sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file")
   }
+  checkCad()
+  again = recall()
   # bodies first: "between" asks for them
-  for (turn = 0; turn < 2; turn++)
+  for (turn = 0; turn < 2 && !again; turn++)
     for (g = 1; g <= groups; g++) {
       n = split(groupLine[g], f, "\t")
       split(f[5], w, " ")
@@ -462,6 +468,8 @@ END {
     print "  new_() = Translate{0, 0, 0}{ Duplicata{ " word "{old_(k_)}; } };\n  Recursive Delete{ " word "{old_(k_)}; }\nEndFor" > ENVIRON["APART"]
     exit 4
   }
+  if (!again && operate()) exit 4
+  if (again) { checkJoins(); findSections(); named_() }
   kind[1] = "Curve"; kind[2] = "Surface"; kind[3] = "Volume"
   for (g = 1; g <= groups; g++) {
     split(groupLine[g], f, "\t")
@@ -470,7 +478,7 @@ END {
   }
   if (ENVIRON["CAD"]) {
     n = split(entities[dim], w, " ")
-    for (k = 1; k <= n; k++) if (!(w[k] in inGroup)) left = left " " w[k]
+    for (k = 1; k <= n; k++) if (!(w[k] in inGroup) && !index(left " ", " " parent(w[k]) " ")) left = left " " parent(w[k])
     if (left != "") print many[dim] left > ENVIRON["LEFT"]
   }
   if (ENVIRON["CAD"]) print "Mesh.MeshSizeFromCurvature = 12;"

@@ -3,7 +3,7 @@
 # 32 symmetries, or an axis; 64 pressures, tractions, weights, gravity; 128 rotations. The last three count in comments and names too.
 # With -v more=1: the sum of 1 free and rigid forces, moments, spins, springs; 2 moments to be told.
 BEGIN { end = "([ \t\r]|$)" }
-$0 ~ "^[ \t]*(leg[ \t]|tie[ \t]|(contact|obstacle)[ \t].*[ \t]friction" end ")" { rubs = 1 }
+$0 ~ "^[ \t]*(leg[ \t]|tie[ \t]|(contact|obstacle|join)[ \t].*[ \t]friction" end "|join[ \t].*[ \t]tie" end ")" { rubs = 1 }
 $0 ~ "^[ \t]*(expand|preload)" end { strained = 1 }
 $0 ~ "^[ \t]*rotate" end { turns = 1 }
 $0 ~ "^[ \t]*((stresses|line)" end "|body[ \t].*[ \t]yield" end ")" { stressed = 1 }
