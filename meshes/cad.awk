@@ -123,8 +123,8 @@ function recall(   line, f, w, n, k, e, key, d, of, t, i, p, q, both) {
     q = both[2] == "" ? 0 : parent(both[2])
     if (q && p == q) { cutFace[w[k]] = p; continue }
     if (q) joinedAt[p, q] = joinedAt[q, p] = 1
-    if (q && !((p, q) in sharedBefore)) continue
-    t = liesOn(w[k], p, q)
+    if (q && !((p, q) in sharedBefore)) { wasFace[w[k]] = liesOn(w[k], p, 0); continue }
+    t = wasFace[w[k]] = liesOn(w[k], p, q)
     if (t != "") newOf[dim - 1, t] = newOf[dim - 1, t] " " w[k]
   }
   split("", members)
@@ -188,6 +188,7 @@ function findSections(   k, f, j, v, n, w, key, found, e, t, size, least, most) 
       no(f[2], "cut " f[3] ": the plane does not cross " f[4] sprintf(", which lies from %.4g to %.4g along the normal from its point; allowed: a point between", least, most))
     }
     members[dim - 1, f[3]] = found
+    if (ENVIRON["TABLE"] != "") tellCut(f[3], f[4], found)
   }
 }
 # names of the file's own, whose faces have new numbers

@@ -1,6 +1,6 @@
 # pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
 #        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE KEPT=FILE PARENTS=FILE LEFT=FILE FACES=FILE LC_ALL=C
-#        awk -f pick.awk -f cad.awk < OUTLINE.msh
+#        TABLE=FILE TOUCH=FILE awk -f pick.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
 #        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
 #        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
@@ -71,6 +71,7 @@ section == "$Elements" {
   place(e, 1, $3)
   if (space) place(e, 2, $4)
   n = space ? 4 : 3
+  if (type ~ /^[12]$/) straight[e] = 1
   if (type == 9) { place(e, 3, $5); place(e, 4, $6); place(e, 5, $7) }
   else if (type == 8) place(e, 2, $4)
   else if (space) { middle(e, 3, 0, 1); middle(e, 4, 1, 2); middle(e, 5, 2, 0) }
@@ -412,7 +413,7 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
 function writeFaces(   e, k, n) {
   print (space ? "face,body,x0,y0,z0,x1,y1,z1,x2,y2,z2" : "face,body,x0,y0,z0,x1,y1,z1") > ENVIRON["FACES"]
   for (e = 1; e <= elements; e++) {
-    line = face[e] "," bodyOf[face[e]] + 0
+    line = (face[e] in wasFace ? wasFace[face[e]] : face[e]) "," parent(bodyOf[face[e]]) + 0
     for (k = 0; k < (space ? 3 : 2); k++) line = line sprintf(",%.9g,%.9g,%.9g", X[e, k], Y[e, k], Z[e, k])
     print line > ENVIRON["FACES"]
   }
@@ -421,7 +422,6 @@ END {
   if (failed) exit 1
   diagonal = sqrt((high[0] - low[0]) ^ 2 + (high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2)
   pieces = elements
-  if (ENVIRON["FACES"] != "") writeFaces()
   # bodies that were given faces of their own have new numbers
   while (ENVIRON["APART"] != "" && (getline line < ENVIRON["APART"]) > 0) if (split(line, f, " ") == 3 && f[1] == "//") nowCalled[f[2]] = f[3]
   close(ENVIRON["APART"])
@@ -444,6 +444,7 @@ END {
   }
   checkCad()
   again = recall()
+  if (ENVIRON["FACES"] != "") writeFaces()
   # bodies first: "between" asks for them
   for (turn = 0; turn < 2 && !again; turn++)
     for (g = 1; g <= groups; g++) {
@@ -468,6 +469,9 @@ END {
     print "  new_() = Translate{0, 0, 0}{ Duplicata{ " word "{old_(k_)}; } };\n  Recursive Delete{ " word "{old_(k_)}; }\nEndFor" > ENVIRON["APART"]
     exit 4
   }
+  if (!again && (ENVIRON["TABLE"] != "" || ENVIRON["CAD"])) touching()
+  if (!again && ENVIRON["TABLE"] != "") tell()
+  if (!again && groups) warnOfTouch()
   if (!again && operate()) exit 4
   if (again) { checkJoins(); findSections(); named_() }
   kind[1] = "Curve"; kind[2] = "Surface"; kind[3] = "Volume"

@@ -48,7 +48,7 @@ test "$case_" = none || test -f "$case_" || no "-case $case_: a folder, a pipe o
 test -r "$file" || no "may not be read"
 how=
 order=
-for name in gmsh left; do : > "$folder/$name"; done
+for name in gmsh left touch; do : > "$folder/$name"; done
 after=
 finer="mesh with smaller elements"
 # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
@@ -134,9 +134,12 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
         sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
         named
     }
+    table=
+    test "$as" != check || table=$folder/table
     pick() {
         PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo KEPT=$folder/kept PARENTS=$folder/pieces \
-            LEFT=$folder/left FACES=$folder/faces awk -f "$meshes/pick.awk" -f "$meshes/cad.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
+            LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch \
+            awk -f "$meshes/pick.awk" -f "$meshes/cad.awk" -f "$meshes/kinds.awk" -f "$meshes/touch.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
     command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
     listBodies() {
@@ -225,7 +228,7 @@ named
 test -n "$picked" || readCase
 straight=
 test "$space" = 1 || case $kind in geo | step | stp | brep | iges | igs) straight=1 ;; esac
-{ cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; } > "$folder/told"
+{ cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; test -s "$folder/left" || echo; wc -l < "$folder/touch"; cat "$folder/touch"; } > "$folder/told"
 check() {
     CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
         RISES=$folder/rises SURFACE=$surface \
