@@ -4,7 +4,7 @@
 # Gives: operate(): whether bodies are to be cut or joined: APART gains the operations, KEPT what was picked before.  recall(): whether
 #        they have been: groups, faces and bodies of the present outline by the numbers that the geometry had before. A face is a piece
 #        of the one that it lies on; a face between two pieces of one body, or between joined bodies, is of none.
-#        checkCad(), checkJoins(), findSections(): refusals, and the faces of each cut;  named_(): the file's own names, once more.
+#        checkCad(), checkTies(), checkJoins(), findSections(): refusals, and the faces of each cut;  named_(): the file's own names, once more.
 function wholes(numbers, text,   n, w, k) {
   n = split(numbers, w, " ")
   for (k = 1; k <= n; k++) text = text (text == "" ? "" : ", ") "own" w[k] "_()"
@@ -16,6 +16,12 @@ function checkCad(   k, f) {
   for (k = 1; k <= joins; k++) {
     split(joinLine[k], f, "\t")
     if (f[5] == "part") no(f[2], "join " f[3] " " f[4] " part: a mesh cannot be joined; allowed: with a geometry, or join " f[3] " " f[4] " tie")
+  }
+}
+function checkTies(   k, f) {
+  for (k = 1; k <= joins; k++) {
+    split(joinLine[k], f, "\t")
+    if (f[5] == "tie" && !lies[f[3], f[4]]) no(f[2], "join " f[3] " " f[4] " tie: they touch nowhere, there is a gap between them; allowed: bodies that touch, a contact, or tie SLAVE MASTER with groups of your own")
   }
 }
 function top(b) { while (b in above) b = above[b]; return b }
@@ -121,7 +127,7 @@ function recall(   line, f, w, n, k, e, key, d, of, t, i, p, q, both) {
   for (k = 1; k <= n; k++) {
     p = split(sidesOf[w[k]], both, " ") ? parent(both[1]) : 0
     q = both[2] == "" ? 0 : parent(both[2])
-    if (q && p == q) { cutFace[w[k]] = p; continue }
+    if (q && p == q) { cutFace[w[k]] = p; wasFace[w[k]] = -w[k]; continue }
     if (q) joinedAt[p, q] = joinedAt[q, p] = 1
     if (q && !((p, q) in sharedBefore)) { wasFace[w[k]] = liesOn(w[k], p, 0); continue }
     t = wasFace[w[k]] = liesOn(w[k], p, q)

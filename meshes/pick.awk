@@ -313,6 +313,7 @@ function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meet
     if (off[i] < play[i]) meets = 1
     if (off[i] < least) least = off[i]
   }
+  lie_ = meets
   for (i = 1; i <= n; i++)
     if (off[i] < (meets ? 0 : least + 1e-3 * diagonal) + play[i] && index(found " ", " " face[list[i]] " ") == 0) found = found " " face[list[i]]
   return found
@@ -458,6 +459,7 @@ END {
         apart(a, b, f[2])
         found = toPart == "" ? between(a, b) : ""
         if (toPart != "") continue
+        lies[f[6], f[7]] = lie_
       } else found = numbersOf(f[2], f[3], how, f[5])
       if (found == "") no(f[2], f[4] ": " how ": no " (f[3] == dim ? "body" : (space ? "face" : "curve")) " lies there; allowed: one or more, of" listed(entities[f[3]]))
       members[f[3], f[4]] = found
@@ -469,6 +471,7 @@ END {
     print "  new_() = Translate{0, 0, 0}{ Duplicata{ " word "{old_(k_)}; } };\n  Recursive Delete{ " word "{old_(k_)}; }\nEndFor" > ENVIRON["APART"]
     exit 4
   }
+  if (!again) checkTies()
   if (!again && (ENVIRON["TABLE"] != "" || ENVIRON["CAD"])) touching()
   if (!again && ENVIRON["TABLE"] != "") tell()
   if (!again && groups) warnOfTouch()

@@ -122,7 +122,7 @@ function warnOfTouch(   k, p, n, w, i, fg, text, a, b) {
     for (i = 1; i <= n; i++) { split(w[i], fg, ","); if (!isStated(p[1], p[2], fg[1], fg[2])) text = text (text == "" ? "" : ", ") fg[1] " on " fg[2] }
     if (text == "") continue
     a = calledBody(p[1]); b = calledBody(p[2])
-    print (a == "" || b == "" ? many[dim] " " p[1] " and " p[2] : a " and " b) " touch (" many[dim - 1] " " text "), and no statement says what happens there: " \
+    print (a == "" || b == "" ? many[dim] " " p[1] " and " p[2] : a " and " b) " (" many[dim - 1] " " text "), and no statement says what happens there: " \
       (a == "" || b == "" ? "name each by a line group NAME " many[dim] " N, and " : "") "write join " (a == "" || b == "" ? "A B" : a " " b) " part, tie or contact" > ENVIRON["TOUCH"]
   }
 }
@@ -142,6 +142,10 @@ function triple(a, f, part,   k, t, text) {
 function corner(low_,   k, text) {
   for (k = 0; k < 2 + space; k++) text = text (k ? ", " : "") sprintf("%.6g", clean_(low_[k], 1e-6))
   return "(" text ")"
+}
+function areaOf_(pairs, n, side,   i, fg, t) {
+  for (i = 1; i <= n; i++) { split(pairs[i], fg, ","); t += areaOf[fg[side]] }
+  return t
 }
 function tell(   out, n, w, i, f, k, j, p, m, d, b, low_, high_, text, line, fg, a) {
   out = ENVIRON["TABLE"]
@@ -165,7 +169,7 @@ function tell(   out, n, w, i, f, k, j, p, m, d, b, low_, high_, text, line, fg,
     gsub(/ /, " and ", text)
     if (f in meets) text = text "; on" meets[f]
     line = k (hollow[f] ? (k == "circle" ? " hole" : " hollow") : "")
-    if (tilt[f]) line = line sprintf(" %.4g°", tilt[f] * 45 / atan2(1, 1))
+    if (tilt[f]) line = line sprintf(" %.4g deg", tilt[f] * 45 / atan2(1, 1))
     printf "%6s  %-15s %-30s %-30s %10s %10s  %s\n", f, line, triple(spotOf, f, k ~ /^(plane|line|other)$/ ? 3e-5 : 1e-7), k ~ /^(other|sphere|circle)$/ ? "-" : triple(wayOf, f, 0), (f in radius) ? sprintf("%.6g", radius[f]) : "-", sprintf("%.4g", areaOf[f]), text > out
   }
   for (k = 1; k <= touches_; k++) {
@@ -182,6 +186,8 @@ function tell(   out, n, w, i, f, k, j, p, m, d, b, low_, high_, text, line, fg,
     if (a == "") { a = "V" p[1]; line = line "  group " a " " many[dim] " " p[1] "\n" }
     if (b == "") { b = "V" p[2]; line = line "  group " b " " many[dim] " " p[2] "\n" }
     if (line != "") printf "%s", line > out
+    # the slave first: the smaller face
+    if (areaOf_(d, m, 1) > areaOf_(d, m, 2)) { text = a; a = b; b = text }
     print "  join " a " " b " part      # one part: they share nodes\n  join " a " " b " tie       # glued, each with its own nodes\n  join " a " " b " contact   # they may part and slide" > out
   }
   close(out)
