@@ -33,6 +33,7 @@ def test_stiffness_and_points(tmp_path, symmetry, points):
     assert len(values["top"]) == points
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
 def test_methods_agree(kappa):
     """The paper's scheme, Newton's method, load steps and xnewton shall find one solution, the energy's minimum."""
@@ -98,6 +99,7 @@ def test_quarter_is_a_quarter_of_its_images(tmp_path):
     assert whole.contact["weight"].sum() == pytest.approx(quarter.contact["weight"].sum(), rel=1e-12)
 
 
+@pytest.mark.long
 def test_elements_at_the_rim():
     """Told the contact's radius, P3's force of a stiff law shall be off by 1e-4 and less, within what is said of it."""
     sphere = run(SCENE, "-kappa", 1e9, "-order", 3, "-h", 2, "-grading", 10, "-edges", 1, "-ends", 4.89, "-estimate", 1)

@@ -166,6 +166,7 @@ def test_table_that_falls(tmp_path):
     assert "falls, but not from 0" in refused.stdout
 
 
+@pytest.mark.long
 def test_in_space():
     """The sphere in space shall pull like the axisymmetric one, to 2 %."""
     space = run("adhesive-sphere-3d", "-u0", -0.00087, "-fine", 0.15)
@@ -185,6 +186,7 @@ def test_two_bodies():
 # ---------------------------------------------------------------- paths
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mu", short_of([0.05, 2], [0.3, 1]))
 def test_pull_off(mu):
     """The least force on the whole path shall be that of the half-space to 0.5 %, with five increments each way."""
@@ -276,6 +278,7 @@ def test_start_on_the_model():
     assert 2 * run(SPHERE).newton < run(SPHERE, "-start", "none").newton
 
 
+@pytest.mark.long
 def test_error_of_a_path():
     """What the mesh has a path's numbers off by shall be in their errors, which are no more than some times it."""
     ends = "-path", "-0.0031 0.0011 -0.0031"
@@ -307,6 +310,7 @@ def test_accuracy_of_a_law_that_falls(tmp_path):
     assert abs(done.halfWidth - 0.1527) <= done.estimates["halfWidth"]["error"] + 1e-4
 
 
+@pytest.mark.long
 def test_path_of_forces(tmp_path):
     """Prescribed forces shall be met, on the approaches' own curve, and refused by name beyond the least one."""
     given = ["-control", "force", "-steps", 2]
@@ -334,6 +338,7 @@ def test_profiles():
     np.testing.assert_allclose(profiles["pressure"], expected, atol=1e-4 * work / GAP)
 
 
+@pytest.mark.long
 def test_unstable_branch():
     """The whole curve shall turn back twice, unstable in between, and hold the stable branches of the path."""
     given, unit = flags(2, (-3.9, 1.7))
@@ -357,6 +362,7 @@ def test_monotone_path():
     assert rows["force"][2] == pytest.approx(run("disc-on-block", "-h", 0.5).force, rel=1e-5)
 
 
+@pytest.mark.long
 def test_path_goes_on(tmp_path):
     """A path that was interrupted shall go on after its last state, to the same end."""
     given, _ = flags(1, whole_path(1))

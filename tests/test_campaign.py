@@ -155,6 +155,7 @@ def test_tables_that_are_refused(tmp_path, text, why):
 # ---------------------------------------------------------------- the real runs
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("part", ["a third", pytest.param("whole", marks=pytest.mark.long)])
 def test_the_quick_campaign(part, tmp_path):
     """The default method shall solve every case; on the paper's geometry in at most 4 linearisations."""
@@ -181,6 +182,7 @@ COUNTS = {  # models / steps of kappa = 1e3, m = 3 and of 1e9, 20, at h = 1
 }
 
 
+@pytest.mark.long
 def test_a_few_models(tmp_path):
     """Walls, tangents, plain Newton, xnewton: solved in these counts, to one force, no bound below the error."""
     rows = models.run(tmp_path / "few.csv", models.few(), jobs=2)

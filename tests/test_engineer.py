@@ -104,6 +104,7 @@ def test_shrink_fit(state, tmp_path):
 BLOCK = data("engineer/block.geo")
 
 
+@pytest.mark.long
 def test_heat_in_space(tmp_path):
     """A bar that heat presses against a wall: E (alpha dT - gap/length), nothing across."""
     case = "body bar E 1000 nu 0.3\nobstacle top plane 0 0 4.002 0 0 -1\nsymmetry x\nsymmetry y\nsymmetry z\n"
@@ -204,6 +205,7 @@ ROUND = ROUND.replace(
 )
 
 
+@pytest.mark.long
 def test_tension_of_a_heated_shank_in_space(tmp_path):
     """Of elements that follow its round side, in front of the cut: the same balance; this mesh is 0.2 % thinner."""
     case = JOINT.replace("state stress\n", "").replace("nu 0\n", "nu 0.3\n").replace("axis\n", "axis\nsymmetry side\n")
@@ -239,6 +241,7 @@ def fit(r, p, inner=100.0):
     return np.array(found).T
 
 
+@pytest.mark.long
 def test_stresses_of_lame(tmp_path):
     """Along a line and at the greatest, errors shall hold and not be ten times the stress's; fields shall be there."""
     case = f"{BODIES}contact bore seat interference 0.02\npressure inner 100\nline radius 7.2 7.2 21 21\n"
@@ -271,6 +274,7 @@ def test_stresses_of_lame(tmp_path):
         assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("bore", short_of([False], [True]), ids=["pair", "rigid bore"])
 def test_displacements_where_curves_end(tmp_path, bore):
     """A spline is off most beside its ends, here on symmetry planes: what lines say there, against Lame's."""
@@ -473,7 +477,9 @@ Mesh.MeshSizeMax = SIZE; Mesh.MeshSizeMin = SIZE;
 TWISTED = data("engineer/twisted.case")
 
 
-@pytest.mark.parametrize("friction, angle", [(0.9, 0.005), (0.05, 0.02)], ids=["sticks", "slips"])
+@pytest.mark.parametrize(
+    "friction, angle", [pytest.param(0.9, 0.005, marks=pytest.mark.long), (0.05, 0.02)], ids=["sticks", "slips"]
+)
 def test_moment_of_a_rotation(tmp_path, friction, angle):
     """What turns a ring on a shaft: by both rings' shear where all sticks, else by friction's share of what presses."""
     solve(tmp_path, RINGS, TWISTED.format(friction, angle), "-vtu", 0, size=1.2)

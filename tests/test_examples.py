@@ -166,6 +166,7 @@ def test_press_fit(tmp_path):
     balanced(case)
 
 
+@pytest.mark.long
 def test_crossed_cylinders(tmp_path):
     """Semi-axes and greatest pressure of crossed cylinders shall be those of Hertz's ellipse."""
     case = example("crossed-cylinders", tmp_path, size=0.27, extent=5)
@@ -194,6 +195,7 @@ def check_ball(case, allowed):
     assert case.first["pressureMax"] == pytest.approx(greatest, rel=allowed)
 
 
+@pytest.mark.long
 def test_gear_pair(tmp_path):
     """A tooth's pressure shall be Hertz's of the involutes' radii, its force along the line of action."""
     case = example("gear-pair", tmp_path, "contact 0.02|contact 0.06")
@@ -268,6 +270,7 @@ def test_hip_joint(clearance, size, least, most, tmp_path):
     assert least < found[0] / exact[0] - 1 < most and found[1] == pytest.approx(exact[1], rel=most)
 
 
+@pytest.mark.long
 def test_snap_hook(tmp_path):
     """A hook shall need the force of a beam whose end turns; the ± of linear gaps is not asked for."""
     case = example("snap-hook", tmp_path, "ramp 0.01|ramp 0.03", "-distance", "exact", size=0.5)

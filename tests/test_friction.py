@@ -101,6 +101,7 @@ MeshSize{PointsOf{Volume{1};}} = 2; MeshSize{PointsOf{Volume{2};}} = 1.5;
 PRESSED_LOOSE = data("friction/pressed-loose.case")
 
 
+@pytest.mark.long
 def test_way_of_a_load_that_friction_holds(tmp_path):
     """The error of a load's way on a body that friction alone holds sideways: elements 0.4 as large have 6.48e-4."""
     done = case(tmp_path, LOOSE, PRESSED_LOOSE, "-order", 2, "-estimate", 1, space=True)
@@ -279,6 +280,7 @@ def test_of_two_blocks_what_slides_is_named(tmp_path, below, name):
     assert f"leg 1: {name}: no equilibrium: friction and contact bear 97 %" in message and "traction up-top" in message
 
 
+@pytest.mark.long
 def test_a_jaw_takes_a_plate_along(tmp_path):
     """By four elements in two steps: the plate slides on what bears it, and what goes in is stored and lost."""
     text = "body plate E 1000 nu 0.3\nbody jaw E 2000 nu 0.3\nobstacle under plane 0 0 0 1 friction 0.1\n"
@@ -338,6 +340,7 @@ def test_mirrored_parts_bear_the_opposite_shear(tmp_path):
     assert run.summary["contacts"][0]["shearForce"][0] == 0 and abs(run.contact["shear"]).max() > 0.1
 
 
+@pytest.mark.long
 def test_rolling_and_wedge_beyond_what_they_can(tmp_path):
     """A pull that friction does not bear; a wedge about an axis; rolling that has not begun."""
     run = rub(tmp_path / "a", "edp/scenes/rolling.edp", {"-h": 0.04, "-shear": 0.03}, 20)
@@ -380,6 +383,7 @@ def test_mindlin(tmp_path):
     assert rows["dissipated"][3] - rows["dissipated"][1] == pytest.approx(loop, rel=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("pull", "h"), [(0.6, 0.0125), pytest.param(0.3, 0.005, marks=pytest.mark.long)])
 def test_carter(tmp_path, pull, h):
     """Rolling: creepage, tractions, what sticks at the side where the surfaces come in, what is dissipated."""
@@ -529,6 +533,7 @@ def off(error, value, truth):
     return error / max(abs(value - truth), 1e-300)
 
 
+@pytest.mark.long
 def test_error_of_the_load_steps(tmp_path):
     """Half as many load steps say how far these have the numbers off; an odd number says nothing."""
     flags = {"h": 0.6, "force": 0, "shear": 0, "u0": 0.8, "drag": 0.25, "friction": 0.4, "reach": 5, "grading": 20}
@@ -547,6 +552,7 @@ def test_error_of_the_load_steps(tmp_path):
     assert list(series(odd)["newton"]) == list(series(fretting(tmp_path / "as", steps=1, **flags))["newton"])
 
 
+@pytest.mark.long
 def test_error_of_the_mesh(tmp_path):
     """The transposed tangent's dual: the force's derivative as a difference quotient; finer elements are within."""
     flags = {"force": 0, "shear": 0, "friction": 0.3, "reach": 5, "grading": 20, "nu": 0.2}
@@ -565,6 +571,7 @@ def test_error_of_the_mesh(tmp_path):
     assert steep.summary["estimates"]["energy"] is None
 
 
+@pytest.mark.long
 def test_interrupted_path_goes_on(tmp_path, monkeypatch):
     """Killed on the way and begun again: the numbers of a path that was not. Two BLAS threads round anew each time."""
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
@@ -588,6 +595,7 @@ def test_interrupted_path_goes_on(tmp_path, monkeypatch):
                 assert abs(one[column] - two[column]).max() <= 1e-12 * abs(one[column]).max(), column
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("friction", "lifted", "several"), [(4, 0.001, True), pytest.param(1, -0.01, False, marks=pytest.mark.long)]
 )
@@ -637,6 +645,7 @@ def test_tie_reproduces_uniform_tension_in_space(tmp_path, order):
     assert max(abs(rows["shearX"]).max(), abs(rows["shearY"]).max()) < 1e-9
 
 
+@pytest.mark.long
 def test_cantilever_of_two_glued_pieces(tmp_path):
     """Its tip goes as far as that of one piece with elements a third as large, within the ±."""
     glued = "body left E 1000 nu 0.3\nbody right E 1000 nu 0.3\ntie end2 end1\nclamp wall\ntraction tip 0 -1\n"
@@ -654,6 +663,7 @@ def test_cantilever_of_two_glued_pieces(tmp_path):
 LOOP = {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "scene, flags",
     short_of([("fretting", LOOP)], [("fretting-3d", {"-u0": 0.5, "-h": 2, **HARD, "-drag": 0.1})]),
@@ -717,6 +727,7 @@ def rows(run, *names):
     return np.array([np.atleast_1d(found[name]) for name in names])
 
 
+@pytest.mark.long
 def test_true_distance_of_a_plane_is_the_linear_one(tmp_path):
     """Pressed and dragged along a rigid plane by half the body's size, block and plane turned and mirrored."""
     mesh, found = block(Mesh(), (4, 2), (16, 8), (-2, -2)), []
@@ -732,6 +743,7 @@ def test_true_distance_of_a_plane_is_the_linear_one(tmp_path):
     assert found[1] == pytest.approx(found[0], rel=1e-9)
 
 
+@pytest.mark.long
 def test_drag_over_many_elements(tmp_path):
     """Over seven elements: a rigid disc and the same as a stiff body, whose surface is the master."""
     rigid = case(tmp_path, LOW, pressed([(1, 0, -0.05), (2, 0.5, -0.05)], at=(-0.5, 1)), *EXACT)
@@ -742,6 +754,7 @@ def test_drag_over_many_elements(tmp_path):
         assert rows(stiff, name)[0][1:] == pytest.approx(rows(rigid, name)[0][1:], rel=1e-3), name
 
 
+@pytest.mark.long
 def test_dragged_onto_what_nothing_faced(tmp_path):
     """Half a disc, stiffer than the block: points that had nothing opposite come to bear."""
     disc = [

@@ -11,13 +11,13 @@ from postprocess.references import hertz
 from postprocess.results import read_run
 
 HERTZ = [
-    ("hertz-line", ["-width", 80, "-depth", 40, "-grading", 80, "-h", 0.1]),
-    ("two-cylinders", ["-h", 0.1]),
+    pytest.param("hertz-line", ["-width", 80, "-depth", 40, "-grading", 80, "-h", 0.1], marks=pytest.mark.long),
+    pytest.param("two-cylinders", ["-h", 0.1], marks=pytest.mark.long),
     ("hertz-line", ["-geometry", "axisymmetric", "-force", 10, "-h", 0.1]),
 ]
 
 
-@pytest.mark.parametrize("scene, flags", HERTZ, ids=[scene for scene, _ in HERTZ])
+@pytest.mark.parametrize("scene, flags", HERTZ)
 def test_hertz(scene, flags):
     """The figure of a contact under a force shall be drawn; the stress below peaks near where Hertz's does."""
     done = run(scene, "-method", "xnewton", "-order", 2, "-axis", 1, *flags)

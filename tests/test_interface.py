@@ -44,9 +44,9 @@ def package(tmp_path_factory):
 @pytest.mark.parametrize(
     "folder, name, scene",
     [
-        (".", "edp/main.edp", DISC),
+        pytest.param(".", "edp/main.edp", DISC, marks=pytest.mark.long),
         ("edp", "main.edp", DISC),
-        (".", "edp/scenes/meshed-disc.edp", TWO_BODIES),
+        pytest.param(".", "edp/scenes/meshed-disc.edp", TWO_BODIES, marks=pytest.mark.long),
         ("edp/scenes", "confined-block.edp", BLOCK),
     ],
 )
@@ -185,6 +185,7 @@ def test_modules_are_the_package_s(package, tmp_path):
     assert code == 0 and "converged" in said, said
 
 
+@pytest.mark.long
 def test_module_in_the_present_folder(tmp_path):
     """Without the starter a file that FreeFEM would read in a module's place is refused; one of another name is not."""
     package = tree(tmp_path / "package")
@@ -243,6 +244,7 @@ def test_plot_without_a_window(scene, tmp_path):
 # ---------------------------------------------------------------- meshes
 
 
+@pytest.mark.long
 def test_mesh_is_made_once(package):
     """A mesh shall be kept under a name with its parameters, taken again, and made anew when a .geo is newer."""
     generated = package / "meshes" / "generated"
@@ -280,6 +282,7 @@ def test_same_shape_same_mesh(package):
 # ---------------------------------------------------------------- whole or not at all
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("word", ["\033[31mbody", "a" * 30000], ids=["escape", "long"])
 def test_what_is_echoed(word, tmp_path):
     """Codes that a terminal would obey shall not come back, and a word of any length be refused at once."""
@@ -317,7 +320,7 @@ def no_room_beyond(limit):
     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
 
-@pytest.mark.parametrize("words", [["-mesh", "{0}.geo", "-case", "{0}.case"], ["-mesh", "{0}.geo"], None])
+@pytest.mark.parametrize("words", short_of([["-mesh", "{0}.geo"], None], [["-mesh", "{0}.geo", "-case", "{0}.case"]]))
 def test_no_room_for_a_mesh(words, tmp_path):
     """Where there is no room for a mesh or its copy a run shall say so, with code 30, and blame no mesh."""
     folder = tmp_path / "tmp"
@@ -340,6 +343,7 @@ def test_no_room_for_a_mesh(words, tmp_path):
     assert not (tmp_path / "out").exists() and list(folder.rglob("*.msh")) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("flags", [[], ["-history", "1", "-steps", "2"]])
 def test_folder_moved_during_a_run(flags, tmp_path):
     """A run whose results' folder is taken away shall end with one line and code 30."""

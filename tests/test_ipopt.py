@@ -15,6 +15,7 @@ LAWS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "law, h, order",
     short_of([("stiff", 0.25, 1)], [("base", 0.5, 1), ("stiff", 0.5, 2), ("base", 0.25, 2), ("stiff", 0.25, 2)]),

@@ -38,6 +38,7 @@ def test_handouts(made):
         assert all(target.startswith(("http", "#", "data:")) for target in re.findall(r'href="([^"]*)"', text))
 
 
+@pytest.mark.long
 def test_the_page_without_gmsh(made, tmp_path):
     """Lab 0 in one file shall run anywhere, and have the paper's count; its force that of a like mesh."""
     assert "gmsh" not in re.sub(r"//.*", "", (made / "algorithm1.edp").read_text())
@@ -57,6 +58,7 @@ def test_slides(made):
     assert "<math" in text and not re.search(r"<em>[^<]*[=κ][^<]*</em>", text)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", short_of(["cut", "four_five"], lecture.PICTURES))
 def test_sketches(name, tmp_path):
     """Each picture of the lecture is drawn without a run, in both sizes."""
@@ -167,6 +169,7 @@ def test_a_law_without_end(tmp_path, capsys, monkeypatch):
     assert "does not end: stopped after 1 seconds" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_a_law(tmp_path, capsys):
     """The answers' law shall be well; with a slope twice too steep that check alone is off."""
     (law,) = fences(answers("4-own-law"), "freefem")

@@ -131,6 +131,7 @@ DRAW = ".venv/bin/python -m postprocess "
 
 
 # of the other labs the answers' first numbers are tested always
+@pytest.mark.long
 @pytest.mark.parametrize("lab", short_of([PAGE], LABS))
 def test_commands(lab, tmp_path, monkeypatch):
     """Every command of a lab shall run as it is written, in this order, and leave what it names."""
@@ -195,6 +196,7 @@ def coating(tmp_path_factory):
     return package
 
 
+@pytest.mark.long
 def test_coating(coating, tmp_path):
     """The answers' numbers of their own law; the others are held by test_numbers.py."""
     ((head, rows),) = [table for table in tables(answers(OWN_LAW)) if "coating" in table[0][0]]
@@ -321,6 +323,7 @@ def test_where_no_state_is_found(flags):
     assert adhesive(*flags.split(), code=20).startswith("NO STATE: ")
 
 
+@pytest.mark.long
 def test_one_approach_has_two_states():
     """From afar and from contact lab 11's page shall find two stable states, those of the package's path."""
     afar, touching = adhesive("-u0", -1.68), adhesive("-u0", -1.68, "-from", -1.5, "-steps", 4)
@@ -334,6 +337,7 @@ def test_one_approach_has_two_states():
     assert run("adhesive-sphere", *flags).force / unit == pytest.approx(forces[1], rel=0.03)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("u0", [1, pytest.param(-2, marks=pytest.mark.long)])
 def test_the_adhesive_page_against_the_package(u0):
     """Lab 11's page, on a mesh of its own, shall have the force of the package's stable step."""
@@ -380,8 +384,22 @@ INVERSE = "= p[i] <= soft * knee ? p[i] / soft : knee + (p[i] - soft * knee) / s
     "function, change, check, steps",
     [
         ("slope", ("? soft : stiff)", "? 2 * soft : 2 * stiff)"), "slope, against differences of the pressure", SLOPED),
-        ("inverse", (INVERSE, "= x / 3;"), "inverse of pressure, against s", (None, "0.90 %", "3.5 %")),
-        ("potential", ("W[i] = 0.5", "W[i] = 3 * 0.5"), "pressure, against differences of the potential", (1, 1, 4)),
+        pytest.param(
+            "inverse",
+            (INVERSE, "= x / 3;"),
+            "inverse of pressure, against s",
+            (None, "0.90 %", "3.5 %"),
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            *(
+                "potential",
+                ("W[i] = 0.5", "W[i] = 3 * 0.5"),
+                "pressure, against differences of the potential",
+                (1, 1, 4),
+            ),
+            marks=pytest.mark.long,
+        ),
     ],
     ids=["slope", "inverse", "potential"],
 )
@@ -428,6 +446,7 @@ def test_help_and_refusals(lab, tmp_path):
     assert listing(package) == before
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("lab, flags", [("1-law", ["-h", 5]), ("6-sphere", ["-h", 1.6, "-layers", 1, "-estimate", 0])])
 def test_the_command_of_a_run(lab, flags, tmp_path):
     """The command that a page of runs gives for a lab's run shall make that run again."""

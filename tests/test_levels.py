@@ -12,10 +12,10 @@ MODEL = data("levels/model.edp")
     [
         ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
         pytest.param("rough", ["-order", 2, "-h", 0.2, "-modes", 32], marks=pytest.mark.long),
-        ("rough", ["-order", 4, "-h", 0.4, "-modes", 32]),
+        pytest.param("rough", ["-order", 4, "-h", 0.4, "-modes", 32], marks=pytest.mark.long),
         pytest.param("sphere-on-block", ["-order", 1, "-h", 0.5], marks=pytest.mark.long),
         pytest.param("sphere-on-block", ["-order", 2, "-h", 0.8], marks=pytest.mark.long),
-        ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
+        pytest.param("sphere-on-plane", ["-order", 2, "-h", 0.2], marks=pytest.mark.long),
     ],
 )
 def test_products(scene, flags, tmp_path):
@@ -34,6 +34,7 @@ TURNED = data("levels/turned.geo")
 TURNED_CASE = data("levels/turned-case.case")
 
 
+@pytest.mark.long
 def test_products_of_a_case(tmp_path):
     """Contacts that face two ways, in mirrors that are no axes: each in its own plane, the other one not felt."""
     (tmp_path / "turned.geo").write_text(TURNED)

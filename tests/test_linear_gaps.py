@@ -109,6 +109,7 @@ def test_levers(said, load, height, flags):
     assert not plank.warnings
 
 
+@pytest.mark.long
 def test_followed_pressure(said):
     """A pressure goes with the surface that it acts on: its lever stays, and it pushes sideways as the plank tilts."""
     dead = said(PLANK, STANDING + "traction top 0 -4\n")
@@ -117,6 +118,7 @@ def test_followed_pressure(said):
     assert follows.linear["changes"]["left plane"] != pytest.approx(dead.linear["changes"]["left plane"], rel=0.1)
 
 
+@pytest.mark.long
 def test_exchanged(said):
     """Slave and master exchanged: the true distance lies within both errors, and is predicted within a third."""
     noses = {order: ON_FLOOR.format(*order, 0, -0.08) for order in (("nose", "floor"), ("floor", "nose"))}
@@ -135,6 +137,7 @@ def test_exchanged(said):
             assert linear.summary["estimates"]["refine"] == "use -distance exact"
 
 
+@pytest.mark.long
 def test_hip(said):
     """A ball in a soft cup, axisymmetric: force and way, each predicted within a twentieth."""
     linear, true = said(HIP, IN_CUP), said(HIP, IN_CUP, "-distance", "exact")
@@ -145,6 +148,7 @@ def test_hip(said):
         assert linear.linear["changes"][name] == pytest.approx(moved, rel=0.05)
 
 
+@pytest.mark.long
 def test_too_much(said):
     """A gap whose linearisation is far off: said, with a size within a factor of ten, and with what helps."""
     case = ON_FLOOR.format("nose", "floor", 1.2, -0.05)
@@ -175,6 +179,7 @@ def test_motion_of_the_whole(said):
     assert np.hypot(*motion[:2]) < 0.001 and motion[2] == pytest.approx(0.02, rel=0.01)
 
 
+@pytest.mark.long
 def test_shaft_in_hub(said):
     """A shaft that turns in its hub changes nothing."""
     geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()
@@ -227,6 +232,7 @@ BOTH = "body low E 1000 nu 0.3\nbody up E 1000 nu 0.3\ncontact {} friction 0.3\n
 ON_BALL = "body ball E 1000 nu 0.3\nobstacle skin sphere 0 0 -2 R 2 friction 0.3{}\nmove cut {}\n"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "geo, case",
     [

@@ -78,6 +78,7 @@ def test_prescribed_motion(go):
     assert moved.summary["bodies"][0]["reaction"][0] == pytest.approx(7.5, rel=1e-6)
 
 
+@pytest.mark.long
 def test_mean_motion(go):
     """A body's motion is its area's mean: of a uniform strain the middle's, however the elements are spread."""
     case = "body bar E 1000 nu 0\nsymmetry left\nobstacle right plane 2 0 -1 0 move -0.01 0\n"
@@ -86,6 +87,7 @@ def test_mean_motion(go):
         assert told.summary["bodies"][0]["motion"][0] == pytest.approx(-0.005, rel=1e-6)
 
 
+@pytest.mark.long
 def test_turned_body(go):
     """A body that is turned as a whole turns by the angle that is prescribed, and moves as its middle does."""
     for order in (1, 4):
@@ -131,6 +133,7 @@ def test_layer(go):
     assert "overflow" not in go(bar(1, 1), case.format("-1.6")).stdout
 
 
+@pytest.mark.long
 def test_ends(go):
     """Where a group ends at a corner of the body nothing is cut off; where the body goes on smoothly it is."""
     case = "body bar E 1000 nu 0.3\nobstacle sole plane 0 0 0 1\nmove head 0 -0.01\n"
@@ -155,6 +158,7 @@ def halves(split):
     return sketch.text()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "rubs, support",
     short_of([("", "symmetry side"), (" friction 0.3", "move side 0.01 0")], [(" friction 0.3", "symmetry side")]),
@@ -174,6 +178,7 @@ def test_neighbours(go, tmp_path, rubs, support):
     assert len(pressures) == 2 and pressures[0] == pytest.approx(pressures[1], rel=1e-4) and pressures[0] > 0.3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("other", ["0 0 0 1 friction 0.2", "0 -0.001 0 1 friction 0.3"])
 def test_neighbours_unlike(go, other):
     """With friction, and unlike at the node that they share, they are refused: how forces part is not known."""

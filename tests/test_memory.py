@@ -100,6 +100,7 @@ def test_answer_or_one_line(name, tmp_path_factory, capsys):
             print(f"\n{name}, {free['ndof']} dofs, {threads} threads, {seconds:.1f} s: {', '.join(row)}")
 
 
+@pytest.mark.long
 def test_refused_before_it_is_taken(tmp_path):
     """One line that says what is needed, what is there and what would fit; it does."""
     code, output, _ = within(430, *SPACE[:-1], 0.36, folder=tmp_path / "out")

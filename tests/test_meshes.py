@@ -153,6 +153,7 @@ def test_contact_line_with_sharp_ends(folder):
             assert np.abs(x).min() < 1e-13
 
 
+@pytest.mark.long
 def test_singular_places_pay():
     """With P2 the force's error shall be a tenth of that without, for at most 15 % more unknowns."""
     flags = ["-order", 2, "-h", 0.25]

@@ -115,7 +115,7 @@ def test_under_a_prescribed_force_the_approach_found_counts(model):
 
 
 @pytest.mark.parametrize(
-    "model, asked, counts", [("wall", 0.29, (1, 4)), ("wall", 0.12, (2, 4)), ("linear", 0.29, (1, 3))]
+    "model, asked, counts", short_of([("wall", 0.12, (2, 4))], [("wall", 0.29, (1, 4)), ("linear", 0.29, (1, 3))])
 )
 def test_the_bound_ends_the_loop_where_an_accuracy_is_asked(model, asked, counts):
     """The loop shall end at the first model whose bound is a tenth of the accuracy, by eq. (7) for another goal."""

@@ -90,6 +90,7 @@ def test_hub_under_a_moment(tmp_path, how):
     assert "  moments about P (1, 2)\n    bore seat " in run.stdout
 
 
+@pytest.mark.long
 def test_loads_before_the_solution(tmp_path):
     """`-check 1` prints friction, and each force, moment, spin and spring with its numbers and what it leaves free."""
     dense = FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + "clamp rim\ncontact bore seat friction 0.2\n"
@@ -137,6 +138,7 @@ def test_guided_force(tmp_path):
     assert "  guide of force head carries " in run.stdout
 
 
+@pytest.mark.long
 def test_rigid_like_others(tmp_path):
     """In the middle of a half a rigid force does as a guided one, on a stiff post as a free one: in errors too."""
     half = f'{POST}symmetry "post left"\nforce head 0 -4'.replace("friction 0.5", "")
@@ -177,6 +179,7 @@ def boxes(matrix):
     return cube(mesh, size=(1.5, 1.2, 2), cells=(2, 2, 2), at=(0.3, 0.4, 1), prefix="post ", name="post").text(matrix)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", short_of(["rigid"], PUSHED))
 def test_any_axis(tmp_path, kind):
     """In space, turned at random: contact and clamp have the moment of the loads, the turned problem the turned one."""
@@ -320,6 +323,7 @@ def fit(state, young=210e3, nu=0.3):
     return lame, spun(10, 10, 20, young, nu) - spun(10, 5, 10, young, nu)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("state", short_of(["stress"], ["stress", "strain"]))
 def test_shrink_fit_that_loosens(tmp_path, state):
     """A shrink fit loses its pressure with the square of the speed, all of it at one: closed forms of Lame."""
@@ -377,6 +381,7 @@ def test_spin_of_a_round_body(tmp_path):
     assert force[0] == pytest.approx(-9 * 0.5 * force[2], rel=1e-3)
 
 
+@pytest.mark.long
 def test_moment_in_phases(tmp_path):
     """A free moment that is reached in phases: in stick, the energy is half the moment times its angle."""
     phases = "leg 1\nmoment core 0\nleg 2\nmoment core 5000\nleg 2\nmoment core -5000\n"

@@ -199,6 +199,7 @@ class TestMovie:
         check_page(page)
         assert player.extract(page).count("<script") == 2
 
+    @pytest.mark.long
     def test_the_gif(self, film):
         from PIL import Image
 

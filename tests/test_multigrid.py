@@ -73,6 +73,7 @@ RUNS = [
 ]
 
 
+@pytest.mark.long
 @built
 @pytest.mark.parametrize("case, ranks", RUNS)
 def test_same_answer(case, ranks, tmp_path):
@@ -155,8 +156,10 @@ REFUSED = [
     (1, "adhesive-sphere-3d", ["-solver", "multigrid"], "law that falls"),
     (2, "sphere-on-block", ["-accuracy", 0.01], "-accuracy"),
     (1, "sphere-on-block", ["-solver", "multigrid", "-order", 4], "-order"),
-    (2, "disc-on-block", ["-order", 4], "scenes in space"),
-    (2, "sphere-on-block", ["-solver", "direct"], "-solver direct runs on one process"),
+    pytest.param(2, "disc-on-block", ["-order", 4], "scenes in space", marks=pytest.mark.long),
+    pytest.param(
+        2, "sphere-on-block", ["-solver", "direct"], "-solver direct runs on one process", marks=pytest.mark.long
+    ),
     pytest.param(
         2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa", marks=pytest.mark.long
     ),
@@ -174,6 +177,7 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 @built
 def test_words_reach_several_processes_as_they_are(tmp_path):
     """No shell shall read the flags of a run on several processes again, whose engine needs no flag."""
@@ -199,6 +203,7 @@ def test_plugin_in_a_cache(tmp_path):
     assert code == 0, output
 
 
+@pytest.mark.long
 @built
 @pytest.mark.parametrize(
     "program, flags, allowed",
@@ -299,6 +304,7 @@ def test_engine_chosen_by_size(tmp_path):
     assert "faster than -solver direct" in output and "their iterations" in output
 
 
+@pytest.mark.long
 @built
 def test_killed_rank(tmp_path):
     """A rank that dies ends the run, with mpiexec's word; the next run into the same folder finds its way."""

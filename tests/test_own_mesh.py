@@ -46,6 +46,7 @@ def spoilt(mesh, folder, how):
     return folder / "spoilt.msh"
 
 
+@pytest.mark.long
 def test_own_mesh(mesh, tmp_path):
     """A mesh of the user's shall be solved, by two methods to one force, near the example's finer one's."""
     ours, paper = (
@@ -87,6 +88,7 @@ def test_rounds(kappa):
     assert abs(done.summary["masterForceX"]) < 1e-3 * done.force
 
 
+@pytest.mark.long
 def test_small_loads_need_no_refreshing():
     """For a load that hardly deforms or tilts anything the true distance shall be the linear one."""
     flags = ["-force", 0, "-gap", 0.01, "-u0", 0.0105, "-reach", 0.3, "-h", 0.03, "-tol", 1e-9]
@@ -209,6 +211,7 @@ def test_ends(scene, flags, said):
     assert bool(done.summary["warnings"]) is said
 
 
+@pytest.mark.long
 def test_no_force_before_touch():
     """Curved bodies a hair apart shall not press: the gap is that of the circles, not its mean over an element."""
     for order, u0, touch in ((1, 0.09999, False), (2, 0.09999, False), (1, 0.1001, True)):

@@ -682,6 +682,7 @@ def test_gap_vertical(tmp_path, upper):
     assert found["gap"] == pytest.approx(14.1 - np.sqrt(64 - x**2) - np.sqrt(1600 - x**2) + 34, abs=2e-6)
 
 
+@pytest.mark.long
 def test_gap_vertical_forces(tmp_path):
     """Vertical gaps have vertical forces, whose work is the energy; normals give nearly the same."""
     step = 1e-3
@@ -697,6 +698,7 @@ def test_gap_vertical_forces(tmp_path):
     assert along_normals.force != pytest.approx(runs[1].force, rel=1e-5)
 
 
+@pytest.mark.long
 def test_gap_vertical_in_space(tmp_path):
     """A box on a box: the flat contact's pressure, by gaps along z and by another method."""
     case = STACK.replace('"upper bottom"', '"upper bottom" gap vertical') + 'clamp bottom\nmove "upper top" 0 0 -0.1\n'
@@ -722,6 +724,7 @@ def test_gap_is_refused(tmp_path, text, words):
     assert words in solve(tmp_path, stack(), case, expect=10).stdout
 
 
+@pytest.mark.long
 def test_states_change_nothing(tmp_path):
     """The pictures of the steps shall leave the steps as they are."""
     plain, drawn = (
@@ -730,6 +733,7 @@ def test_states_change_nothing(tmp_path):
     assert drawn.force == plain.force and drawn.newton == plain.newton
 
 
+@pytest.mark.long
 def test_methods(tmp_path):
     """Every method of a scene's shall find the same pressures; with -steps some load only grazes."""
     flags = ("-order", 1, "-tol", 1e-9)

@@ -63,6 +63,7 @@ def figure(command, folder, scale=1.0, slide=False):
     return drawn
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", ["state", pytest.param("stress", marks=pytest.mark.long)])
 def test_written(case, command, capsys):
     """A run shall be drawn into its own folder, as PDF and PNG, and the next run shall remove both."""
@@ -73,15 +74,16 @@ def test_written(case, command, capsys):
     assert f"{command}.pdf" in (case / ".run/.written").read_text()
 
 
-WAYS = [(state, False), (stress, True)]
+WAYS = [(state, False)]
 
 
-@pytest.mark.parametrize(("command", "slide"), short_of(WAYS, [(state, True), (stress, False)]))
+@pytest.mark.parametrize(("command", "slide"), short_of(WAYS, [(state, True), (stress, False), (stress, True)]))
 def test_any_run(made, command, slide):
     """A run of any scene shall be drawn, in a column or on a slide, with no text cut or on another one."""
     assert faults(figure(command, made, slide=slide)) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("slide", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_every_contact_from_near(case, slide):
     """Each contact of the roller shall have a panel with the scale of its pressure and where the arc length begins."""

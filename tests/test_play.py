@@ -48,6 +48,7 @@ DISC = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("problem, method, kappa, m, threshold", short_of(DISC[3:4], DISC))
 def test_disc(problem, method, kappa, m, threshold, page):
     """The paper's test: models, steps and force shall be the package's."""

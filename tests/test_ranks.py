@@ -65,6 +65,7 @@ def in_order(grid):
     return np.lexsort(np.round(grid.points, 9).T)
 
 
+@pytest.mark.long
 @built
 @pytest.mark.parametrize("name, ranks", RUNS)
 def test_same_answer(name, ranks, tmp_path):
@@ -99,6 +100,7 @@ def test_same_answer(name, ranks, tmp_path):
     assert np.array_equal(surfaces[0].cells, surfaces[1].cells)
 
 
+@pytest.mark.long
 @built
 def test_halved_edges(tmp_path):
     """Eight tetrahedra for one: volume and labels are kept, and the force is that of a gmsh mesh of half the size."""
@@ -151,6 +153,7 @@ def test_edges_that_are_not_halved(scene, flags, words, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 @built
 def test_pieces_that_do_not_fit(tmp_path):
     """An index whose pieces are elsewhere, missing or cut off is refused."""

@@ -244,7 +244,14 @@ def make(folder, *words, timeout=TIMEOUT):
     return done.returncode, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("line", [line for line in commands() if line.startswith("make run")])
+@pytest.mark.parametrize(
+    "line",
+    [
+        line if "NP=" not in line else pytest.param(line, marks=pytest.mark.long)
+        for line in commands()
+        if line.startswith("make run")
+    ],
+)
 def test_make_run_commands(line, package):
     """The runs by make on the pages shall end with results in the scene's folder; on a coarse mesh."""
     words = shlex.split(line.replace("-h 0.1", "-h 0.5"))[1:]

@@ -58,6 +58,7 @@ def test_section(balls):
     assert lengths.sum() == pytest.approx(2 * (np.pi / 2 + 2) * 10, rel=0.01)
 
 
+@pytest.mark.long
 def test_stress_below_the_contact(balls):
     """Its greatest value in the section shall be Hertz's 0.62 p0, half a radius below the surface."""
     pieces, stress, _ = cut(read_grid(balls.folder / "solution.vtu"), 1e-4)
@@ -117,6 +118,7 @@ def test_spoilt_grids(balls, tmp_path, capsys, spoil, words):
 # ---------------------------------------------------------------- closed forms
 
 
+@pytest.mark.long
 def test_patch():
     """Nodal overlaps shall be 15 % off in the plane and 33 % in space, averaged ones exact to 1e-9."""
     runs = [
@@ -150,6 +152,7 @@ def test_punch():
     assert slope == pytest.approx(-0.5, abs=0.01)
 
 
+@pytest.mark.long
 def test_waves():
     """Inside the contacts the difference from Westergaard's shall be below 1 % of p*, before and after they merge."""
     runs = [run("wavy", *WAVY, "-force", force) for force in (31.41592654, 94.24777961)]

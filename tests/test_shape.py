@@ -84,6 +84,7 @@ Physical Curve("rim")={3:4};Physical Surface("disc")={1};
 HEAVY = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
 
 
+@pytest.mark.long
 def test_corners(tmp_path):
     """A curve's sides, however few, are no corners; those of a body are, and of a fillet's ends none."""
     case = RINGS + "contact bore pin\n"

@@ -53,6 +53,7 @@ def rings(edges, ratio=1.31, gap=0.05, phase=0.1, mesh=None, tag="", at=0.0):
     return ring(mesh, 7, 10, round(ratio * edges), 3, f"inner{tag}", (f"hole{tag}", f"pin{tag}"), phase, at)
 
 
+@pytest.mark.long
 def test_gap_of_circles(tmp_path):
     """From meshed circles the gap shall be that of the circles, the error falling like h^6; from facets it does not.
 

@@ -279,6 +279,7 @@ def test_distance_about_an_axis():
     assert square.force == pytest.approx(circle.force, rel=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [2, pytest.param(1, marks=pytest.mark.long)])
 def test_turned_cylinders(tmp_path, order):
     """Crossed cylinders with symmetries and a force, turned: the same counts, but for one product, results to 1e-9."""

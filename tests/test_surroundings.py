@@ -392,6 +392,7 @@ def slow_gmsh(tmp_path):
     return environment(PATH=f"{folder}:{os.environ['PATH']}"), folder / "began"
 
 
+@pytest.mark.long
 def test_gmsh_ends_with_its_run(tmp_path, slow_gmsh):
     """gmsh shall end with the run that needs the mesh, and nothing of either be left, or be gone with the next run."""
     env, began = slow_gmsh
@@ -485,6 +486,7 @@ def interrupted_series(*words, cwd=ROOT, rows=4):
     time.sleep(0.3)  # a table that was just being moved into place still is
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["xnewton", pytest.param("paper", marks=pytest.mark.long)])
 def test_series_counts_go_on(tmp_path, method):
     """An interrupted series shall end with the forces and counts of one that was not."""

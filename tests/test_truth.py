@@ -315,6 +315,7 @@ def test_kink_without_bound(go, sides, space):
         assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
 
 
+@pytest.mark.long
 def test_kink_on_a_mirror(go):
     """Half of a kink, a line at 102 degrees to a mirror, has no bound; a coarse hole at 90 to it has one."""
     case = "body plate E 1000 nu 0.3\nobstacle pulled plane 10 0 -1 0\nsymmetry below\nsymmetry side\n"
@@ -336,6 +337,7 @@ def test_kink_on_a_mirror(go):
 ON_WIDER = data("truth/on-wider.geo")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "contact, nose",
     short_of([("foot face", "sharp"), ("face foot", "round")], [("face foot", "sharp"), ("foot face", "round")]),
@@ -362,7 +364,7 @@ PINNED = "body pin E 200e3 nu 0.3\nbody plate E 200e3 nu 0.3\ncontact hole skin\
 
 @pytest.mark.parametrize(
     "named, weight, code, warned",
-    short_of([("1, 4", 1000, 0, False), ("3, 4", 1000, 0, True), ("3, 4", 5000, 20, True)], [("1:4", 1000, 0, False)]),
+    short_of([("3, 4", 1000, 0, True)], [("1, 4", 1000, 0, False), ("3, 4", 5000, 20, True), ("1:4", 1000, 0, False)]),
 )
 def test_half_a_pin(go, named, weight, code, warned):
     """The half that is pressed is enough; a pin that leaves through what is unnamed is said first, or ends the run."""
@@ -502,6 +504,7 @@ def test_coincident_nodes(go, sides):
     assert go(sketch.text(), RINGS).summary["converged"]
 
 
+@pytest.mark.long
 def test_ball_in_space(go):
     """The same in space: the ball's rotations are held by few points."""
     part = drawn("ball in space 2")
@@ -516,6 +519,7 @@ def blocks(size):
     return sketch.named(base=[low[0]], floor=[low[2]], sole=[up[0]], head=[up[2]])
 
 
+@pytest.mark.long
 def test_nearly_incompressible(go):
     case = "body low E 1000 nu {0}\nbody up E 1000 nu {0}\ncontact sole floor\nclamp base\nmove head 0 -0.01\n"
     far, near = (go(blocks(0.5), case.format(nu), "-order", 4).numbers["contacts.0.force"] for nu in (0.49, 0.4999))
@@ -620,6 +624,7 @@ def test_fillet_of_a_right_angle(go, f):
     assert told.numbers["loads.0.way"][0] > 0.0205
 
 
+@pytest.mark.long
 def test_rounds_to_and_fro(go):
     """A disc on two others between two walls: a round overshoots more than the one before."""
     sketch = Sketch(Draw())

@@ -101,6 +101,7 @@ def test_loads_and_supports(solve):
 SLOW = [pytest.param(flags, marks=pytest.mark.long) for flags in ((), ("-distance", "exact"))]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("flags", [("-order", 1), *SLOW])
 def test_skew_axis(solve, flags):
     """A box in space turned about a skew axis against a sphere: force, error and reactions of the box drawn turned."""
@@ -161,6 +162,7 @@ def test_rod_in_a_bowl(solve):
     assert any("way of weight rod, counted from the first touch, is" in text for text in summary["warnings"])
 
 
+@pytest.mark.long
 def test_pushed_group(solve):
     """A body that turns and has a force on a group: it follows along the force as it is, in one step or three."""
     case = "body block E 100 nu 0.3\nobstacle bottom circle 1.785 0.209 R 1\nforce right -2 0\n{} left {}\n"
@@ -212,6 +214,7 @@ def series(folder):
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
+@pytest.mark.long
 def test_hook_in_and_out(solve, tmp_path):
     """A hook that slides over a bump, on to points that nothing faced at first, shall press, and be free at the end."""
     case = "body hook E 2800 nu 0.39\nbody catch E 2800 nu 0.39\ncontact nose bump\nclamp root\nmove base -4.8 0\n"
@@ -236,6 +239,7 @@ def slab(matrix=None):
     return mesh.text() if matrix is None else mesh.text(matrix)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turns", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_dragged_in_space(solve, tmp_path, turns):
     """A cylinder dragged over elements of a block between mirrors: hardly a force, steady energy, turned the same."""

@@ -13,6 +13,7 @@ def run_of(page):
     return pytest.param(page, id=page.stem, marks=[] if page.stem == QUICK else pytest.mark.long)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", [run_of(page) for page in screens.PAGES])
 def test_commands(page, tmp_path):
     """Commands of a page shall run as they stand, one after the other, and print its screens: `make numbers`."""

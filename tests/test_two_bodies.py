@@ -49,6 +49,7 @@ def hertz(force, r1, r2, e1, e2, nu=0.3):
     return a, 2 * force / (np.pi * a)
 
 
+@pytest.mark.long
 def test_exchange_of_slave_and_master():
     """Exchanging slave and master shall change the force by less than the discretisation error does."""
     flags = ["-method", "xnewton", "-tol", 1e-9, "-force", 0, "-u0", 0.4, "-h", 0.2]
@@ -109,6 +110,7 @@ def test_meshed_disc_counts():
     assert run("meshed-disc", "-method", "paper", "-h", 0.5).summary["newtonPerAdaptation"] == [6, 4, 2]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
 def test_many_contacts(kappa):
     """Wavy and rough surfaces: many separate contacts, to plain Newton's answer."""

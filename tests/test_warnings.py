@@ -133,6 +133,7 @@ def hertz_greatest(force, radius=10, modulus=100 / 0.91):
     return (6 * force * modulus**2 / (np.pi**3 * radius**2)) ** (1 / 3)
 
 
+@pytest.mark.long
 def test_few_points_in_space():
     """A contact of a point or a few shall be said: its greatest pressure is far from Hertz's."""
     done = run("sphere-on-plane", "-h", 0.5)
@@ -258,6 +259,7 @@ PIN_IN_HOLE = data("warnings/pin-in-hole.geo")
 TRUE_CIRCLES = 227.1  # greatest pressure, from the true circles' gap, another code
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "pin, said", [("0.15", False), ("0.37", True), pytest.param("0.6", True, marks=pytest.mark.long)]
 )

@@ -158,6 +158,7 @@ def test_inp_refused(tmp_path, old, new, said):
 LONG = [pytest.param(kind, marks=pytest.mark.long) for kind in ("step", "stp", "brep", "geo")]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["iges", *LONG])
 def test_geometries(tmp_path, kind):
     """What CAD writes is meshed as it is, its groups picked in the case file: the same of each kind."""
@@ -234,6 +235,7 @@ def cad(tmp_path_factory):
     return gmsh(tmp_path_factory.mktemp("cad"), "a.step", BOXES, "-0")
 
 
+@pytest.mark.long
 def test_files_that_are_none(tmp_path, cad):
     """What is no geometry, has no body or no groups, a size for a mesh: one line each."""
     (tmp_path / "a.step").write_text("no geometry")
@@ -284,6 +286,7 @@ def test_words(tmp_path, word, cad):
 # ---------------------------------------------------------------- solved
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("drawn", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_shown_without_a_case(tmp_path, cad, drawn):
     """-check 1 shows a geometry without a case file: each face with its number; two commands lead to the picture."""
