@@ -5,11 +5,6 @@
 #        they have been: groups, faces and bodies of the present outline by the numbers that the geometry had before. A face is a piece
 #        of the one that it lies on; a face between two pieces of one body, or between joined bodies, is of none.
 #        checkCad(), checkTies(), checkJoins(), findSections(): refusals, and the faces of each cut;  named_(): the file's own names, once more.
-function wholes(numbers, text,   n, w, k) {
-  n = split(numbers, w, " ")
-  for (k = 1; k <= n; k++) text = text (text == "" ? "" : ", ") "own" w[k] "_()"
-  return text
-}
 # a mesh has no shapes to be cut or joined
 function checkCad(   k, f) {
   if (!ENVIRON["MESHED"]) return
@@ -24,16 +19,27 @@ function checkTies(   k, f) {
     if (f[5] == "tie" && !lies[f[3], f[4]]) no(f[2], "join " f[3] " " f[4] " tie: they touch nowhere, there is a gap between them; allowed: bodies that touch, a contact, or tie SLAVE MASTER with groups of your own")
   }
 }
-function top(b) { while (b in above) b = above[b]; return b }
-function unite(a, b) { a = top(a); b = top(b); if (a != b) above[b] = a }
 function share(a, b,   k, p) {
   for (k = 1; k <= shared; k++) { split(sharedBy[k], p, " "); if (p[1] == a && p[2] == b || p[1] == b && p[2] == a) return 1 }
   return 0
 }
-function anyShare(a, b,   n, m, w, v, i, j) {
-  n = split(a, w, " "); m = split(b, v, " ")
-  for (i = 1; i <= n; i++) for (j = 1; j <= m; j++) if (share(w[i], v[j])) return 1
-  return 0
+function top(b) { while (b in above) b = above[b]; return b }
+function unite(a, b) { a = top(a); b = top(b); if (a != b) above[b] = a }
+# bodies that hang together through others and touch without being joined: gmsh meshes what hangs together at once, and stops there
+function checkHanging(   n, w, i, j, k, l, p, F, G, nf, ng, a, b) {
+  for (k = 1; k <= pairs_; k++) { unite(first_[k], second_[k]); direct[first_[k], second_[k]] = direct[second_[k], first_[k]] = 1 }
+  for (k = 1; k <= shared; k++) { split(sharedBy[k], p, " "); unite(p[1], p[2]); direct[p[1], p[2]] = direct[p[2], p[1]] = 1 }
+  n = split(entities[dim], w, " ")
+  for (i = 1; i < n && pairs_; i++) for (j = i + 1; j <= n; j++) {
+    if (top(w[i]) != top(w[j]) || ((w[i], w[j]) in direct)) continue
+    nf = split(around[w[i]], F, " "); ng = split(around[w[j]], G, " ")
+    for (k = 1; k <= nf; k++) for (l = 1; l <= ng; l++)
+      if (F[k] != G[l] && nearBoxes(F[k], G[l]) && oneShape(F[k], G[l]) && (partOn(F[k], G[l]) || partOn(G[l], F[k]))) {
+        a = calledBody(w[i]); b = calledBody(w[j])
+        split(joinLine[1], p, "\t")
+        no(p[2], "join: " (a == "" ? w[i] : a) " and " (b == "" ? w[j] : b) " touch, and joins with other bodies hang them together; allowed: join them as part too, or tie in place of part")
+      }
+  }
 }
 # the lines of gmsh for one cut of body b by the plane at p with normal n
 function cutBody(b, p, n,   out, tall, flat, k, c, q, size, dir, word) {
@@ -57,18 +63,23 @@ function cutBody(b, p, n,   out, tall, flat, k, c, q, size, dir, word) {
   print "If (#section_())\n  BooleanFragments{ " word "{own" b "_()}; Delete; }{ " (space ? "Surface" : "Curve") "{section_()}; Delete; }\nEndIf" >> out
   print "own" b "_() = " word "{:};\nown" b "_() -= rest_();\nFor k_ In {0 : #own" b "_() - 1}\n  Printf(\"piece %g of %g\", own" b "_(k_), " b ");\nEndFor" >> out
 }
-function operate(   k, n, m, f, w, v, i, j, p, d, name, key, some, count, members_) {
+# pairs of bodies share faces, two by two: other bodies, of a contact say, keep their own
+function sharePair(a, b,   out, word) {
+  out = ENVIRON["APART"]
+  word = space ? "Volume" : "Surface"
+  print "rest_() = " word "{:};\nBooleanFragments{ " word "{own" a "_()}; Delete; }{ " word "{own" b "_()}; Delete; }" >> out
+  print "new_() = " word "{:};\nnew_() -= rest_();\nIf (#new_())\n  Printf(\"piece 0 of " a " and " b "\");\nEndIf" >> out
+}
+function operate(   k, n, m, f, w, v, i, j, p, d, some) {
+  some = cuts && !ENVIRON["MESHED"]
   for (k = 1; k <= joins; k++) {
     split(joinLine[k], f, "\t")
-    if (f[5] != "part" || anyShare(members[dim, f[3]], members[dim, f[4]])) continue
-    some = 1
-    n = split(members[dim, f[3]] members[dim, f[4]], w, " ")
-    for (i = 2; i <= n; i++) unite(w[1], w[i])
-    active[top(w[1])] = 1
+    if (f[5] != "part") continue
+    n = split(members[dim, f[3]], w, " "); m = split(members[dim, f[4]], v, " ")
+    for (i = 1; i <= n; i++) for (j = 1; j <= m; j++) if (!share(w[i], v[j])) { pairs_++; first_[pairs_] = w[i]; second_[pairs_] = v[j]; some = 1 }
   }
-  if (cuts && !ENVIRON["MESHED"]) some = 1
   if (!some) return 0
-  for (k = 1; k <= shared; k++) { split(sharedBy[k], p, " "); unite(p[1], p[2]) }
+  checkHanging()
   print "SetFactory(\"OpenCASCADE\");" >> ENVIRON["APART"]
   n = split(entities[dim], w, " ")
   for (i = 1; i <= n; i++) print "own" w[i] "_() = {" w[i] "};" >> ENVIRON["APART"]
@@ -76,15 +87,11 @@ function operate(   k, n, m, f, w, v, i, j, p, d, name, key, some, count, member
     split(cutLine[k], f, "\t")
     for (j = 1; j <= 3; j++) { p[j] = f[4 + j] + 0; v[j] = f[7 + j] + 0 }
     m = split(members[dim, f[4]], d, " ")
-    for (i = 1; i <= m; i++) { cutBody(d[i], p, v); active[top(d[i])] = 1 }
+    for (i = 1; i <= m; i++) { cutBody(d[i], p, v); isCut[d[i]] = 1 }
   }
-  for (key in active) active[top(key)] = 1
-  for (i = 1; i <= n; i++) { members_[top(w[i])] = members_[top(w[i])] " " w[i]; count[top(w[i])]++ }
-  for (key in members_) if ((key in active) && count[key] > 1) {
-    name = (space ? "Volume" : "Surface")
-    print "all_() = " name "{:};\nBooleanFragments{ " name "{" wholes(members_[key]) "}; Delete; }{}\nnew_() = " name "{:};\nnew_() -= all_();" >> ENVIRON["APART"]
-    print "If (#new_())\n  Printf(\"piece 0 of " key "\");\nEndIf" >> ENVIRON["APART"]
-  }
+  for (k = 1; k <= pairs_; k++) { sharePair(first_[k], second_[k]); isCut[first_[k]] = isCut[second_[k]] = 1 }
+  # what has shared faces before does so again
+  for (k = 1; k <= shared; k++) { split(sharedBy[k], p, " "); if ((p[1] in isCut) || (p[2] in isCut)) sharePair(p[1], p[2]) }
   close(ENVIRON["APART"])
   keep()
   return 1
@@ -118,7 +125,7 @@ function recall(   line, f, w, n, k, e, key, d, of, t, i, p, q, both) {
   pieces = elements + before
   while ((getline line < ENVIRON["PARENTS"]) > 0) {
     split(line, w, " ")
-    if (w[2] + 0 == 0) overlap[w[4]] = 1
+    if (w[2] + 0 == 0) { overlaps_ = 1; overlap[w[4], w[6]] = overlap[w[6], w[4]] = 1 }
     else if (w[2] != w[4]) whole[w[2]] = w[4]
   }
   n = split(entities[dim], w, " ")
@@ -160,17 +167,24 @@ function liesOn(number, p, q,   list, n, i, e, most, large, r, best, found, t, s
   }
   return found
 }
-function checkJoins(   k, f, a, b, n, m, w, v, i, j, met, key) {
+function meetings(a, b, among,   n, m, w, v, i, j, count) {
+  n = split(a, w, " "); m = split(b, v, " ")
+  for (i = 1; i <= n; i++) for (j = 1; j <= m; j++) if ((w[i], v[j]) in among) count++
+  return count + 0
+}
+function checkJoins(   k, f, a, b, key, p) {
   for (k = 1; k <= joins; k++) {
     split(joinLine[k], f, "\t")
+    a = was[dim, f[3]]; b = was[dim, f[4]]
     if (f[5] != "part") continue
-    n = split(was[dim, f[3]], w, " "); m = split(was[dim, f[4]], v, " ")
-    met = 0
-    for (i = 1; i <= n; i++) for (j = 1; j <= m; j++) if ((w[i], v[j]) in joinedAt) met = 1
-    for (key in overlap) no(f[2], "join " f[3] " " f[4] " part: bodies of it overlap; allowed: bodies that touch, or join " f[3] " " f[4] " contact")
-    if (!met) no(f[2], "join " f[3] " " f[4] " part: they share no face, there is a gap between them; allowed: bodies that touch, or a contact")
+    if (meetings(a, b, overlap)) no(f[2], "join " f[3] " " f[4] " part: bodies of it overlap; allowed: bodies that touch, or join " f[3] " " f[4] " contact")
+    if (!meetings(a, b, joinedAt)) no(f[2], "join " f[3] " " f[4] " part: they share no face, there is a gap between them; allowed: bodies that touch, or a contact")
   }
-  for (key in overlap) { split(cutLine[1], f, "\t"); no(f[2], "cut " f[3] ": the body overlaps a neighbour; allowed: bodies that touch") }
+  for (key in sharedBefore) if (!(key in joinedAt)) lost = key
+  if (overlaps_ || lost != "") {
+    split(cuts ? cutLine[1] : joinLine[1], f, "\t")
+    no(f[2], f[1] " " f[3] ": bodies that share a face with others cannot be cut or joined so; allowed: in the geometry")
+  }
 }
 # of each cut: the faces between pieces of its body that lie in its plane
 function findSections(   k, f, j, v, n, w, key, found, e, t, size, least, most) {

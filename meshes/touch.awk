@@ -135,7 +135,7 @@ function clean_(v, part) { return v * v < (part * diagonal) ^ 2 ? 0 : v }
 function triple(a, f, part,   k, t, text) {
   for (k = 1; k <= 2 + space; k++) {
     t = part ? clean_(a[f, k], part) : (a[f, k] ^ 2 < 1e-14 ? 0 : a[f, k])
-    text = text (k > 1 ? " " : "") sprintf(part < 1e-5 ? "%.6g" : "%.5g", t)
+    text = text (k > 1 ? " " : "") sprintf(part < 1e-5 ? "%.6g" : "%.4g", t)
   }
   return text
 }

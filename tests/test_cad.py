@@ -493,6 +493,20 @@ def test_joined_at_a_distance(height, how, said, tmp_path, monkeypatch):
     assert code == 3 and said in why, why
 
 
+@pytest.mark.parametrize(
+    "third, said", [("", "bolt and two touch, and joins with other"), ("join bolt two part\n", None)]
+)
+def test_three_that_touch(third, said, tmp_path):
+    """Two joins hang the third pair together: gmsh cannot mesh it, unless it is one part too."""
+    three = OCC + "Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {1, 0, 0, 1, 1}; Rectangle(3) = {0, 1, 0, 2, 1};\n"
+    mesh = gmsh(tmp_path, "part.step", three, "-0")
+    case = "group bolt surfaces 1\ngroup two surfaces 2\ngroup top surfaces 3\ngroup foot plane 0 0 0 1\n"
+    case += "".join(f"body {name} E 1 nu 0.3\n" for name in ("bolt", "two", "top")) + "clamp foot\n"
+    case += "group lid plane 0 2 0 1\nobstacle lid plane 0 3 0 -1\njoin bolt top part\njoin two top part\n" + third
+    code, why, _, volumes = readable(tmp_path, mesh, case, 0)
+    assert (code == 3 and said in why) if said else (code == 0 and sum(volumes) == pytest.approx(4)), why
+
+
 def test_no_shapes(tmp_path):
     """A mesh cannot be joined, a geometry of gmsh's own kernel neither joined nor cut."""
     case = re.sub("size.*\n", "", STACKED) + "join low high part\n"
