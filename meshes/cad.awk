@@ -63,12 +63,12 @@ function cutBody(b, p, n,   out, tall, flat, k, c, q, size, dir, word) {
   print "If (#section_())\n  BooleanFragments{ " word "{own" b "_()}; Delete; }{ " (space ? "Surface" : "Curve") "{section_()}; Delete; }\nEndIf" >> out
   print "own" b "_() = " word "{:};\nown" b "_() -= rest_();\nFor k_ In {0 : #own" b "_() - 1}\n  Printf(\"piece %g of %g\", own" b "_(k_), " b ");\nEndFor" >> out
 }
-# pairs of bodies share faces, two by two: other bodies, of a contact say, keep their own
-function sharePair(a, b,   out, word) {
+# bodies that hang together share their faces: all at once, for two by two a body loses what it shared before
+function shareAll(all, name,   out, word) {
   out = ENVIRON["APART"]
   word = space ? "Volume" : "Surface"
-  print "rest_() = " word "{:};\nBooleanFragments{ " word "{own" a "_()}; Delete; }{ " word "{own" b "_()}; Delete; }" >> out
-  print "new_() = " word "{:};\nnew_() -= rest_();\nIf (#new_())\n  Printf(\"piece 0 of " a " and " b "\");\nEndIf" >> out
+  print "rest_() = " word "{:};\nBooleanFragments{ " word "{" all "}; Delete; }{}\nnew_() = " word "{:};\nnew_() -= rest_();" >> out
+  print "If (#new_())\n  Printf(\"piece 0 of " name "\");\nEndIf" >> out
 }
 function operate(   k, n, m, f, w, v, i, j, p, d, some) {
   some = cuts && !ENVIRON["MESHED"]
@@ -89,9 +89,13 @@ function operate(   k, n, m, f, w, v, i, j, p, d, some) {
     m = split(members[dim, f[4]], d, " ")
     for (i = 1; i <= m; i++) { cutBody(d[i], p, v); isCut[d[i]] = 1 }
   }
-  for (k = 1; k <= pairs_; k++) { sharePair(first_[k], second_[k]); isCut[first_[k]] = isCut[second_[k]] = 1 }
-  # what has shared faces before does so again
-  for (k = 1; k <= shared; k++) { split(sharedBy[k], p, " "); if ((p[1] in isCut) || (p[2] in isCut)) sharePair(p[1], p[2]) }
+  for (k = 1; k <= pairs_; k++) isCut[first_[k]] = 1
+  for (i = 1; i <= n; i++) {
+    k = top(w[i])
+    together[k] = together[k] (together[k] == "" ? "" : ", ") "own" w[i] "_()"
+    if (w[i] in isCut) active[k] = 1
+  }
+  for (k in active) if (together[k] ~ /,/) shareAll(together[k], k)
   close(ENVIRON["APART"])
   keep()
   return 1
@@ -125,7 +129,7 @@ function recall(   line, f, w, n, k, e, key, d, of, t, i, p, q, both) {
   pieces = elements + before
   while ((getline line < ENVIRON["PARENTS"]) > 0) {
     split(line, w, " ")
-    if (w[2] + 0 == 0) { overlaps_ = 1; overlap[w[4], w[6]] = overlap[w[6], w[4]] = 1 }
+    if (w[2] + 0 == 0) overlaps_ = 1
     else if (w[2] != w[4]) whole[w[2]] = w[4]
   }
   n = split(entities[dim], w, " ")
@@ -177,7 +181,7 @@ function checkJoins(   k, f, a, b, key, p) {
     split(joinLine[k], f, "\t")
     a = was[dim, f[3]]; b = was[dim, f[4]]
     if (f[5] != "part") continue
-    if (meetings(a, b, overlap)) no(f[2], "join " f[3] " " f[4] " part: bodies of it overlap; allowed: bodies that touch, or join " f[3] " " f[4] " contact")
+    if (overlaps_) no(f[2], "join " f[3] " " f[4] " part: bodies of it overlap; allowed: bodies that touch, or join " f[3] " " f[4] " contact")
     if (!meetings(a, b, joinedAt)) no(f[2], "join " f[3] " " f[4] " part: they share no face, there is a gap between them; allowed: bodies that touch, or a contact")
   }
   for (key in sharedBefore) if (!(key in joinedAt)) lost = key
