@@ -112,7 +112,10 @@ def test_bolt_in_the_plane(file, tmp_path):
     mesh = gmsh(tmp_path, file, FLAT, "-0") if file != "part.geo" else tmp_path / file
     if file == "part.geo":
         mesh.write_text(FLAT)
-    found = part(tmp_path, mesh, FLAT_CASE, "-estimate", 0).summary
+    done = part(tmp_path, mesh, FLAT_CASE, "-estimate", 0)
+    assert re.search("^  body +sleeve: .*; held by symmetry foot; free: along x", done.stdout, re.M)  # of two bodies
+    assert re.search("^  body +head.shank: .*; held by symmetry foot, symmetry axis$", done.stdout, re.M)
+    found = done.summary
     assert found["preloads"][0]["force"] == pytest.approx(20 + 9 * 100 / 175, rel=1e-5)
     assert found["contacts"][0]["normalForce"] == pytest.approx(20 - 9 * 75 / 175, rel=1e-5)
 
