@@ -352,6 +352,15 @@ def test_curves(tmp_path):
             assert length == pytest.approx(2 * np.pi * radius, rel=1e-3)
 
 
+@pytest.mark.parametrize("radius", [1, 0.999])
+def test_disc_in_a_hole(radius, tmp_path):
+    """A disc touches the hole that it fills, and not one that is larger by a thousandth."""
+    flat = OCC + f"Rectangle(1) = {{-2, -2, 0, 4, 4}}; Disk(2) = {{0, 0, 0, 1}}; Disk(3) = {{0, 0, 0, {radius}}};\n"
+    flat += "BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n"
+    said = table(tmp_path, gmsh(tmp_path, "part.step", flat, "-0"), 0)
+    assert ("touch (curves" in said) == (radius == 1)
+
+
 FITTED = (
     OCC
     + """Cylinder(1) = {0, 0, 0, 0, 0, 4, RADIUS}; Box(2) = {-3, -3, 0, 6, 6, 2}; Cylinder(12) = {0, 0, -1, 0, 0, 9, 1};
