@@ -1,5 +1,5 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk (-f FILE ...) NAMES FILE
-# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk, case-pushed.awk and case-cad.awk, which have what it is made of.
+# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk, case-pushed.awk, case-worn.awk and case-cad.awk, which have what it is made of.
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages;
 #        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing; SETS_OVERLAP, not
 #        empty: an element may be in several groups, of which the case needs one.
@@ -109,7 +109,7 @@ function moveObstacle(g,   v, k) {
   vector("the obstacle\047s move", 0, v, 13)
   putChange(base[obstacleKey[g]] - 1, v)
 }
-function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
+function readObstacle(   g, k, v, f, wear, shape, load, law, next_, over, rest) {
   over = 0
   g = group(dim - 1)
   if (legs > 1 && at < words && word[at + 1] == "move") { moveObstacle(g); return }
@@ -119,6 +119,7 @@ function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
     else if (next_ == "friction" && !(0 in f)) readFriction(f)
+    else if (next_ == "wear" && !(0 in wear)) readWear(wear)
     else if ((next_ == "move" || next_ == "force") && load == "none") {
       load = next_
       counted(load)
@@ -155,6 +156,7 @@ function readObstacle(   g, k, v, f, shape, load, law, next_, over, rest) {
   measured(g, "none")
   put(g, 0, shape, load, law, v)
   if (0 in f) putFriction(f)
+  if (0 in wear) putWear(wear, law, g, (0 in f) ? f[0] : 0)
 }
 # gaps of one slave, in space of all contacts, are measured in one way
 function measured(g, gap,   all) {
@@ -173,7 +175,7 @@ function readPair(side,   a, b) {
   slaves[a] = touches[a] = touches[b] = FNR
   pick("contact\t" FNR "\t" nameOf[a] "\t" nameOf[b])
 }
-function readContact(   side, v, f, law, gap, next_, over) {
+function readContact(   side, v, f, wear, law, gap, next_, over) {
   over = 0
   readPair(side)
   law = gap = "none"
@@ -181,6 +183,7 @@ function readContact(   side, v, f, law, gap, next_, over) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
     else if (next_ == "friction" && !(0 in f)) readFriction(f)
+    else if (next_ == "wear" && !(0 in wear)) readWear(wear)
     else if (next_ == "gap" && gap == "none") { keyword("vertical"); gap = "vertical" }
     else if (next_ == "interference" && !over) over = number("the interference", 0, 1e300)
     else no(next_ ": not allowed here; " usageOf("contact"))
@@ -189,6 +192,7 @@ function readContact(   side, v, f, law, gap, next_, over) {
   v[4] -= over
   put(side[0], side[1], gap, "none", law, v)
   if (0 in f) putFriction(f)
+  if (0 in wear) putWear(wear, law, side[0], (0 in f) ? f[0] : 0)
 }
 # a contact whose surfaces neither part nor slide: a statement "tied" of its own behind it
 function readTie(   side, v) {
@@ -316,6 +320,7 @@ FILENAME == ARGV[1] {
     else if (word[1] == "spring") readSpring()
     else if (word[1] == "spin") readSpin()
     else if (word[1] == "gravity") readGravity()
+    else if (word[1] == "cycles") readCycles()
     else readOther()
   }
   if (at < words) no(word[at + 1] ": more than the statement takes; " usageOf(word[1]))
@@ -324,6 +329,7 @@ END {
   if (failed) exit 1
   finishing = 1
   putBodyLoads()
+  checkWear()
   if (!statements) no("it has no statement; allowed: at least body and contact or obstacle")
   for (k = 1; k <= names; k++)
     if (dimOf[k] == dim && ENVIRON["SETS_OVERLAP"] == "" && !(("body" SUBSEP place[dim, nameIn[k]]) in seen))

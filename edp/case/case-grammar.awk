@@ -57,9 +57,15 @@ BEGIN {
   usage["group"] = "group NAME " manyOf[dim - 1] " N ..., " manyOf[dim] " N ..., box x y" at3 " x y" at3 ", plane x y" at3 " nx ny" \
     (space ? " nz" : "") ", near x y" at3 " or between BODY BODY"
   usage["size"] = "size NAME number or size contact number"
+  wearing = "[wear K [slide S] [from FILE]]"
+  sub(/\[friction/, wearing " [friction", usage["contact"])
+  sub(/\[friction/, wearing " [friction", usage["obstacle"])
+  usage["cycles"] = "cycles NUMBER [steps NUMBER]"
+  example["cycles"] = "cycles 1e5 steps 40"
+  does["cycles"] = "of wear, in so many steps"
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, join, clamp, symmetry, move, rotate, force, moment, spring, pressure, traction, weight, spin, gravity, expand, cut, preload, stresses, line, about, leg"
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, join, clamp, symmetry, move, rotate, force, moment, spring, pressure, traction, weight, spin, gravity, expand, cut, preload, stresses, line, about, cycles, leg"
   split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
     "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
     "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
@@ -78,6 +84,7 @@ BEGIN {
     for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
   }
   instead["friction"] = instead["mu"] = instead["coulomb"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER friction 0.3"
+  instead["wear"] = instead["archard"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER wear 1e-8 slide 20"
   instead["weld"] = "join BODY BODY part makes two bodies of a geometry that touch one part; tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4

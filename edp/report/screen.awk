@@ -138,6 +138,19 @@ function contact(c,   p, q, k, F, e, x, note, unit, balanced) {
   result(dimension == 3 ? "  contact area" : "  contact length", x, e, unit, also(unknown(e), v[p ".contactPoints"] " of " v[p ".points"] " points"))
   friction(c)
 }
+function worn(c,   p, unit, left) {
+  p = ".wear.contacts." c
+  if (!(v[p ".coefficient"] > 0)) return
+  unit = v[".units.0"]
+  left = known(p ".slide") ? "error of the mesh not known" : "errors of mesh and load steps not known"
+  wornRow("worn depth", p ".depth", unit, left)
+  wornRow("worn volume", p ".volume", unit == "" ? "" : unit (dimension == 3 || v[".state"] == "axisymmetric" ? "^3" : "^2"), left)
+}
+function wornRow(name, path, unit, left,   e) {
+  e = error(path)
+  put(sprintf("    %-24s %14s%s %s  %s", name, shown(v[path ".value"], e), e >= 0 ? " ± " off(v[path ".value"], e) " (wear steps)" : "", unit, \
+    e >= 0 ? left : "error not known"))
+}
 function stresses(   k, p, e, unit) {
   unit = v[".units.1"]
   for (k = 0; k < count[".stresses"]; k++) {
@@ -169,7 +182,8 @@ function moments(   k, p, i, e, m, unit, note, some) {
 function own(   k, p, e, word, times) {
   for (k = 0; k < count[".prescribed"]; k++)
     if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
-  for (k = 0; k < count[".contacts"]; k++) contact(k)
+  for (k = 0; k < count[".contacts"]; k++) { contact(k); worn(k) }
+  if (v[".wear.stepsError"] ~ /^not known/) print "  error of the wear steps " v[".wear.stepsError"]
   for (k = 0; k < count[".prescribed"]; k++) {
     p = ".prescribed." k
     word = (p ".moment") in v ? "moment" : "force"

@@ -1,0 +1,19 @@
+// pin-on-disc.geo: the round end of a pin, about its axis x = 0; the disc is y = 0
+DefineConstant[ size = {0.05, Name "size: elements at the contact"} ];
+DefineConstant[ R = {5, Name "R: radius of the round end"} ];
+reach = 1.6 / R;
+Point(1) = {0, R, 0, 0.3 * R};
+Point(2) = {0, 0, 0, size};
+Point(3) = {R * Sin(reach), R - R * Cos(reach), 0, size};
+Point(4) = {R, R, 0, 0.2 * R};
+Circle(1) = {2, 1, 3};
+Circle(2) = {3, 1, 4};
+Line(3) = {4, 1};
+Line(4) = {1, 2};
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Physical Surface("pin") = {1};
+Physical Curve("tip") = {1};
+Physical Curve("side") = {2};
+Physical Curve("shank") = {3};
+Physical Curve("axis") = {4};
