@@ -204,7 +204,8 @@ def test_examples_of_statements(tmp_path, monkeypatch, space):
     (tmp_path / "block.msh").write_text((cube if space else block)(Mesh()).text())
     bodies = ("body", "expand", "weight", "spin")
     for word, words in examples.items():
-        if word in ("group", "size", "preload", "leg", "cut", "join", "cycles") or (space and word in ("thickness", "state")):
+        others = ("group", "size", "preload", "leg", "cut", "join", "cycles")
+        if word in others or (space and word in ("thickness", "state")):
             continue
         if word not in ("line", "about", "gravity", "thickness", "state"):
             words[1] = "block" if word in bodies else "top"

@@ -26,7 +26,10 @@ meshes=${0%/*}/../../meshes
 (umask 077 && mkdir "$folder") 2> /dev/null || { test -d "${folder%/*}" && test -w "${folder%/*}" && exit 5; exit 2; }
 (
     trap '' HUP INT TERM
-    while test -n "$(started "$run")" && test -e "$folder"; do sleep 1; done
+    while test -n "$(started "$run")"; do
+        test -e "$folder" || exit 0      # gone already; what has its name now is another run's
+        sleep 1
+    done
     rm -rf "$folder"
 ) < /dev/null > /dev/null 2>&1 &
 
