@@ -132,6 +132,60 @@ def shrink_fit(
     return strain / (softness(*outer, outside / joint, 1) + softness(*inner, joint / bore, -1))
 
 
+def heated_fit(
+    radii: tuple[float, float, float],
+    inner: tuple[float, float, float, float, float],
+    outer: tuple[float, float, float, float, float],
+    temperatures: tuple[float, float],
+    conductance: tuple[float, float, float],
+) -> tuple[float, float, float]:
+    """Two rings of one radius, warm at the bore and outside: pressure between them, heat, gap; plane stress.
+
+    inner, outer: E, nu, expansion, temperature without stress, conductivity. conductance: h0, m, H of h0 (p/H)^m; with
+    H = 0 it is h0 at each pressure. Heat flows inwards, all round, for a unit of thickness; the gap is negative in
+    contact: minus the overlap of the rings without their pressure. Of several states that with the greatest pressure.
+
+    Fourier between cylinders; the radius of a free ring grows by the mean over its area of the thermal strain; Lame.
+    """
+    bore, joint, outside = radii
+
+    def softness(young: float, poisson: float, ratio: float, sign: float) -> float:
+        return joint * ((ratio**2 + 1) / abs(ratio**2 - 1) + sign * poisson) / young
+
+    def mean(start: float, end: float, ratio: float) -> float:
+        return start + (end - start) * (ratio**2 / (ratio**2 - 1) - 1 / (2 * np.log(ratio)))
+
+    soft = softness(*inner[:2], joint / bore, -1) + softness(*outer[:2], outside / joint, 1)
+
+    def state(pressure: float) -> tuple[float, float]:
+        h0, exponent, hardness = conductance
+        through = h0 * (pressure / hardness) ** exponent if hardness > 0 else h0
+        resists = np.log(joint / bore) / inner[4], np.log(outside / joint) / outer[4]
+        flow = 0.0  # for a radian
+        if pressure > 0 and through > 0:
+            flow = (temperatures[1] - temperatures[0]) / (sum(resists) + 1 / (joint * through))
+        sides = temperatures[0] + flow * resists[0], temperatures[1] - flow * resists[1]
+        means = mean(temperatures[0], sides[0], joint / bore), mean(sides[1], temperatures[1], outside / joint)
+        strains = inner[2] * (means[0] - inner[3]), outer[2] * (means[1] - outer[3])
+        return joint * (strains[0] - strains[1]), 2 * np.pi * flow
+
+    most = 10 * max(abs(state(pressure)[0]) for pressure in (1e-300, 1e300)) / soft
+    grid = most * np.geomspace(1, 1e-9, 4000)
+    above = next((k for k, pressure in enumerate(grid) if state(pressure)[0] / soft > pressure), 0)
+    if above == 0:
+        overlap, heat = state(0)
+        return 0.0, heat, -overlap
+    low, high = grid[above], grid[above - 1]
+    for _ in range(100):
+        middle = (low + high) / 2
+        if state(middle)[0] / soft > middle:
+            low = middle
+        else:
+            high = middle
+    overlap, heat = state(low)
+    return low, heat, -overlap
+
+
 def ring_stress(r: float, pressure: float, joint: float, outside: float) -> tuple[float, float]:
     """Radial and hoop stress at r in a ring with a pressure inside; Lame."""
     scale = pressure * joint**2 / (outside**2 - joint**2)

@@ -202,7 +202,7 @@ def test_examples_of_statements(tmp_path, monkeypatch, space):
     examples = {line.split()[0]: line.split() for line in said.splitlines()}
     assert len(examples) >= 25
     (tmp_path / "block.msh").write_text((cube if space else block)(Mesh()).text())
-    bodies = ("body", "expand", "weight", "spin")
+    bodies = ("body", "expand", "weight", "spin", "conduct")
     for word, words in examples.items():
         others = ("group", "size", "preload", "leg", "cut", "join", "cycles")
         if word in others or (space and word in ("thickness", "state")):
@@ -212,6 +212,8 @@ def test_examples_of_statements(tmp_path, monkeypatch, space):
         if word in ("contact", "tie"):
             words[2] = "bottom"
         first = "" if word == "body" else "body block E 100 nu 0.3 density 1\n"
+        if word in ("conduct", "temperature", "flux", "film"):  # none without the others
+            first += "conduct block 1\n" * (word != "conduct") + "temperature bottom 0\n"
         obstacle = f"obstacle {'left' if space else 'right'} plane 9 0 {'0 -1 0 0' if space else '-1 0'}\n"
         lines = first + " ".join(words) + "\n" if word not in ("state", "thickness") else " ".join(words) + "\n" + first
         code, why, _ = read(tmp_path, lines + obstacle * (word not in ("tie",)), space=space)

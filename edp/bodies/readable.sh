@@ -109,7 +109,7 @@ complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 reader=${0%/*}/../case/case
 readCase() {
     CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=$again BODIES=${bodies-} \
-        awk -f "$reader-words.awk" -f "$reader-grammar.awk" -f "$reader-groups.awk" -f "$reader-pushed.awk" -f "$reader-worn.awk" -f "$reader-cad.awk" -f "$reader-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
+        awk -f "$reader-words.awk" -f "$reader-grammar.awk" -f "$reader-groups.awk" -f "$reader-pushed.awk" -f "$reader-worn.awk" -f "$reader-heat.awk" -f "$reader-cad.awk" -f "$reader-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
     code=$?
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
     test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3

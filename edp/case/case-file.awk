@@ -1,5 +1,5 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk (-f FILE ...) NAMES FILE
-# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk, case-pushed.awk, case-worn.awk and case-cad.awk, which have what it is made of.
+# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk, case-pushed.awk, case-worn.awk, case-heat.awk and case-cad.awk, which have what it is made of.
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages;
 #        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing; SETS_OVERLAP, not
 #        empty: an element may be in several groups, of which the case needs one.
@@ -175,7 +175,7 @@ function readPair(side,   a, b) {
   slaves[a] = touches[a] = touches[b] = FNR
   pick("contact\t" FNR "\t" nameOf[a] "\t" nameOf[b])
 }
-function readContact(   side, v, f, wear, law, gap, next_, over) {
+function readContact(   side, v, f, wear, heat, law, gap, next_, over) {
   over = 0
   readPair(side)
   law = gap = "none"
@@ -183,6 +183,7 @@ function readContact(   side, v, f, wear, law, gap, next_, over) {
     next_ = word[++at]
     if (next_ == "law" && law == "none") law = readLaw(v)
     else if (next_ == "friction" && !(0 in f)) readFriction(f)
+    else if (next_ == "conductance" && !(0 in heat)) readConductance(heat)
     else if (next_ == "wear" && !(0 in wear)) readWear(wear)
     else if (next_ == "gap" && gap == "none") { keyword("vertical"); gap = "vertical" }
     else if (next_ == "interference" && !over) over = number("the interference", 0, 1e300)
@@ -192,6 +193,7 @@ function readContact(   side, v, f, wear, law, gap, next_, over) {
   v[4] -= over
   put(side[0], side[1], gap, "none", law, v)
   if (0 in f) putFriction(f)
+  if (0 in heat) putConductance(heat)
   if (0 in wear) putWear(wear, law, side[0], (0 in f) ? f[0] : 0)
 }
 # a contact whose surfaces neither part nor slide: a statement "tied" of its own behind it
@@ -314,6 +316,7 @@ FILENAME == ARGV[1] {
     else if (word[1] == "cut") readCut()
     else if (word[1] == "join") readJoin()
     else if (word[1] ~ /^(stresses|line|expand|preload)$/) readAsked()
+    else if (word[1] ~ /^(conduct|temperature|flux|film)$/) readHeat()
     else if (word[1] == "force" && pushedFreely()) readPushed()
     else if (word[1] == "moment") readMoment()
     else if (word[1] == "about") readAbout()
@@ -329,6 +332,7 @@ END {
   if (failed) exit 1
   finishing = 1
   putBodyLoads()
+  checkHeat()
   checkWear()
   if (!statements) no("it has no statement; allowed: at least body and contact or obstacle")
   for (k = 1; k <= names; k++)

@@ -18,8 +18,13 @@ BEGIN {
   usage["line"] = "line NAME x y" at3 " x y" at3
   usage["expand"] = "expand NAME alpha dT, two numbers"
   usage["preload"] = "preload NAME force"
+  usage["conduct"] = "conduct BODY k [expand alpha [from T]]"
+  usage["temperature"] = "temperature NAME T"
+  usage["flux"] = "flux NAME q"
+  usage["film"] = "film NAME h T"
   place3 = space ? " 0" : ""
   split("thickness 12|body pin E 210e3 nu 0.3|line middle 0 0" place3 " 0 20" place3 "|expand ring 12e-6 -180|preload cut 8000" \
+    "|conduct ring 0.05 expand 12e-6 from 20|temperature base 20|flux top 0.3|film outside 25e-6 20" \
     "|contact bore pin friction 0.15|obstacle top " (space ? "sphere 0 0 12 R 10 move 0 0 -0.1" : "circle 0 12 R 10 move 0 -0.1") \
     "|clamp base|symmetry left|move grip 0" place3 " -0.05|rotate core 0 0" (space ? " 0 0 0 1" : "") " 0.01|force grip 0" place3 " -2500 free" \
     "|moment core 21600" (space ? " axis 0 0 1" : "") "|about axle 0 0" place3 "|spring base 1e4 1e4" (space ? " 1e4" : "") \
@@ -29,7 +34,7 @@ BEGIN {
   lawWords = "power|exponential|barrier|table|signorini"
   lawNames = "power kappa m d0, exponential p0 beta d0, barrier p0 d0, table FILE d0, signorini"
   rubbing = "[friction MU [compliance c] [limit t]]"
-  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [law NAME ...] " rubbing ", with its parameters: " lawNames
+  usage["contact"] = "contact SLAVE MASTER [gap vertical] [interference number] [conductance h0 [hardness H [exponent m]]] [law NAME ...] " rubbing ", with its parameters: " lawNames
   shapeNames = space ? "plane x y z nx ny nz, sphere x y z R r, cylinder x y z dx dy dz R r" : "plane x y nx ny, circle x y R r"
   shapeWords = space ? "plane|sphere|cylinder" : "plane|circle"
   usage["obstacle"] = "obstacle SLAVE SHAPE [inside] [move or force x y" at3 "] [interference number] [law NAME ...] " rubbing ", SHAPE one of: " shapeNames
@@ -65,25 +70,26 @@ BEGIN {
   does["cycles"] = "of wear, in so many steps"
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, join, clamp, symmetry, move, rotate, force, moment, spring, pressure, traction, weight, spin, gravity, expand, cut, preload, stresses, line, about, cycles, leg"
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, join, clamp, symmetry, move, rotate, force, moment, spring, pressure, traction, weight, spin, gravity, expand, cut, preload, conduct, temperature, flux, film, stresses, line, about, cycles, leg"
   split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
     "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
     "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
     "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
-    "|size of the elements|cut a plane through a body, for a preload|join two bodies that touch: one part, a tie or a contact|preload a shank pulled together|expand thermal strain|units of lengths and pressures" \
+    "|size of the elements|cut a plane through a body, for a preload|join two bodies that touch: one part, a tie or a contact|preload a shank pulled together|expand thermal strain|conduct conductivity of a body|temperature of a group|flux of heat into a body|film heat exchanged with what is around|units of lengths and pressures" \
     "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it" \
     "|leg loads and motions reached in steps|tie two surfaces glued: no gap, no slip|moment on a group, by what it carries or as a rigid one|spring between a group and the ground" \
     "|spin a body\047s centrifugal force|gravity an acceleration of all bodies with a density|about a point that moments are told about", list, "|")
   for (k in list) { line = list[k]; sub(/ .*/, "", line); does[line] = substr(list[k], length(line) + 2) }
   split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|dload:weight|acceleration density:gravity" \
     "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
-    "|material elastic steel:body|temperature thermal heat shrink:expand|rigid wall ground:obstacle|set nset elset surface face select:group" \
+    "|material elastic steel:body|thermal shrink:expand|heat conductivity:conduct|temp:temperature|hflux heatflux:flux|convection:film|rigid wall ground:obstacle|set nset elset surface face select:group" \
     "|mesh h elementsize refine:size|unit:units|torque couple:moment|centrifugal centrif omega rpm rotation_speed:spin|foundation elastic_support bushing:spring|interface pair touch:contact|interference overlap:contact|tied bond bonded glue glued mortar:tie|coincident fragment touching:join|slice section split:cut", list, "|")
   for (k in list) {
     n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
     for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
   }
   instead["friction"] = instead["mu"] = instead["coulomb"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER friction 0.3"
+  instead["conductance"] = instead["hardness"] = "it stands behind a contact: contact SLAVE MASTER conductance 30"
   instead["wear"] = instead["archard"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER wear 1e-8 slide 20"
   instead["weld"] = "join BODY BODY part makes two bodies of a geometry that touch one part; tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"

@@ -179,6 +179,22 @@ function moments(   k, p, i, e, m, unit, note, some) {
     put(sprintf("    %-24s %14s %s  %s", v[p ".name"], vector(p ".moment", 3, 0), unit, also(note, e > 0 ? "± " off(m ^ 0.5, e) " " percent(e, m ^ 0.5) : "")))
   }
 }
+function heat(   k, p, most) {
+  print "  heat, errors not known"
+  for (k = 0; k < count[".heat.bodies"]; k++) {
+    p = ".heat.bodies." k
+    put(sprintf("    %-24s %14s", v[p ".name"] " is at", digits(v[p ".least"], 6) " to " digits(v[p ".greatest"], 6)))
+  }
+  most = v[".heat.in"] > v[".heat.out"] ? v[".heat.in"] : v[".heat.out"]
+  for (k = 0; k < count[".heat.contacts"]; k++) {
+    p = ".heat.contacts." k
+    result("  " v[p ".name"] " conducts", rounded(v[p ".heat"], most), 0, "", known(p ".jump") ? "over a jump of " digits(v[p ".jump"], 6) ", mean conductance " digits(v[p ".conductance"], 6) : "")
+  }
+  for (k = 0; k < count[".heat.groups"]; k++)
+    result("  " v[".heat.groups." k ".name"] " gives", rounded(v[".heat.groups." k ".heat"], most), 0, "", "")
+  if (most > 0) print "    heat in = heat out (to " digits(size(v[".heat.in"] - v[".heat.out"]) / most, 1) ")"
+}
+function rounded(x, most) { return size(x) < 1e-9 * most ? 0 : x + 0 }
 function own(   k, p, e, word, times) {
   for (k = 0; k < count[".prescribed"]; k++)
     if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
@@ -213,6 +229,7 @@ function own(   k, p, e, word, times) {
     result("preload " v[p ".name"], v[p ".force"], 0, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " digits(v[p ".shortened"], 6) ", errors not known")
   }
   stresses()
+  if (known(".heat.rounds")) heat()
 }
 function path(   e) {
   e = known(".pathErrors.pullOff") ? v[".pathErrors.pullOff"] : -1
