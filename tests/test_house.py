@@ -293,7 +293,7 @@ def test_limits():
             if len(set(map(kind, paths))) > 1 and not interfaces() & set(paths)
         ],
         "IFMACRO": [name for name in sources() for _ in re.findall(r"(?<!END)IFMACRO\(", sources()[name])],
-        "lines of .edp and .idp": 40037[line for name in sources() for line in sources()[name].splitlines()],
+        "lines of .edp and .idp": [line for name in sources() for line in sources()[name].splitlines()],
     }
     assert at_present.keys() == LIMITS.keys()
     for name, found in at_present.items():
