@@ -54,7 +54,7 @@ def without(package, tmp_path, *missing):
 
 INTERFACES = {
     "fast-plugin-1": "454ea60306e9757b9c40c6ac9f5a9014",
-    "multigrid-plugin-2": "ad8243de8d659d6dc686ce873352548b",
+    "multigrid-plugin-3": "5680ba1b2f15b7359265135d5849aacc",
 }
 
 

@@ -1,8 +1,10 @@
 // multigrid-cut.hpp: the part of a mesh that a rank holds, cut out of the mesh file by rank 0
 // A part has the tetrahedra that touch a vertex of the rank, so that its rows are complete, and those on the surfaces in contact, which
 // every rank has. These come first, in the same order on all ranks, so that what is computed on the surfaces is the same everywhere, to
-// the last digit. Rank 0 reads the file and sends each rank its part. Included by multigrid-part.hpp alone.
-// firstVertex, vertexNumber, partElements; multigridMesh(mesh, file, scale, surfaces, halved): the part as a mesh.
+// the last digit. The label 0 stands for all of the bodies' boundary, sides without a triangle included. Rank 0 reads the file and sends
+// each rank its part. Included by multigrid-part.hpp alone.
+// firstVertex, vertexNumber, partElements; multigridMesh(mesh, file, scale, surfaces, halved): the part as a mesh; of the last one:
+// multigridVertices(numbers): vertices of the file become those of the part; multigridOuter(sides): which sides are the bodies' boundary.
 #include "multigrid-nodes.hpp"
 #include <cstdio>
 #include <cstring>
@@ -16,11 +18,14 @@ struct Part
     std::vector<int> tetrahedra;           // four vertices and the region of each
     std::vector<int> triangles;            // three vertices and the label of each, on the boundary
     std::vector<int> number;               // of each vertex, among those of all ranks
+    std::vector<int> inFile;               // of each vertex, in the file
+    std::vector<int> outer;                // of each tetrahedron, a bit for each corner: the side opposite is on the boundary; or empty
 };
 
 std::vector<int> firstVertex;              // of each rank, and how many there are; empty: the mesh is whole
 std::vector<int> vertexNumber;             // of each vertex of the part
 int partElements = 0;                      // its tetrahedra
+std::vector<int> vertexInFile, outerSides; // as in Part, where all of the boundary has been asked for
 
 // ---------------------------------------------------------------- the cut, on rank 0
 
@@ -90,7 +95,30 @@ struct Boundary
     std::vector<std::array<int, 2>> owners;    // the tetrahedra with each triangle as a side, -1: none
     std::vector<char> below;                   // 1: a side of the tetrahedron is on a surface of these labels
     std::vector<char> onSurface;               // 1: the vertex belongs to such a tetrahedron
+    std::vector<int> outer;                    // as in Part
 };
+
+void findOuter(const Part & whole, std::vector<int> & outer)
+// The sides that one tetrahedron alone has.
+{
+    size_t tetrahedra = whole.tetrahedra.size() / 5;
+    std::vector<std::array<int, 4>> sides(4 * tetrahedra);
+    for (size_t n = 0; n < sides.size(); n++)
+    {
+        const int * T = &whole.tetrahedra[5 * (n / 4)];
+        for (int c = 0; c < 3; c++) sides[n][c] = T[(n + c + 1) % 4];
+        std::sort(sides[n].begin(), sides[n].begin() + 3);
+        sides[n][3] = n;
+    }
+    std::sort(sides.begin(), sides.end());
+    outer.assign(tetrahedra, 0);
+    auto same = [](const std::array<int, 4> & a, const std::array<int, 4> & b) { return std::equal(a.begin(), a.begin() + 3, b.begin()); };
+    for (size_t i = 0; i < sides.size(); i++)
+    {
+        bool shared = (i > 0 && same(sides[i], sides[i - 1])) || (i + 1 < sides.size() && same(sides[i], sides[i + 1]));
+        if (!shared) outer[sides[i][3] / 4] |= 1 << sides[i][3] % 4;
+    }
+}
 
 void findBoundary(const Part & whole, const std::set<int> & labels, Boundary & found)
 {
@@ -108,11 +136,13 @@ void findBoundary(const Part & whole, const std::set<int> & labels, Boundary & f
     found.owners.assign(triangles, {-1, -1});
     found.below.assign(tetrahedra, 0);
     found.onSurface.assign(whole.number.size(), 0);
+    if (labels.count(0)) findOuter(whole, found.outer);
     for (size_t k = 0; k < tetrahedra; k++)
     {
         const int * T = &whole.tetrahedra[5 * k];
-        if (corner[T[0]] + corner[T[1]] + corner[T[2]] + corner[T[3]] < 3) continue;
-        for (int out = 0; out < 4; out++)
+        if (!found.outer.empty()) found.below[k] = found.outer[k] != 0;
+        bool beside = corner[T[0]] + corner[T[1]] + corner[T[2]] + corner[T[3]] >= 3;
+        for (int out = 0; out < 4 && beside; out++)
         {
             std::array<int, 4> side{T[(out + 1) % 4], T[(out + 2) % 4], T[(out + 3) % 4], -1};
             std::sort(side.begin(), side.begin() + 3);
@@ -160,11 +190,13 @@ void takePart(const Part & whole, int rank, const Boundary & boundary, Part & pa
     for (int v : vertices)
     {
         part.number.push_back(whole.number[v]);
+        part.inFile.push_back(v);
         for (int c = 0; c < 3; c++) part.at.push_back(whole.at[3l * v + c]);
     }
     for (int k : elements)
         for (int c = 0; c < 5; c++)
             part.tetrahedra.push_back(c < 4 ? here[whole.tetrahedra[5l * k + c]] : whole.tetrahedra[5l * k + c]);
+    if (!boundary.outer.empty()) for (int k : elements) part.outer.push_back(boundary.outer[k]);
     for (size_t t = 0; t < boundary.owners.size(); t++)
     {
         const int * v = &whole.triangles[4 * t];
@@ -248,6 +280,7 @@ Mesh3 * meshOf(Part & part)
         {
             std::swap(corner[2], corner[3]);
             M.elements[t].set(M.vertices, corner, corner[4]);
+            if (!part.outer.empty()) part.outer[t] = (part.outer[t] & 3) | (part.outer[t] & 4) << 1 | (part.outer[t] & 8) >> 1;
         }
         M.mes += M.elements[t].mesure();
     }
@@ -301,6 +334,8 @@ long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & 
             passOn(to.tetrahedra, 0, r, MPI_INT);
             passOn(to.triangles, 0, r, MPI_INT);
             passOn(to.number, 0, r, MPI_INT);
+            passOn(to.inFile, 0, r, MPI_INT);
+            passOn(to.outer, 0, r, MPI_INT);
         }
     }
     std::vector<int>().swap(ownerOf);
@@ -310,9 +345,46 @@ long multigridMesh(pmesh3 * const & mesh, string * const & file, const double & 
     partElements = part.tetrahedra.size() / 5;
     for (double & x : part.at) x *= scale;
     Mesh3 * made = meshOf(part);
+    if (part.outer.empty()) part.inFile.clear();
+    vertexInFile.swap(part.inFile);
+    outerSides.swap(part.outer);
     if (*mesh) (*mesh)->destroy();
     *mesh = made;
     malloc_trim(0);
     return vertices;
+}
+long multigridVertices(KN<long> * const & numbers)
+// Vertices by their numbers in the file, from 0: those of the part, -1 where it has none.
+{
+    std::vector<std::pair<int, int>> known;
+    for (size_t v = 0; v < vertexInFile.size(); v++) known.emplace_back(vertexInFile[v], v);
+    std::sort(known.begin(), known.end());
+    for (long i = 0; i < numbers->N(); i++)
+    {
+        auto at = std::lower_bound(known.begin(), known.end(), std::make_pair((int) (*numbers)[i], -1));
+        (*numbers)[i] = at != known.end() && at->first == (*numbers)[i] ? at->second : -1;
+    }
+    return known.size();
+}
+
+long multigridOuter(KN<double> * const & sides)
+// By tetrahedron of the part, a bit for each corner: the side opposite is on the bodies' boundary.
+{
+    for (long t = 0; t < sides->N(); t++) (*sides)[t] = outerSides[t];
+    return outerSides.size();
+}
+
+long multigridElements(pmesh3 * const & mesh, KN<double> * const & own)
+// own: 1 at the elements of this rank, as multigridOwned() has them, before there is a space; 0 at the others.
+{
+    const Mesh3 & M = **mesh;
+    int rank = rankNow();
+    for (int t = 0; t < M.nt; t++)
+    {
+        int least = vertexNumber[M(t, 0)];
+        for (int c = 1; c < 4; c++) least = std::min(least, vertexNumber[M(t, c)]);
+        (*own)[t] = least >= firstVertex[rank] && least < firstVertex[rank + 1];
+    }
+    return 0;
 }
 }

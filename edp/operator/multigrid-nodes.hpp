@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 #include <malloc.h>
 #include <new>
 #include <numeric>

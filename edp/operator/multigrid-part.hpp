@@ -3,7 +3,8 @@
 // multigrid-refine.hpp alone.
 // multigridParts(space, own): the numbers, of a part by its vertices, of a whole mesh by the cut of multigrid-nodes.hpp;
 // multigridOwned(space, nodes, elements): 1 at own ones; multigridNumbers(nodes); collect(vector, field); multigridGhosts(field): values
-// of nodes of others from their owners; rankSums(values), rankMost(value): over all ranks, the same on all.
+// of nodes of others from their owners; rankSums(values), rankMost(value): over all ranks, the same on all; multigridGreatest(field): the
+// dof of all ranks where a field is greatest.
 #include "multigrid-cut.hpp"
 
 namespace
@@ -11,6 +12,7 @@ namespace
 // ---------------------------------------------------------------- numbers of the nodes
 
 typedef std::pair<int, int> Edge;          // the numbers of its ends, the smaller one first
+std::vector<int> nodeInFile;               // of each node its vertex in the file, the greatest number of those in the middle of an edge
 
 int ownerOfVertex(int number)
 {
@@ -78,6 +80,9 @@ void numberPart(const FESpace3 & V)
             which.push_back(n);
             edges.push_back(ends[n]);
         }
+    nodeInFile.assign(nodes, std::numeric_limits<int>::max());
+    for (int k = 0; k < V.Th.nt && !vertexInFile.empty(); k++)
+        for (int j = 0; j < 4; j++) nodeInFile[nodeOf(V, k, j)] = vertexInFile[V.Th(k, j)];
     ownNodes = firstVertex[rank + 1] - firstVertex[rank] + numberEdges(edges, number);
     std::vector<int> first(ranks + 1, 0);
     int own = ownNodes;
@@ -208,5 +213,24 @@ double rankMost(const double & value)
     double most = value;
     if (mpiRuns()) MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     return most;
+}
+long multigridGreatest(KN<double> * const & field)
+// The dof where a field, right at own nodes, is greatest over all ranks, to rounding; of several the first in the mesh's file, which one
+// process would take. -1 on ranks whose mesh does not have its node.
+{
+    int each = field->N() / numberOf.size();
+    double most = -1e300;
+    long first = std::numeric_limits<long>::max(), here = -1;
+    for (long d = 0; d < field->N(); d++) if (ownNode(d / each)) most = std::max(most, (*field)[d]);
+    most = rankMost(most);
+    auto number = [&](long d)
+    {
+        return (long) nodeInFile[d / each] << 32 | ((long) each * numberOf[d / each] + d % each);
+    };
+    for (long d = 0; d < field->N(); d++)
+        if (ownNode(d / each) && (*field)[d] >= most - 1e-9 * std::abs(most)) first = std::min(first, number(d));
+    if (mpiRuns()) MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LONG, MPI_MIN, MPI_COMM_WORLD);
+    for (long d = 0; d < field->N(); d++) if (number(d) == first) here = d;
+    return here;
 }
 }

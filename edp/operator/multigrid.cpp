@@ -244,6 +244,10 @@ void start()
     Global.Add("meetRanks", "(", new OneOperator0<long>(meetRanks));
     Global.Add("firstRankSays", "(", new OneOperator1_<long, long>(firstRankSays));
     Global.Add("multigridMesh", "(", new OneOperator5_<long, pmesh3 *, string *, double, KN<long> *, long>(multigridMesh));
+    Global.Add("multigridVertices", "(", new OneOperator1_<long, KN<long> *>(multigridVertices));
+    Global.Add("multigridOuter", "(", new OneOperator1_<long, KN<double> *>(multigridOuter));
+    Global.Add("multigridElements", "(", new OneOperator2_<long, pmesh3 *, KN<double> *>(multigridElements));
+    Global.Add("multigridGreatest", "(", new OneOperator1_<long, KN<double> *>(multigridGreatest));
     Global.Add("multigridParts", "(", new OneOperator2_<long, pfes3 *, KN<double> *>(multigridParts));
     Global.Add("multigridOwned", "(", new OneOperator3_<long, pfes3 *, KN<double> *, KN<double> *>(multigridOwned));
     Global.Add("multigridNumbers", "(", new OneOperator1_<long, KN<double> *>(multigridNumbers));

@@ -1,0 +1,177 @@
+"""Cases in space on several processes, each with its part of the mesh: answers, estimates and pictures of one process.
+
+Skipped where `make mpi` has not built the plugin.
+"""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from test_isoparametric import BALL, ON_PLANE, gmsh
+from test_multigrid import built, on_ranks
+from test_parts import Mesh, cube, turn_in_space, vector
+from test_ranks import in_order
+
+from postprocess.vtu import bodies_file, read_arrays, read_grid, read_surface
+
+TURN = turn_in_space(1)
+STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
+DOWN, ASIDE, PRESS, AT = (vector(at, TURN, 3) for at in ((0, 0, -1), (2e-3, 1e-3, -1e-2), (0, 0, -1e-2), (0, 0, 2.01)))
+MOVED = STACK + f'move "upper top" {ASIDE}\n'
+FLOATS = STACK + f'symmetry "upper left"\npressure "upper top" 2\ntraction "upper front" {DOWN}\nweight upper {DOWN}\n'
+RUBS = STACK.replace('bottom"', 'bottom" friction 0.3', 1)
+CASES = {
+    # grounded and held along no axis, with a pressure and a traction
+    "floats": (3, FLOATS, ["-order", 1]),
+    # a guided force beside a support, a free one, weights
+    "pulled": (
+        3,
+        STACK
+        + f'clamp "upper left"\nforce "upper right" {DOWN}\nforce "upper top" {ASIDE} free\nweight block {DOWN}\n',
+        ["-order", 2],
+    ),
+    # two contacts, an interference, an obstacle under a force
+    "obstacle": (
+        3,
+        STACK + f'obstacle "upper top" plane {AT} {DOWN} law power kappa 1e3 m 2 d0 -0.05 force {DOWN}\n'
+        'symmetry "upper left"\nsymmetry "upper front"\n',
+        ["-order", 1, "-points", "nodal", "-estimate", 0],
+    ),
+    "tie": (2, MOVED.replace("contact", "tie"), ["-order", 2]),
+    "legs": (3, RUBS + f'leg 1\nmove "upper top" {PRESS}\nleg 2\nmove "upper top" {ASIDE}\n', ["-order", 1]),
+    "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
+    "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),
+}
+QUICK = {"floats"}
+RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
+
+
+def boxes(folder):
+    """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike."""
+    mesh = cube(Mesh(), cells=(4, 4, 3))
+    cube(mesh, cells=(5, 3, 2), at=(0.013, 0.017, 1), prefix="upper ", name="upper")
+    nodes = np.array(mesh.nodes)
+    flat = [np.isclose(nodes[:, c], at) for c, at in ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))]
+    loose = ~np.any(flat, axis=0)
+    nodes[loose] += np.random.default_rng(5).uniform(-0.04, 0.04, (loose.sum(), 3))
+    mesh.nodes = [tuple(node) for node in nodes]
+    (folder / "a.msh").write_text(mesh.text(TURN))
+
+
+def solved(folder, case, ranks, *flags, whole=False):
+    """The summary of a case of the mesh a.msh on so many processes."""
+    (folder / "a.case").write_text(case)
+    given = ["-mesh", folder / "a.msh", "-case", folder / "a.case", "-solver", "multigrid", "-tol", 1e-9, *flags]
+    code, output = on_ranks(ranks, "edp/parts-3d.edp", *given, "-out", folder / str(ranks))
+    assert code == 0, output[-2000:]
+    assert ("mesh: whole" in output) == whole, output
+    (told,) = [line for line in output.splitlines() if line.startswith("  mesh")]
+    return json.loads((folder / str(ranks) / "summary.json").read_text()), told
+
+
+def alike(one, many, force, length):
+    """Forces and motions to what the balance of a run leaves, estimates to the accuracy of their solves."""
+    for name, key, scale in (
+        ("contacts", "force", force),
+        ("bodies", "reaction", force * length),
+        ("supports", "force", force),
+        ("guides", "force", force),
+    ):
+        for a, b in zip(one[name], many[name], strict=True):
+            assert b[key] == pytest.approx(a[key], abs=2e-6 * scale), (name, key)
+    for a, b in zip(one["contacts"], many["contacts"], strict=True):
+        for key in ("normalForce", "pressureMax"):
+            assert b[key] == pytest.approx(a[key], rel=1e-8), key
+    for a, b in zip(one["bodies"], many["bodies"], strict=True):
+        assert b["motion"] == pytest.approx(a["motion"], rel=1e-6, abs=1e-7 * np.abs(a["motion"]).max())
+    for a, b in zip(one["prescribed"], many["prescribed"], strict=True):
+        key = "force" if "force" in a else "moment"
+        assert b[key] == pytest.approx(a[key], abs=2e-6 * force)
+    assert many["energy"] == pytest.approx(one["energy"], rel=1e-7)
+    assert many["outOfBalance"] < 1e-6
+    assert many["warnings"] == one["warnings"] and many["fixedMotions"] == one["fixedMotions"]
+
+
+def same_errors(one, many, path=()):
+    """Each ± of the one is that of the other, and none is known to one of them alone."""
+    if isinstance(one, dict):
+        assert one.keys() == many.keys(), path
+        for key in one:
+            same_errors(one[key], many[key], (*path, key))
+    elif isinstance(one, list):
+        assert len(one) == len(many), path
+        for a, b in zip(one, many, strict=True):
+            same_errors(a, b, path)
+    elif path and path[-1] == "error" and one is not None:
+        assert many == pytest.approx(one, rel=5e-3, abs=1e-9), path
+
+
+def same_pictures(one, many):
+    assert not (many / "solution.vtu").exists()
+    grids = [read_grid(bodies_file(each)) for each in (one, many)]
+    first, second = (in_order(grid) for grid in grids)
+    assert len(first) == len(second)
+    for field, part in (("move", 1e-6), ("stress", 1e-6), ("pressure", 1e-6)):
+        values = [getattr(grid, field)[order] for grid, order in zip(grids, (first, second), strict=True)]
+        assert np.allclose(*values, rtol=part, atol=part * np.abs(values[0]).max()), field
+    for field in ("cells", "surface"):
+        assert len(getattr(grids[0], field)) == len(getattr(grids[1], field)), field
+    assert np.array_equal(*(np.bincount(grid.label) for grid in grids))
+    shares = [
+        read_arrays(bodies_file(each)).get(("CellData", "errorShare[force]"), np.zeros(1)) for each in (one, many)
+    ]
+    assert shares[1].sum() == pytest.approx(shares[0].sum(), rel=5e-3)
+    surfaces = [read_surface(each / "contact.vtu") for each in (one, many)]
+    assert np.array_equal(surfaces[0].points, surfaces[1].points)
+    assert np.array_equal(surfaces[0].cells, surfaces[1].cells)
+    tables = [list(csv.reader((each / "contact.csv").open())) for each in (one, many)]
+    assert tables[0][0] == tables[1][0]
+    tables = [np.array([[float(word or "nan") for word in row] for row in table[1:]]) for table in tables]
+    for column in range(tables[0].shape[1]):
+        a, b = (table[:, column] for table in tables)
+        assert np.allclose(a, b, rtol=1e-6, atol=max(1e-6 * np.nanmax(np.abs(a)), 1e-9), equal_nan=True), column
+
+
+@built
+@pytest.mark.parametrize("name", RUNS)
+def test_same_case(name, tmp_path):
+    """Two boxes of 170 nodes."""
+    boxes(tmp_path)
+    ranks, case, flags = CASES[name]
+    one, mesh = solved(tmp_path, case, 1, *flags)
+    many, again = solved(tmp_path, case, ranks, *flags)
+    assert many["ranks"] == ranks and many["ndof"] == one["ndof"] and mesh == again
+    force = max(np.linalg.norm(each["force"]) for each in one["contacts"])
+    alike(one, many, force, 2)
+    same_errors(one["estimates"], many["estimates"])
+    same_pictures(tmp_path / "1", tmp_path / str(ranks))
+    if "-history" in flags:
+        series = [np.genfromtxt(tmp_path / each / "series.csv", delimiter=",")[1:] for each in ("1", str(ranks))]
+        assert series[0].shape[1] > 8 and np.allclose(*series, rtol=1e-6, atol=1e-6 * force, equal_nan=True)
+
+
+@built
+@pytest.mark.long
+def test_same_curved_case(tmp_path):
+    """A ball of second order: elements that follow its surface, on all processes alike."""
+    ranks = 4
+    lines = gmsh(tmp_path, BALL.format(size=0.5, order=2)).splitlines()
+    first, last = lines.index("$Nodes") + 2, lines.index("$EndNodes")
+    lines[first:last] = lines[first:last][::-1]  # nodes inside come first
+    (tmp_path / "a.msh").write_text("\n".join([*lines, ""]))
+    case = ON_PLANE + "weight ball 0 0 -1\n"
+    one, _ = solved(tmp_path, case, 1, "-order", 2)
+    many, _ = solved(tmp_path, case, ranks, "-order", 2)
+    alike(one, many, abs(one["force"]), 1)
+    same_errors(one["estimates"], many["estimates"])
+    same_pictures(tmp_path / "1", tmp_path / str(ranks))
+
+
+@built
+@pytest.mark.long
+def test_whole_mesh_for_what_parts_do_not_know(tmp_path):
+    """Stresses are means over whole bodies: each process then has the mesh, and says so."""
+    boxes(tmp_path)
+    solved(tmp_path, FLOATS + "stresses\n", 2, "-order", 1, "-estimate", 0, whole=True)
+    assert (tmp_path / "2" / "solution.vtu").exists()
