@@ -1,7 +1,7 @@
 # parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE CURVES=FILE
 #        RISES=FILE SURFACE=FILE
-#        LC_ALL=C awk -f msh.awk -f parts.awk < FILE.msh
-# Needs: msh.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
+#        LC_ALL=C awk -f msh.awk -f parts.awk -f cuts.awk -f same.awk < FILE.msh
+# Needs: msh.awk, cuts.awk, same.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
 # Gives: MESH, first order, lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), nodes numbered from 1
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
@@ -63,9 +63,11 @@ BEGIN {
   }
   getline line < ENVIRON["CASE"]
   while ((getline line < ENVIRON["CASE"]) > 0) {
-    split(line, w, " ")
+    fields = split(line, w, " ")
     if (w[1] == "contact" || w[1] == "obstacle") touched[w[3]] = touched[w[4]] = 1
     if (w[1] == "preload") cut[w[3]] = 1
+    if (w[1] == "cut") readCut(w)
+    else if (fields == 23 && w[1] != "to") usesGroups(w)
   }
   bodyKind = space ? "tetrahedron" : "triangle"
   sideKind = space ? "triangle" : "edge"
@@ -191,6 +193,7 @@ function checkElements(   i, p) {
   }
 }
 function checkSides(   s, k, where, g) {
+  checkCuts()
   for (s = 1; s <= sides; s++) {
     g = sideGroup[s]
     where = space ? faceKey(side[s, 1], side[s, 2], side[s, 3]) : edgeKey(side[s, 1], side[s, 2])
@@ -204,13 +207,18 @@ function checkSides(   s, k, where, g) {
     }
     if (tip[where] == 0)
       fail("element " sideNumber[s] ": " sideKind " of \"" name[g] "\" inside the bodies, which share its nodes; allowed: each body's own nodes where they touch (no Coherence, BooleanFragments there)")
-    if (where in isIn && isIn[where] != g)
-      fail("element " sideNumber[s] ": " sideKind " in two physical groups of the case, \"" name[isIn[where]] "\" and \"" name[g] "\"; allowed: one of them")
-    if (where in isIn) { sideGroup[s] = 0; continue }
+    if (!((g, where) in counted)) { counted[g, where] = 1; sidesIn[g]++ }
+    has[g] = 1
+    if (where in isIn) {
+      if (isIn[where] != g) overlaps(s, isIn[where], g)
+      sideGroup[s] = 0
+      continue
+    }
     isIn[where] = g
     has[g] = 1
     kept[++keptSides] = s
   }
+  mergeGroups()
   for (g = 1; g <= groups; g++) if (!(g in has)) fail("the physical group \"" name[g] "\" has no " (dimOf[g] == dim ? bodyKind : sideKind) " of a body")
 }
 # in the plane: the rest of the boundary, which no group of the table names
@@ -353,7 +361,9 @@ function write(   i, j, k, n, m, w, line, mesh, middles, known) {
   if (ENVIRON["SURFACE"] != "") risesOfSurface()
   if (space) print risen + 0 > ENVIRON["RISES"]
   for (k = 1; k <= risen; k++) print riseAt[k] > ENVIRON["RISES"]
-  print "parts " parts "\nmiddles " known "\ncuts " cutNodes + 0 > ENVIRON["REGIONS"]
+  print "parts " parts "\nmiddles " known > ENVIRON["REGIONS"]
+  writeMerged()
+  print "cuts " cutNodes + 0 > ENVIRON["REGIONS"]
   for (k = 1; k <= cutNodes; k++) { split(cutAt[k], w, " "); print w[1], now[w[2]] - 1 > ENVIRON["REGIONS"] }
 }
 END {

@@ -1,11 +1,12 @@
 # pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
-#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE LEFT=FILE FACES=FILE LC_ALL=C awk -f pick.awk < OUTLINE.msh
+#        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE KEPT=FILE PARENTS=FILE LEFT=FILE FACES=FILE LC_ALL=C
+#        TABLE=FILE TOUCH=FILE awk -f pick.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
 #        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
 #        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
 # Gives: on standard output a .geo file to be read after the geometry: its groups and sizes, exit code 0;  APART, if bodies that
-#        "between" names share faces: a .geo file that gives each its own, exit code 4: the outline is to be made again with
-#        it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
+#        "between" names share faces: a .geo file that gives each its own; if bodies are cut or joined, one that does this, and
+#        KEPT, what was picked before (cad.awk); exit code 4: the outline is to be made again with it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
 #        their faces and bodies, for a picture;  or one line that says what is wrong, exit code 1.
 # What is decided here is which numbers are meant; shapes are gmsh's: its outline is as near to them as quadratic elements are.
 # "near" and "between" compare places of these, "box" and "plane" all nodes of a face.
@@ -42,6 +43,7 @@ section == "$Entities" {
     t = $(at + k)
     if (t < 0) t = -t
     around[$1] = around[$1] " " t
+    sidesOf[t] = sidesOf[t] " " $1
     if (!(t in bodyOf)) bodyOf[t] = $1
     else if (bodyOf[t] != $1) { shared++; sharedBy[shared] = bodyOf[t] " " $1 }
   }
@@ -69,6 +71,7 @@ section == "$Elements" {
   place(e, 1, $3)
   if (space) place(e, 2, $4)
   n = space ? 4 : 3
+  if (type ~ /^[12]$/) straight[e] = 1
   if (type == 9) { place(e, 3, $5); place(e, 4, $6); place(e, 5, $7) }
   else if (type == 8) place(e, 2, $4)
   else if (space) { middle(e, 3, 0, 1); middle(e, 4, 1, 2); middle(e, 5, 2, 0) }
@@ -310,6 +313,7 @@ function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meet
     if (off[i] < play[i]) meets = 1
     if (off[i] < least) least = off[i]
   }
+  lie_ = meets
   for (i = 1; i <= n; i++)
     if (off[i] < (meets ? 0 : least + 1e-3 * diagonal) + play[i] && index(found " ", " " face[list[i]] " ") == 0) found = found " " face[list[i]]
   return found
@@ -410,7 +414,7 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
 function writeFaces(   e, k, n) {
   print (space ? "face,body,x0,y0,z0,x1,y1,z1,x2,y2,z2" : "face,body,x0,y0,z0,x1,y1,z1") > ENVIRON["FACES"]
   for (e = 1; e <= elements; e++) {
-    line = face[e] "," bodyOf[face[e]] + 0
+    line = (face[e] in wasFace ? wasFace[face[e]] : face[e]) "," parent(bodyOf[face[e]]) + 0
     for (k = 0; k < (space ? 3 : 2); k++) line = line sprintf(",%.9g,%.9g,%.9g", X[e, k], Y[e, k], Z[e, k])
     print line > ENVIRON["FACES"]
   }
@@ -419,7 +423,6 @@ END {
   if (failed) exit 1
   diagonal = sqrt((high[0] - low[0]) ^ 2 + (high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2)
   pieces = elements
-  if (ENVIRON["FACES"] != "") writeFaces()
   # bodies that were given faces of their own have new numbers
   while (ENVIRON["APART"] != "" && (getline line < ENVIRON["APART"]) > 0) if (split(line, f, " ") == 3 && f[1] == "//") nowCalled[f[2]] = f[3]
   close(ENVIRON["APART"])
@@ -427,6 +430,8 @@ END {
     split(line, f, "\t")
     if (f[1] == "group") groupLine[++groups] = line
     if (f[1] == "size") sizeLine[++sizes] = line
+    if (f[1] == "cut") cutLine[++cuts] = line
+    if (f[1] == "join") joinLine[++joins] = line
     if (f[1] == "contact" || f[1] == "obstacle") contact[++contacts] = f[3] "\t" f[4]
     if (f[1] == "obstacle") obstacle[contacts] = 1
   }
@@ -438,8 +443,11 @@ END {
     split(sizeLine[1], f, "\t")
     no(f[2], "sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file")
   }
+  checkCad()
+  again = recall()
+  if (ENVIRON["FACES"] != "") writeFaces()
   # bodies first: "between" asks for them
-  for (turn = 0; turn < 2; turn++)
+  for (turn = 0; turn < 2 && !again; turn++)
     for (g = 1; g <= groups; g++) {
       n = split(groupLine[g], f, "\t")
       split(f[5], w, " ")
@@ -451,6 +459,7 @@ END {
         apart(a, b, f[2])
         found = toPart == "" ? between(a, b) : ""
         if (toPart != "") continue
+        lies[f[6], f[7]] = lie_
       } else found = numbersOf(f[2], f[3], how, f[5])
       if (found == "") no(f[2], f[4] ": " how ": no " (f[3] == dim ? "body" : (space ? "face" : "curve")) " lies there; allowed: one or more, of" listed(entities[f[3]]))
       members[f[3], f[4]] = found
@@ -462,6 +471,12 @@ END {
     print "  new_() = Translate{0, 0, 0}{ Duplicata{ " word "{old_(k_)}; } };\n  Recursive Delete{ " word "{old_(k_)}; }\nEndFor" > ENVIRON["APART"]
     exit 4
   }
+  if (!again) checkTies()
+  if (!again && (ENVIRON["TABLE"] != "" || ENVIRON["CAD"])) touching()
+  if (!again && ENVIRON["TABLE"] != "") tell()
+  if (!again && groups) warnOfTouch()
+  if (!again && operate()) exit 4
+  if (again) { checkJoins(); findSections(); named_() }
   kind[1] = "Curve"; kind[2] = "Surface"; kind[3] = "Volume"
   for (g = 1; g <= groups; g++) {
     split(groupLine[g], f, "\t")
@@ -470,7 +485,7 @@ END {
   }
   if (ENVIRON["CAD"]) {
     n = split(entities[dim], w, " ")
-    for (k = 1; k <= n; k++) if (!(w[k] in inGroup)) left = left " " w[k]
+    for (k = 1; k <= n; k++) if (!(w[k] in inGroup) && !index(left " ", " " parent(w[k]) " ")) left = left " " parent(w[k])
     if (left != "") print many[dim] left > ENVIRON["LEFT"]
   }
   if (ENVIRON["CAD"]) print "Mesh.MeshSizeFromCurvature = 12;"

@@ -1,4 +1,7 @@
-"""The faces of a geometry, or in the plane its curves, with the numbers by which a case file picks them."""
+"""The faces of a geometry, or in the plane its curves, with the numbers by which a case file picks them.
+
+The faces of cuts have numbers below 0, and the word cut.
+"""
 
 import textwrap
 from pathlib import Path
@@ -13,7 +16,10 @@ from postprocess.results import read_table
 
 
 def draw(path: Path, azimuth: float, elevation: float) -> Figure:
-    """One column wide; in space from where the eye is, and from the other side and below."""
+    """One column wide; in space from where the eye is, and from the other side and below.
+
+    Faces that neither side shows, inside or between bodies, stand in a panel of their own, without what hides them.
+    """
     with path.open() as file:
         plane = "x2" not in file.readline()
     ends = 2 if plane else 3
@@ -21,16 +27,24 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
     found = read_table(path, ["face", "body", *columns])
     at = np.column_stack([found[name] for name in columns]).reshape(-1, ends, 3)
     face, body = (np.asarray(found[name]).astype(int) for name in ("face", "body"))
-    figure = Figure(figsize=(style.COLUMN, (0.9 if plane else 1.5) * style.COLUMN), layout="constrained")
+    figure = Figure(layout="constrained")
     if plane:
+        figure.set_size_inches(style.COLUMN, 0.9 * style.COLUMN)
         draw_curves(figure.subplots(), at, face)
         return figure
     rim = rims(at, face)
     at, face, body = finer(at, face, body)
-    views = ((azimuth, elevation), (azimuth + 180, -elevation))
-    for axes, angles, words in zip(figure.subplots(2, 1), views, ("", ": the other side"), strict=True):
-        draw_faces(axes, at, face, body, rim, space.sight(*angles))
-        axes.set_title(f"Faces{words}", loc="left", fontsize=6.5)
+    views = [space.sight(azimuth, elevation), space.sight(azimuth + 180, -elevation)]
+    places = [seen_places(at, face, view) for view in views]
+    inner = sorted(set(face.tolist()) - set(places[0]) - set(places[1]))
+    figure.set_size_inches(style.COLUMN, (2.25 if inner else 1.5) * style.COLUMN)
+    axes = figure.subplots(3 if inner else 2, 1)
+    for panel, view, seen, words in zip(axes[:2], views, places, ("", ": the other side"), strict=True):
+        draw_faces(panel, at, body, rim, view, seen)
+        panel.set_title(f"Faces{words}", loc="left", fontsize=6.5)
+    if inner:
+        draw_inner(axes[2], at, face, body, rim, views[0], inner)
+        axes[2].set_title("Faces inside, without what hides them", loc="left", fontsize=6.5)
     figure.supxlabel("\n".join(volumes(face, body)), x=0.02, ha="left", fontsize=6)
     return figure
 
@@ -39,7 +53,7 @@ def volumes(face: np.ndarray, body: np.ndarray) -> list[str]:
     """Of each body its number and those of its faces."""
     lines = []
     for number in np.unique(body[body > 0]):
-        own = " ".join(str(each) for each in np.unique(face[body == number]))
+        own = " ".join(str(each) for each in np.unique(face[body == number]) if each > 0)
         lines += textwrap.wrap(f"volume {number}: faces {own}", 95, subsequent_indent="    ")
     return lines
 
@@ -50,7 +64,7 @@ def draw_curves(axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.add_collection(LineCollection(place, color=style.BLUE, linewidth=0.8))
     for number in np.unique(curve):
         own = place[curve == number]
-        write(axes, own[len(own) // 2].mean(axis=0), number)
+        write(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_xlabel("$x$")
@@ -75,33 +89,77 @@ def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray):
     return at, face, body
 
 
-def draw_faces(axes, at, face, body, rim, view) -> None:
-    """Far triangles first, in their bodies' colours, the faces' edges on them; a number where a face can be seen."""
-    seen = at @ view.T
+def shaded(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
+    """Colours of triangles, (triangles, 3): their bodies', darker where they look away from the light."""
     across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
-    size = np.linalg.norm(across, axis=1)
-    bright = 0.62 + 0.38 * np.abs(across @ drawn.LIGHT) / np.maximum(size, 1e-300)
+    size = np.maximum(np.linalg.norm(across, axis=1), 1e-300)
+    bright = 0.62 + 0.38 * np.abs(across @ drawn.LIGHT) / size
     fills = np.array([[int(fill[k : k + 2], 16) / 255 for k in (1, 3, 5)] for fill in drawn.FILLS])
-    colours = np.clip(fills[body % len(fills)] * bright[:, None], 0, 1)
-    order = np.lexsort((seen[:, :, 2].mean(axis=1), ~hidden(seen.mean(axis=1), seen)))
-    shown = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
-    axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **shown))
-    share = np.linspace(0, 1, 17)[:, None, None, None]
-    ends = rim[:, 0] * (1 - share[..., 0]) + rim[:, 1] * share[..., 0]
-    edges = np.stack([ends[:-1], ends[1:]], axis=2).reshape(-1, 2, 3)
-    middle = (edges @ view.T).mean(axis=1)
-    visible = ~hidden(middle, seen)
-    axes.add_collection(LineCollection((edges @ view.T)[visible][:, :, :2], color="#404040", linewidth=0.4))
-    towards = np.abs(across[:, 2])
+    return np.clip(fills[body % len(fills)] * bright[:, None], 0, 1)
+
+
+def seen_places(at: np.ndarray, face: np.ndarray, view: np.ndarray) -> dict[int, np.ndarray]:
+    """Of each face that can be seen the place of its number: the middle of what is seen of it."""
+    seen = at @ view.T
+    towards = np.abs(np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])[:, 2])
+    places = {}
     for number in np.unique(face):
         own = np.flatnonzero(face == number)
         own = own[np.argsort(-towards[own])][:200]
         free = own[~hidden(seen[own].mean(axis=1), seen)]
         if free.size and towards[free[0]] > 0:
-            # of what is seen of it, the triangle nearest to its middle
-            centres = seen[free].mean(axis=1)[:, :2]
-            best = np.argmin(np.linalg.norm(centres - np.median(centres, axis=0), axis=1))
-            write(axes, centres[best], number)
+            places[int(number)] = middle_of(seen[free])
+    return places
+
+
+def middle_of(seen: np.ndarray) -> np.ndarray:
+    """The centre of the triangle nearest to the middle of all."""
+    centres = seen.mean(axis=1)[:, :2]
+    return centres[np.argmin(np.linalg.norm(centres - np.median(centres, axis=0), axis=1))]
+
+
+def edges_of(rim: np.ndarray, view: np.ndarray) -> np.ndarray:
+    """The rims in short pieces, as they are seen, (pieces, 2, 3)."""
+    share = np.linspace(0, 1, 17)[:, None, None, None]
+    ends = rim[:, 0] * (1 - share[..., 0]) + rim[:, 1] * share[..., 0]
+    return np.stack([ends[:-1], ends[1:]], axis=2).reshape(-1, 2, 3) @ view.T
+
+
+def draw_faces(axes, at, body, rim, view, places) -> None:
+    """Far triangles first, in their bodies' colours, the faces' edges on them; the numbers at their places."""
+    seen = at @ view.T
+    colours = shaded(seen, body)
+    order = np.lexsort((seen[:, :, 2].mean(axis=1), ~hidden(seen.mean(axis=1), seen)))
+    shown = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
+    axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **shown))
+    edges = edges_of(rim, view)
+    visible = ~hidden(edges.mean(axis=1), seen)
+    axes.add_collection(LineCollection(edges[visible][:, :, :2], color="#404040", linewidth=0.4))
+    for number, place in places.items():
+        write(axes, place, number)
+    frame(axes)
+
+
+def draw_inner(axes, at, face, body, rim, view, inner) -> None:
+    """The faces that nothing else shows, over the edges of all."""
+    seen = at @ view.T
+    axes.add_collection(LineCollection(edges_of(rim, view)[:, :, :2], color="#B0B0B0", linewidth=0.3))
+    own = np.isin(face, inner)
+    depth = np.argsort(seen[own][:, :, 2].mean(axis=1))
+    fill = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
+    axes.add_collection(PolyCollection(seen[own][depth][:, :, :2], rasterized=True, **fill))
+    places: list[tuple[np.ndarray, list[str]]] = []
+    for number in inner:
+        place = middle_of(seen[face == number])
+        near = [words for other, words in places if np.abs(other - place).max() < 0.02 * np.ptp(seen)]
+        word = "cut" if number < 0 else str(number)
+        near[0].append(word) if near else places.append((place, [word]))
+    for place, words in places:
+        write(axes, place, ", ".join(dict.fromkeys(words)))
+    frame(axes)
+
+
+def frame(axes) -> None:
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -134,6 +192,6 @@ def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
     return answer
 
 
-def write(axes, place: np.ndarray, number: int) -> None:
+def write(axes, place: np.ndarray, number: int | str) -> None:
     look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
     axes.annotate(str(number), place, color=style.BLACK, **look)

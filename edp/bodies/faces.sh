@@ -4,6 +4,7 @@
 # Gives: FOLDER/check-faces.csv, said on standard output; with keep that file is told to case/folder.sh, and FILE removed.
 # Exit codes: 0 done, 10 refused in one line, 30 no room, as a run's.
 keep() {
+    test ! -s "$1/table" || cat "$1/table"
     test ! -s "$1/faces" || { cp "$1/faces" "$2/check-faces.csv" && echo "check-faces.csv $(wc -c < "$1/faces")" >> "$2/.ends"; }
     rm -rf "$1"
 }

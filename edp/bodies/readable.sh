@@ -26,7 +26,10 @@ meshes=${0%/*}/../../meshes
 (umask 077 && mkdir "$folder") 2> /dev/null || { test -d "${folder%/*}" && test -w "${folder%/*}" && exit 5; exit 2; }
 (
     trap '' HUP INT TERM
-    while test -n "$(started "$run")" && test -e "$folder"; do sleep 1; done
+    while test -n "$(started "$run")"; do
+        test -e "$folder" || exit 0      # gone already; what has its name now is another run's
+        sleep 1
+    done
     rm -rf "$folder"
 ) < /dev/null > /dev/null 2>&1 &
 
@@ -48,7 +51,7 @@ test "$case_" = none || test -f "$case_" || no "-case $case_: a folder, a pipe o
 test -r "$file" || no "may not be read"
 how=
 order=
-for name in gmsh left; do : > "$folder/$name"; done
+for name in gmsh left touch; do : > "$folder/$name"; done
 after=
 finer="mesh with smaller elements"
 # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
@@ -106,7 +109,7 @@ complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 reader=${0%/*}/../case/case
 readCase() {
     CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=$again BODIES=${bodies-} \
-        awk -f "$reader-words.awk" -f "$reader-grammar.awk" -f "$reader-groups.awk" -f "$reader-pushed.awk" -f "$reader-worn.awk" -f "$reader-heat.awk" -f "$reader-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
+        awk -f "$reader-words.awk" -f "$reader-grammar.awk" -f "$reader-groups.awk" -f "$reader-pushed.awk" -f "$reader-worn.awk" -f "$reader-heat.awk" -f "$reader-cad.awk" -f "$reader-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
     code=$?
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
     test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
@@ -115,7 +118,7 @@ readCase() {
 # what a case file picks of a geometry, in a file that gmsh reads after it
 picked=
 if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gmsh > /dev/null; } \
-    || grep -qE '^[[:blank:]]*(group|size)[[:blank:]]' "$path" 2> /dev/null; }; then
+    || grep -qE "^[[:blank:]]*(group|size|join$(test "$kind" != geo || echo "|cut"))[[:blank:]]" "$path" 2> /dev/null; }; then
     picked=$folder/picked.geo
     : > "$folder/apart.geo"
     way="-2 -order 2"
@@ -126,15 +129,20 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
         rm -f "$folder/outline.msh"
         gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
             -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
+        ! test -s "$folder/apart.geo" || ! grep -q '^Error' "$folder/log" || no "-case $case_: bodies of it cannot be cut, joined or taken apart: $(complaint "$folder/log"); allowed: a STEP or BREP file, or a .geo file with SetFactory(\"OpenCASCADE\")" 3
         grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
+        grep '^piece ' "$folder/log" > "$folder/pieces"
         test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
         test "$space" = 0 || test $cad = 1 || awk '/^\$Entities/ { getline; exit !($4 > 0) }' "$folder/outline.msh" || no "$plane"
         sed -n '/^\$PhysicalNames/,/^\$EndPhysicalNames/{/^[0-9] /p;}' "$folder/outline.msh" > "$folder/names"
         named
     }
+    table=
+    test "$as" != check || table=$folder/table
     pick() {
-        PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo LEFT=$folder/left FACES=$folder/faces \
-            awk -f "$meshes/pick.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
+        PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo KEPT=$folder/kept PARENTS=$folder/pieces \
+            LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch \
+            awk -f "$meshes/pick.awk" -f "$meshes/cad.awk" -f "$meshes/kinds.awk" -f "$meshes/touch.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
     command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
     listBodies() {
@@ -162,18 +170,19 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     readCase "$folder/picks"
     pick "$folder/picks"
     code=$?
-    if test $code = 4; then
+    for turn in 1 2; do
+        test $code = 4 || break
         outline
         pick "$folder/picks"
         code=$?
-    fi
+    done
     test $code != 4 || no "-case $case_: bodies that share a face with two others cannot be taken apart; allowed: apart in the geometry" 3
     test $code != 1 || no "$(tail -n 1 "$picked")" 3
     test $code = 0 || no "-case $case_: its groups cannot be picked: $(head -n 1 "$folder/log")" 3
     { cat "$folder/apart.geo" "$picked"; test "$space" = 1 || cat "$every"; } > "$folder/after.geo"
     picked=$folder/after.geo
     # what picks nothing is taken as it is
-    test $cad = 1 || grep -qE '^(group|size)' "$folder/picks" || picked=
+    test $cad = 1 || grep -qE '^(group|size|cut|join)' "$folder/picks" || picked=
 fi
 
 case $kind in geo | step | stp | brep | iges | igs)
@@ -222,11 +231,11 @@ named
 test -n "$picked" || readCase
 straight=
 test "$space" = 1 || case $kind in geo | step | stp | brep | iges | igs) straight=1 ;; esac
-{ cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; } > "$folder/told"
+{ cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; test -s "$folder/left" || echo; wc -l < "$folder/touch"; cat "$folder/touch"; } > "$folder/told"
 check() {
     CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
         RISES=$folder/rises SURFACE=$surface \
-        STRAIGHT=$straight awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" < "$file" > "$folder/why" 2> /dev/null
+        STRAIGHT=$straight awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" -f "$meshes/cuts.awk" -f "$meshes/same.awk" < "$file" > "$folder/why" 2> /dev/null
     code=$?
 }
 check

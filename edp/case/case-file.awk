@@ -1,5 +1,5 @@
 # case-file.awk: a case file, checked against the mesh's groups: CASE=FILE SPACE=0|1 LC_ALL=C awk (-f FILE ...) NAMES FILE
-# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk, case-pushed.awk, case-worn.awk and case-heat.awk, which have what it is made of.
+# Read by awk after case-words.awk, case-grammar.awk, case-groups.awk, case-pushed.awk, case-worn.awk, case-heat.awk and case-cad.awk, which have what it is made of.
 # Needs: NAMES, the lines of gmsh's $PhysicalNames: dimension, number, "name"; CASE, the file as the user named it, for messages;
 #        BODIES, of a geometry whose bodies have no names: their numbers; PICKS, a file to be written, or nothing; SETS_OVERLAP, not
 #        empty: an element may be in several groups, of which the case needs one.
@@ -321,6 +321,8 @@ FILENAME == ARGV[1] {
     else if (word[1] == "contact") readContact()
     else if (word[1] == "obstacle") readObstacle()
     else if (word[1] == "tie") readTie()
+    else if (word[1] == "cut") readCut()
+    else if (word[1] == "join") readJoin()
     else if (word[1] ~ /^(stresses|line|expand|preload|plastic)$/) readAsked()
     else if (word[1] ~ /^(conduct|temperature|flux|film)$/) readHeat()
     else if (word[1] == "force" && pushedFreely()) readPushed()
@@ -349,6 +351,7 @@ END {
   for (g in loadLine)
     if (g in heldBy && heldBy[g] != "force")
       no("line " loadLine[g] ": " nameOf[g] ": a " loadWord[g] " on what line " heldIn[g] " holds (" heldBy[g] ") does nothing; allowed: on another group")
+  for (g in cutIn) if (!(("preload" SUBSEP g) in seen)) no("line " cutIn[g] ": cut " nameOf[g] ": nothing tightens it; allowed: a line preload " nameOf[g] " force")
   for (g in touches) any_ = 1
   if (!any_) no("no contact; allowed: at least one line contact or obstacle")
   if (axial && thickness != 1) no("line " seen["thickness"] ": thickness with state axisymmetric; allowed: with strain and stress")

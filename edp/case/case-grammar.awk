@@ -30,7 +30,7 @@ BEGIN {
     "|clamp base|symmetry left|move grip 0" place3 " -0.05|rotate core 0 0" (space ? " 0 0 0 1" : "") " 0.01|force grip 0" place3 " -2500 free" \
     "|moment core 21600" (space ? " axis 0 0 1" : "") "|about axle 0 0" place3 "|spring base 1e4 1e4" (space ? " 1e4" : "") \
     "|spin rotor 1500" (space ? " about 0 0 0 axis 0 0 1" : "") "|gravity 0" place3 " -9810|pressure top 12|traction top 0" place3 " -5" \
-    "|leg 8|tie pad disc|weight core 0" place3 " -77e-6|group bore near 12 0" place3 "|size contact 0.05|state axisymmetric", list, "|")
+    "|leg 8|tie pad disc|weight core 0" place3 " -77e-6|cut waist bolt plane 0 0" place3 " 0 1" place3 "|join bolt plate contact|group bore near 12 0" place3 "|size contact 0.05|state axisymmetric", list, "|")
   for (k in list) { line = list[k]; sub(/ .*/, "", line); example[line] = list[k] }
   example["law"] = "law power kappa 1e6 m 3 d0 -0.001"
   lawWords = "power|exponential|barrier|table|signorini"
@@ -52,6 +52,8 @@ BEGIN {
   usage["gravity"] = "gravity x y" at3
   usage["pressure"] = "pressure NAME number"
   usage["traction"] = "traction NAME x y" at3
+  usage["cut"] = "cut NAME BODY plane x y" at3 " nx ny" (space ? " nz" : "")
+  usage["join"] = "join BODY BODY part, tie or contact, a contact with what may stand behind its groups"
   usage["leg"] = "leg STEPS"
   usage["tie"] = "tie SLAVE MASTER"
   usage["weight"] = "weight NAME x y" at3
@@ -70,12 +72,12 @@ BEGIN {
   does["cycles"] = "of wear, in so many steps"
   for (k in usage) statementWords = statementWords "|" k
   statementWords = substr(statementWords, 2)
-  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, clamp, symmetry, move, rotate, force, moment, spring, pressure, traction, weight, spin, gravity, expand, preload, plastic, conduct, temperature, flux, film, stresses, line, about, cycles, leg"
+  statementNames = "units, state, thickness, group, size, body, contact, obstacle, tie, join, clamp, symmetry, move, rotate, force, moment, spring, pressure, traction, weight, spin, gravity, expand, cut, preload, plastic, conduct, temperature, flux, film, stresses, line, about, cycles, leg"
   split("clamp no displacement|symmetry no displacement across a flat group|move a displacement that is given|rotate a small rotation" \
     "|force a resultant on a group|pressure along the normal, on a boundary|traction a force per area, on a boundary" \
     "|weight a force per volume on a body: density times gravity|body Young\047s modulus and Poisson\047s ratio" \
     "|contact two surfaces that may touch|obstacle a rigid shape that may touch|group faces or bodies of a geometry" \
-    "|size of the elements|preload a shank pulled together|expand thermal strain|plastic yield stress and hardening of a body|conduct conductivity of a body|temperature of a group|flux of heat into a body|film heat exchanged with what is around|units of lengths and pressures" \
+    "|size of the elements|cut a plane through a body, for a preload|join two bodies that touch: one part, a tie or a contact|preload a shank pulled together|expand thermal strain|plastic yield stress and hardening of a body|conduct conductivity of a body|temperature of a group|flux of heat into a body|film heat exchanged with what is around|units of lengths and pressures" \
     "|state strain, stress or about an axis|thickness in the plane|stresses tensor, principal and von Mises|line results along it" \
     "|leg loads and motions reached in steps|tie two surfaces glued: no gap, no slip|moment on a group, by what it carries or as a rigid one|spring between a group and the ground" \
     "|spin a body\047s centrifugal force|gravity an acceleration of all bodies with a density|about a point that moments are told about", list, "|")
@@ -83,7 +85,7 @@ BEGIN {
   split("fix fixed fixity encastre support anchor hold ground bc boundary:clamp|roller slider:symmetry|dload:weight|acceleration density:gravity" \
     "|bolt pretension tension:preload force|displacement disp displace:move|turn rotation:rotate|load cload:force" \
     "|material elastic steel:body|plasticity elastoplastic mises hardening:plastic|thermal shrink:expand|heat conductivity:conduct|temp:temperature|hflux heatflux:flux|convection:film|rigid wall ground:obstacle|set nset elset surface face select:group" \
-    "|mesh h elementsize refine:size|unit:units|torque couple:moment|centrifugal centrif omega rpm rotation_speed:spin|foundation elastic_support bushing:spring|interface pair touch:contact|interference overlap:contact|tied bond bonded glue glued mortar:tie", list, "|")
+    "|mesh h elementsize refine:size|unit:units|torque couple:moment|centrifugal centrif omega rpm rotation_speed:spin|foundation elastic_support bushing:spring|interface pair touch:contact|interference overlap:contact|tied bond bonded glue glued mortar:tie|coincident fragment touching:join|slice section split:cut", list, "|")
   for (k in list) {
     n = split(substr(list[k], 1, index(list[k], ":") - 1), own, " ")
     for (j = 1; j <= n; j++) leads[own[j]] = substr(list[k], index(list[k], ":") + 1)
@@ -91,7 +93,7 @@ BEGIN {
   instead["friction"] = instead["mu"] = instead["coulomb"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER friction 0.3"
   instead["conductance"] = instead["hardness"] = "it stands behind a contact: contact SLAVE MASTER conductance 30"
   instead["wear"] = instead["archard"] = "it stands behind a contact or an obstacle: contact SLAVE MASTER wear 1e-8 slide 20"
-  instead["weld"] = instead["join"] = "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
+  instead["weld"] = "join BODY BODY part makes two bodies of a geometry that touch one part; tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)"
   takes["power"] = "kappa m d0"; takes["exponential"] = "p0 beta d0"; takes["barrier"] = "p0 d0"; takes["signorini"] = ""; takes["table"] = "d0"
   parameter["kappa"] = 0; parameter["m"] = 1; parameter["p0"] = 2; parameter["beta"] = 3; parameter["d0"] = 4
   low["kappa"] = low["p0"] = low["beta"] = 0; low["m"] = 1; low["d0"] = -1e300

@@ -54,6 +54,8 @@ function readGroup(   name, how, k, text) {
     if (how == "plane") { vector("the normal", 0, taken_, 3); nonzero("the normal", taken_, 3) }
     for (k = 0; k < (how == "near" ? 3 : 6); k++) text = text " " sprintf("%.17g", taken_[k])
   }
+  pickedBy[name] = FNR
+  if (name in ofCad) no(name ": a cut or a join has a group of this name; allowed: another name")
   pick("group\t" FNR "\t" dimOfGroup[name] "\t" name "\t" text)
 }
 function pick(line) { if (ENVIRON["PICKS"] != "") print line > ENVIRON["PICKS"] }
@@ -77,12 +79,14 @@ function readAhead(file,   n, kept, own, list, k) {
     splitLine()
     if (word[1] ~ /^(body|weight)$/ && words > 1) isBody[word[2]] = 1
     if (word[1] == "group" && words > 2) how_[word[2]] = word[3]
+    aheadOfCad()
     if (word[1] == "body" && words > 1 && !((dim SUBSEP word[2]) in there)) { own++; only = word[2] }
   }
   close(file)
   $0 = kept
   ahead = 0
   for (n in how_) named(how_[n] == manyOf[dim] || how_[n] ~ /^(box|near)$/ && (n in isBody) ? dim : dim - 1, n)
+  for (n in ofCad) named(dim - 1, n)
   # one body alone needs no group: it is all there is
   for (n in dimOfGroup) if (dimOfGroup[n] == dim) own = 0
   if (ENVIRON["BODIES"] != "" && own == 1) {

@@ -111,10 +111,14 @@ def given(chosen: Run, case: Path) -> list[Markup]:
 # ---------------------------------------------------------------- numbers
 
 
-def estimated(told: object, value: object, unit: str = "") -> str:
+def headed(name: str, unit: str) -> str:
+    """A column's name with its unit, if there is one."""
+    return f"{name}, {unit}" if unit else name
+
+
+def estimated(told: object, value: object) -> str:
     """A number of the summary and what its estimate says of it."""
-    error = told.get("error") if isinstance(told, dict) else None
-    return with_error(value, error, unit)
+    return with_error(value, told.get("error") if isinstance(told, dict) else None)
 
 
 def vector(values: object, size: float = 0) -> str:
@@ -143,65 +147,71 @@ def results(summary: dict, units: Units) -> list[Markup]:
     rows = [
         [
             f"{brief(str(each['name']))}",
-            estimated(known.get("normalForce"), each.get("normalForce"), units.force),
+            estimated(known.get("normalForce"), each.get("normalForce")),
             vector(each.get("force"), most),
-            estimated(known.get("pressureMax"), each.get("pressureMax"), units.stress)
+            estimated(known.get("pressureMax"), each.get("pressureMax"))
             + ("" if known.get("pressureMax") or not told else " (±: unknown)"),
-            estimated(known.get("contactLength"), each.get(size), area),
+            estimated(known.get("contactLength"), each.get(size)),
             f"{short(each.get('contactPoints'))} of {short(each.get('points'))}",
         ]
         for each, known in zip(contacts, estimates, strict=True)
     ]
-    columns = ["contact", "normal force", "resultant", "greatest pressure", length, "points in contact"]
+    columns = ["contact", headed("normal force", units.force), headed("resultant", units.force)]
+    columns += [headed("greatest pressure", units.stress), headed(length, area), "points in contact"]
     first = table("Contacts", columns, rows, range(1, 6))
     small = []
     rubs = [
         [
             brief(str(each["name"])),
-            estimated((each.get("mesh") or {}).get("shearForce"), length_of(each["shearForce"]), units.force),
-            f"{100 * each['stickShare']:.3g} %" if is_number(each.get("stickShare")) else NONE,
+            estimated((each.get("mesh") or {}).get("shearForce"), length_of(each["shearForce"])),
+            f"{100 * each['stickShare']:.3g}" if is_number(each.get("stickShare")) else NONE,
             with_error(each.get("dissipated")),
         ]
         for each in contacts
         if "shearForce" in each
     ]
     if rubs:
-        small.append(table("Friction", ["contact", "shear force", "sticks on", "dissipated"], rubs, range(1, 4)))
+        columns = ["contact", headed("shear force", units.force), "sticks on, %", "dissipated"]
+        small.append(table("Friction", columns, rubs, range(1, 4)))
     ways = {each["name"]: each.get("way") for each in told.get("loads") or []}
     loads = [
         [
             brief(str(each["name"])),
-            with_error(each.get("force"), None, units.force),
-            estimated(ways.get(each["name"]), (ways.get(each["name"]) or {}).get("value"), units.length),
+            with_error(each.get("force")),
+            estimated(ways.get(each["name"]), (ways.get(each["name"]) or {}).get("value")),
         ]
         for each in summary.get("prescribed") or []
     ]
     if loads:
-        small.append(table("Loads", ["load", "force", "displacement along it"], loads, (1, 2)))
+        columns = ["load", headed("force", units.force), headed("displacement along it", units.length)]
+        small.append(table("Loads", columns, loads, (1, 2)))
     tight = [
         [
             brief(str(each["name"])),
-            with_error(each["preload"], None, units.force),
-            with_error(each["force"], None, units.force),
+            with_error(each["preload"]),
+            with_error(each["force"]),
         ]
         for each in summary.get("preloads") or []
     ]
     if tight:
-        small.append(table("Preloads", ["cut", "tightened to", "carries"], tight, (1, 2)))
+        columns = ["cut", headed("tightened to", units.force), headed("carries", units.force)]
+        small.append(table("Preloads", columns, tight, (1, 2)))
     held = [[brief(str(each["name"])), vector(each.get("force"), most)] for each in summary.get("supports") or []]
     if held:
-        small.append(table("Supports", ["support", f"carries{f', {units.force}' if units.force else ''}"], held, [1]))
+        small.append(table("Supports", ["support", headed("carries", units.force)], held, [1]))
     strained = {each["body"]: each for each in summary.get("stresses") or []}
     bodies = [
         [
             brief(str(each["name"])),
             vector(each["motion"][: 3 if summary["scene"] == "parts-3d" else 2]),
-            *of_stress(strained.get(each["name"]), units),
+            *of_stress(strained.get(each["name"])),
         ]
         for each in summary["bodies"]
     ]
-    columns = ["body", f"mean displacement{f', {units.length}' if units.length else ''}"]
-    columns += ["greatest von Mises stress", "at", "yield stress"] if strained else []
+    columns = ["body", headed("mean displacement", units.length)]
+    if strained:
+        columns += [headed("greatest von Mises stress", units.stress), headed("at", units.length)]
+        columns += [headed("yield stress", units.stress)]
     return [
         first,
         element("div", joined(small), class_="columns"),
@@ -209,15 +219,15 @@ def results(summary: dict, units: Units) -> list[Markup]:
     ]
 
 
-def of_stress(each: dict | None, units: Units) -> list[str]:
+def of_stress(each: dict | None) -> list[str]:
     """The cells of a body's greatest stress; none without stresses in the run."""
     if each is None:
         return []
     where = vector(each.get("at")) + ("; no limit at a corner" if each.get("singular") else "")
     return [
-        with_error(each.get("vonMises"), each.get("error"), units.stress),
+        with_error(each.get("vonMises"), each.get("error")),
         where,
-        with_error(each.get("yield"), None, units.stress),
+        with_error(each.get("yield")),
     ]
 
 

@@ -1,0 +1,548 @@
+"""Parts from CAD: bodies cut for a bolt, joined bodies, the table of faces, one surface in several contacts."""
+
+import os
+import re
+import subprocess
+
+import numpy as np
+import pytest
+from freefem import FREEFEM, ROOT, execute, part, short_of
+from test_zoo import gmsh, measure, readable
+
+from postprocess import style
+from postprocess.faces import draw
+
+OCC = 'SetFactory("OpenCASCADE");\n'
+TURN = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)
+PLACES = ["turned", "mirrored"]
+
+
+def matrix(placed):
+    """What a place does to directions."""
+    if placed == "turned":
+        a, angle = TURN, 0.7
+        cross = np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
+        return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    if placed == "mirrored":
+        return np.eye(3) - 2 * np.outer(TURN, TURN)
+    return np.eye(3)
+
+
+def moved(geo, placed):
+    """A geometry in space, turned about the origin or mirrored in a plane through it."""
+    every = "Volume{:};"
+    if placed == "turned":
+        return f"{geo}Rotate{{ {{1, 2, 3}}, {{0, 0, 0}}, 0.7 }}{{ {every} }}\n"
+    if placed == "mirrored":
+        return f"{geo}Symmetry {{1, 2, 3, 0}} {{ {every} }}\n"
+    return geo
+
+
+def numbers(vector):
+    return " ".join(f"{each:.15g}" for each in vector)
+
+
+def placed_plane(at, normal, placed):
+    """ "plane x y z nx ny nz" of a plane of the drawing."""
+    return f"plane {numbers(matrix(placed) @ at)} {numbers(matrix(placed) @ normal)}"
+
+
+# ---------------------------------------------------------------- a bolt out of a STEP file: cut, part, contact
+
+BOLT = OCC + "".join(
+    f"Box({k}) = {{{box}}};\n"
+    for k, box in enumerate(
+        ("-1, 0, 0, 2, 1, 10", "-3, 0, 10, 6, 1, 1", "-3, 0, 0, 1.5, 1, 10", "1.5, 0, 0, 1.5, 1, 10"), 1
+    )
+)
+SHANK, SLEEVE = 1000 * 2 / 10, 500 * 3 / 10  # stiffnesses
+BODIES = "body shank E 1000 nu 0\nbody head E 1e9 nu 0\nbody sleeve E 500 nu 0\n"
+SIZES = "size shank 1.2\nsize head 1.2\nsize sleeve 1.2\n"
+GROUPS = "group shank volumes 1\ngroup head volumes 2\ngroup sleeve volumes 3 4\n"
+JOINS = "join shank head part\njoin sleeve head contact\n"
+
+
+def bolt_case(placed):
+    foot, top = (placed_plane(*plane, placed) for plane in (([0, 0, 0], [0, 0, 1]), ([0, 0, 11], [0, 0, 1])))
+    cut = placed_plane([0.3, 0, 5], [0, 0, 2], placed)
+    loads = f"clamp foot\ncut waist shank {cut}\npreload waist 40\ntraction top {numbers(matrix(placed) @ [0, 0, 3])}\n"
+    return f"{GROUPS}group foot {foot}\ngroup top {top}\n{SIZES}{BODIES}{JOINS}{loads}"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("placed", PLACES)
+def test_bolt(placed, tmp_path):
+    """The joint diagram of a bolt whose STEP file has neither a cut nor a shared face; nu is 0, the head is rigid."""
+    mesh = gmsh(tmp_path, "part.step", moved(BOLT, placed), "-0")
+    done = part(tmp_path, mesh, bolt_case(placed), "-estimate", 0, space=True)
+    preload = done.summary["preloads"][0]
+    assert preload["force"] == pytest.approx(40 + 18 * SHANK / (SHANK + SLEEVE), rel=1e-5)
+    assert preload["shortened"] == pytest.approx(40 / SHANK + 40 / SLEEVE, rel=1e-4)
+    seat = done.contacts[0]
+    assert (seat["slave"], seat["master"]) == ("sleeve-head", "head-sleeve")
+    assert seat["normalForce"] == pytest.approx(40 - 18 * SLEEVE / (SHANK + SLEEVE), rel=1e-5)
+    assert done.summary["warnings"] == []
+
+
+FLAT = OCC + "Rectangle(1) = {0, 0, 0, 1, 10}; Rectangle(2) = {0, 10, 0, 3, 2}; Rectangle(3) = {1.5, 0, 0, 1.5, 10};\n"
+FLAT_CASE = """state stress
+group shank surfaces 1
+group head surfaces 2
+group sleeve surfaces 3
+group foot plane 0 0 0 1
+group axis plane 0 0 1 0
+group top plane 0 12 0 1
+size shank 0.7
+body shank E 1000 nu 0
+body head E 1e9 nu 0
+body sleeve E 500 nu 0
+join shank head part
+join sleeve head contact
+symmetry foot
+symmetry axis
+cut waist shank plane 0.3 5 0 1
+preload waist 20
+traction top 0 3
+"""
+
+
+@pytest.mark.parametrize("file", short_of(["part.step"], ["part.step", "part.brep", "part.geo"]))
+def test_bolt_in_the_plane(file, tmp_path):
+    """The same in the plane, out of each kind of geometry."""
+    mesh = gmsh(tmp_path, file, FLAT, "-0") if file != "part.geo" else tmp_path / file
+    if file == "part.geo":
+        mesh.write_text(FLAT)
+    done = part(tmp_path, mesh, FLAT_CASE, "-estimate", 0)
+    assert re.search("^  body +sleeve: .*; held by symmetry foot; free: along x", done.stdout, re.M)  # of two bodies
+    assert re.search("^  body +head.shank: .*; held by symmetry foot, symmetry axis$", done.stdout, re.M)
+    found = done.summary
+    assert found["preloads"][0]["force"] == pytest.approx(20 + 9 * 100 / 175, rel=1e-5)
+    assert found["contacts"][0]["normalForce"] == pytest.approx(20 - 9 * 75 / 175, rel=1e-5)
+
+
+def marks(folder):
+    """{group: places of its vertices} of the cuts that the reader found."""
+    lines = (folder / "case").read_text().splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("groups "))
+    names = [line[2:] for line in lines[first + 1 : first + 1 + int(lines[first].split()[1])]]
+    rows = (folder / "mesh.msh").read_text().splitlines()
+    nodes = rows.index("$Nodes") + 2
+    at = next(k for k, line in enumerate(lines) if line.startswith("cuts "))
+    found = {}
+    for line in lines[at + 1 :]:
+        group, node = map(int, line.split())
+        found.setdefault(names[group - 1], []).append(1e-6 * np.array(rows[nodes + node].split()[1:], float))
+    return {name: np.array(places) for name, places in found.items()}
+
+
+def copied(folder, mesh, case, space=1, how="solve"):
+    """(exit code, what is wrong, the reader's folder); the caller removes the folder."""
+    out = folder / "copy"
+    if case is not None:
+        (folder / "a.case").write_text(case)
+    given = [str(os.getpid()), mesh, out, "none" if case is None else folder / "a.case", str(space), how, ""]
+    done = subprocess.run(["sh", "edp/bodies/readable.sh", *given], cwd=ROOT, env={**os.environ, "LC_ALL": "C"})
+    return done.returncode, (out / "why").read_text().strip() if (out / "why").exists() else "", out
+
+
+def removed(out):
+    subprocess.run(["rm", "-r", out], check=True)
+
+
+@pytest.mark.parametrize("placed", short_of(["turned"], PLACES))
+def test_two_cuts(placed, tmp_path):
+    """Two through one body, one aslant: each is all of the section, in its plane, and faces keep their numbers."""
+    mesh = gmsh(tmp_path, "part.step", moved(BOLT, placed), "-0")
+    case = GROUPS + "group side faces 3\nsize shank 1.5\n" + BODIES + JOINS + "clamp side\n"
+    for name, at, normal in (("waist", [0, 0, 5], [0, 0, 1]), ("slope", [0, 0, 8], [0.3, 0, 1])):
+        case += f"cut {name} shank {placed_plane(at, normal, placed)}\npreload {name} 1\n"
+    code, why, out = copied(tmp_path, mesh, case)
+    assert code == 0, why
+    found = {name: places @ matrix(placed) for name, places in marks(out).items()}
+    areas, volumes = measure(out, 1)
+    removed(out)
+    assert np.abs(found["waist"][:, 2] - 5).max() < 1e-6
+    assert np.abs(found["slope"] @ [0.3, 0, 1] - 8).max() < 1e-6
+    for places in found.values():
+        assert np.ptp(places[:, :2], axis=0) == pytest.approx([2, 1], abs=1e-6)
+    assert sum(volumes) == pytest.approx(20 + 6 + 30) and areas["side"] == pytest.approx(20)
+
+
+@pytest.mark.long
+def test_names_of_the_file(tmp_path):
+    """A .geo file's own names stay where its bodies are cut, and so do faces that two of its bodies share."""
+    names = 'Physical Volume("shank") = {1}; Physical Volume("sleeve") = {3, 4}; Physical Volume("head") = {2};\n'
+    names += 'foot() = Surface In BoundingBox {-4, -1, -0.1, 4, 2, 0.1}; Physical Surface("foot") = foot();\n'
+    geo = BOLT + "BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }\nMesh.MeshSizeMax = 2;\n" + names
+    (tmp_path / "a.geo").write_text(geo)
+    case = BODIES + "clamp foot\ngroup top plane 0 0 11 0 0 1\nobstacle top plane 0 0 12 0 0 -1\n"
+    case += "cut waist shank plane 0 0 5 0 0 1\npreload waist 1\n"
+    code, why, areas, volumes = readable(tmp_path, tmp_path / "a.geo", case)
+    assert code == 0, why
+    assert areas == pytest.approx({"foot": 5, "top": 6}) and sorted(volumes) == pytest.approx([6, 15, 15, 20])
+
+
+GRID = """Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 6, 0}; Point(4) = {0, 6, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve{1, 3} = 3; Transfinite Curve{2, 4} = 7; Transfinite Surface{1};
+Physical Surface("bar") = {1}; Physical Curve("low") = {1}; Physical Curve("high") = {3};
+"""
+ON_GRID = "body bar E 1 nu 0.3\nclamp low\nobstacle high plane 0 7 0 -1\ncut waist bar plane {}\npreload waist 1\n"
+
+
+def test_cut_of_a_mesh(tmp_path):
+    """A finished mesh is cut where it has a layer of sides in the plane; elsewhere that is refused, with the reason."""
+    mesh = gmsh(tmp_path, "a.msh", GRID, "-2", "-format", "msh22")
+    code, why, out = copied(tmp_path, mesh, ON_GRID.format("9 2 0 -1"), space=0)
+    assert code == 0, why
+    assert sorted(map(tuple, marks(out)["waist"].round(9))) == [(0, 2, 0), (1, 2, 0), (2, 2, 0)]
+    removed(out)
+    for plane, said in (
+        ("0 2.5 0 1", "the plane goes through 4 elements"),
+        ("0 0 0 1", "the plane does not cross"),
+        ("0 7 0 1", 'the plane does not cross "bar", which lies from -7 to -1 along the normal'),
+    ):
+        code, why, *_ = readable(tmp_path, mesh, ON_GRID.format(plane), space=0)
+        assert code == 1 and said in why and "allowed: " in why, why
+
+
+# ---------------------------------------------------------------- two bodies that touch
+
+STACK = OCC + "Box(1) = {0, 0, 0, 1, 1, 3}; Box(2) = {0, 0, 3, 1, 1, 2};\n"
+STACKED = """group low volumes 1
+group high volumes 2
+group foot plane 0 0 0 0 0 1
+group top plane 0 0 5 0 0 1
+group side plane 0 0 0 1 0 0
+size low 1
+size high 1
+body low E 100 nu 0
+body high E 300 nu 0
+clamp foot
+obstacle side plane -1 0 0 1 0 0
+"""
+
+
+@pytest.mark.parametrize(
+    "how, pull", [("part", 3), *(pytest.param(*x, marks=pytest.mark.long) for x in (("tie", 3), ("contact", -3)))]
+)
+def test_joined(how, pull, tmp_path):
+    """Two bars on each other: their mean displacements under a pull, or where they may part under a push."""
+    mesh = gmsh(tmp_path, "part.step", STACK, "-0")
+    case = STACKED + f"traction top 0 0 {pull}\njoin high low {how}\n"
+    found = part(tmp_path, mesh, case, "-estimate", 0, space=True).summary
+    low, high = pull / 100 * 3 / 2, pull / 100 * 3 + pull / 300 * 2 / 2
+    means = {body["name"]: body["motion"][2] for body in found["bodies"]}
+    expected = {"low+high": 0.6 * low + 0.4 * high} if how == "part" else {"low": low, "high": high}
+    assert means == pytest.approx(expected, rel=1e-5)
+    assert not [each for each in found["warnings"] if "bodies touch" in each]
+
+
+@pytest.mark.long
+def test_nothing_said(tmp_path):
+    """Bodies that touch without a statement are named, with the statement to write; bodies at a distance are not."""
+    case = STACKED + "traction side 0 0 1\nobstacle top plane 0 0 6 0 0 -1\n"
+    for gap, lines in (("3", 1), ("3.00001", 1), ("3.001", 0)):
+        mesh = gmsh(tmp_path, "part.step", STACK.replace("0, 0, 3, 1", f"0, 0, {gap}, 1"), "-0")
+        code, why, out = copied(tmp_path, mesh, case.replace("0 0 5 ", f"0 0 {2 + float(gap)} "))
+        assert code == 0, why
+        told = (out / "told").read_text().splitlines()[4:]
+        removed(out)
+        assert len(told) == 1 + (gap == "3"), (gap, lines)
+        if gap == "3":
+            assert told[1] == (
+                "low and high (faces 6 on 11), and no statement says what happens there: "
+                "write join low high part, tie or contact"
+            )
+
+
+NEIGHBOURS = {  # boxes on the first one's top, and whether they touch it
+    "0.2, 0.2, 3, 0.1, 0.1, 1": True,
+    "-5, -5, 3, 20, 20, 1": True,
+    "0.9, 0.9, 3, 1, 1, 1": True,
+    "1.1, 0, 3, 1, 1, 1": False,
+    "1, 0, 3, 1, 1, 1": False,
+    "0, 0, 3.01, 1, 1, 1": False,
+}
+
+
+@pytest.mark.parametrize("box", short_of(list(NEIGHBOURS)[1:4], NEIGHBOURS))
+def test_who_touches(box, tmp_path):
+    """A small face on a large one, a corner of both, an edge alone, a gap."""
+    mesh = gmsh(tmp_path, "part.step", OCC + f"Box(1) = {{0, 0, 0, 1, 1, 3}}; Box(2) = {{{box}}};\n", "-0")
+    assert ("volumes 1 and 2 touch (faces 6 on 11)" in table(tmp_path, mesh)) == NEIGHBOURS[box]
+
+
+# ---------------------------------------------------------------- the table of faces
+
+
+def table(folder, mesh, space=1):
+    """What -check 1 tells of a geometry."""
+    code, why, out = copied(folder, mesh, None, space, "check")
+    assert code == 4, why
+    text = (out / "table").read_text()
+    removed(out)
+    return text
+
+
+def rows(text):
+    """{number: (kind, middle, way, radius, area, whose)} of a table."""
+    found = {}
+    for line in text.splitlines():
+        if re.match(r" *\d+  [a-z]", line):
+            cells = [line[:6], line[8:23], line[24:54], line[55:85], line[86:96], line[97:107], line[109:]]
+            vector = [np.array(cell.split(), float) if cell.strip() != "-" else None for cell in cells[2:4]]
+            radius = None if cells[4].strip() == "-" else float(cells[4])
+            found[int(cells[0])] = (cells[1].strip(), *vector, radius, float(cells[5]), cells[6].strip())
+    return found
+
+
+SHAPES = (
+    OCC
+    + """Box(1) = {0, 0, 0, 4, 4, 2}; Cylinder(2) = {2, 2, -1, 0, 0, 4, 0.7};
+BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+Cone(5) = {10, 0, 0, 0, 3, 0, 2, 1}; Sphere(6) = {0, 10, 0, 1.5}; Torus(7) = {0, 20, 0, 3, 1};
+"""
+)
+
+
+@pytest.mark.parametrize("placed", short_of(["turned"], PLACES))
+def test_kinds(placed, tmp_path):
+    """Kind, place, direction, radius and area of each face against its drawing, as it lies and moved."""
+    found = rows(table(tmp_path, gmsh(tmp_path, "part.step", moved(SHAPES, placed), "-0")))
+    turn = matrix(placed)
+    kinds = sorted(row[0] for row in found.values())
+    slope = np.degrees(np.arctan(1 / 3))
+    assert kinds == sorted(["plane"] * 8 + ["cylinder hollow", f"cone {slope:.4g} deg", "sphere", "other"])
+    of = {row[0].split()[0]: row for row in found.values()}
+    _, at, way, radius, area, whose = of["cylinder"]
+    assert at == pytest.approx(turn @ [2, 2, 1], abs=1e-5) and abs(way @ turn @ [0, 0, 1]) == pytest.approx(1)
+    assert radius == pytest.approx(0.7) and area == pytest.approx(2 * np.pi * 0.7 * 2, rel=1e-3) and whose == "1"
+    _, at, way, radius, area, _ = of["cone"]
+    height = (turn.T @ at)[1]  # beside the middle of its area
+    assert turn.T @ at == pytest.approx([10, height, 0], abs=1e-5) and abs(way @ turn @ [0, 1, 0]) == pytest.approx(1)
+    assert height == pytest.approx(4 / 3, rel=1e-3) and radius == pytest.approx(2 - height / 3, rel=1e-4)
+    assert area == pytest.approx(np.pi * 3 * np.sqrt(10), rel=1e-3)
+    _, at, _, radius, area, _ = of["sphere"]
+    assert at == pytest.approx(turn @ [0, 10, 0], abs=1e-5) and radius == pytest.approx(1.5)
+    assert area == pytest.approx(9 * np.pi, rel=1e-3)
+    assert of["other"][4] == pytest.approx(12 * np.pi**2, rel=1e-3)
+    planes = [(turn.T @ row[1], turn.T @ row[2], row[4]) for row in found.values() if row[0] == "plane"]
+    for at, way, _ in planes:  # outwards: away from the middle of its body
+        middle = np.array([2, 2, 1]) if at[0] < 5 else np.array([10, 1.5, 0])
+        assert way @ (at - middle) > 0.5 and np.abs(way).max() == pytest.approx(1, abs=1e-5)
+    assert sorted(area for *_, area in planes) == pytest.approx(
+        sorted([8] * 4 + [16 - 0.49 * np.pi] * 2 + [np.pi, 4 * np.pi]), rel=1e-3
+    )
+
+
+def test_curves(tmp_path):
+    """In the plane: lines with normals outwards, a circle, a hole."""
+    flat = OCC + "Rectangle(1) = {0, 0, 0, 4, 2}; Disk(2) = {2, 1, 0, 0.5}; Disk(3) = {9, 0, 0, 1.5};\n"
+    flat += "BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n"
+    found = list(rows(table(tmp_path, gmsh(tmp_path, "part.step", flat, "-0"), 0)).values())
+    assert sorted(row[0] for row in found) == ["circle", "circle hole", *["line"] * 4]
+    for kind, at, way, radius, length, _ in found:
+        if kind == "line":
+            assert way @ (at - [2, 1]) > 0.9 and length == pytest.approx(2 * abs(way[0]) + 4 * abs(way[1]))
+        else:
+            expected = ([2, 1], 0.5) if kind == "circle hole" else ([9, 0], 1.5)
+            assert at == pytest.approx(expected[0], abs=1e-5) and radius == pytest.approx(expected[1])
+            assert length == pytest.approx(2 * np.pi * radius, rel=1e-3)
+
+
+@pytest.mark.parametrize("radius", [1, 0.999])
+def test_disc_in_a_hole(radius, tmp_path):
+    """A disc touches the hole that it fills, and not one that is larger by a thousandth."""
+    flat = OCC + f"Rectangle(1) = {{-2, -2, 0, 4, 4}}; Disk(2) = {{0, 0, 0, 1}}; Disk(3) = {{0, 0, 0, {radius}}};\n"
+    flat += "BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n"
+    said = table(tmp_path, gmsh(tmp_path, "part.step", flat, "-0"), 0)
+    assert ("touch (curves" in said) == (radius == 1)
+
+
+FITTED = (
+    OCC
+    + """Cylinder(1) = {0, 0, 0, 0, 0, 4, RADIUS}; Box(2) = {-3, -3, 0, 6, 6, 2}; Cylinder(12) = {0, 0, -1, 0, 0, 9, 1};
+BooleanDifference{ Volume{2}; Delete; }{ Volume{12}; }
+Box(3) = {-3, -3, 2, 6, 6, 2}; BooleanDifference{ Volume{3}; Delete; }{ Volume{12}; Delete; }
+"""
+)
+
+
+@pytest.mark.long
+def test_pin_in_two_plates(tmp_path):
+    """A pin that fits touches both plates, one that is thinner neither; the picture shows what is inside."""
+    pairs = {}
+    for radius in ("1", "0.999"):
+        mesh = gmsh(tmp_path, "part.step", FITTED.replace("RADIUS", radius), "-0")
+        if radius == "1":
+            code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-mesh", mesh, "-check", 1, "-out", tmp_path / radius])
+            assert code == 0
+        else:
+            said = table(tmp_path, mesh)
+        pairs[radius] = re.findall(r"volumes (\d and \d) touch \(faces ([^)]*)\)", said)
+        assert ("  join V1 V2 tie" in said or "  join V2 V1 tie" in said) == (radius == "1")
+    assert [pair for pair, _ in pairs["1"]] == ["1 and 2", "1 and 3", "2 and 3"]
+    assert [pair for pair, _ in pairs["0.999"]] == ["2 and 3"]
+    with style.look():
+        figure = draw(tmp_path / "1/check/check-faces.csv", -60, 25)
+    outside, inside = figure.axes[:2], figure.axes[2]
+    labels = {word for axes in outside for text in axes.texts for word in text.get_text().split(", ")}
+    hidden = {word for text in inside.texts for word in text.get_text().split(", ")}
+    faces = {word for _, words in pairs["1"] for word in re.findall(r"\d+", words)}
+    assert hidden == faces and not labels & hidden and len(labels | hidden) == 17
+
+
+# ---------------------------------------------------------------- one surface in several contacts
+
+DISC = OCC + "Rectangle(1) = {-2, -2, 0, 4, 1}; Disk(2) = {0, 0, 0, 1}; Rectangle(3) = {-2, 1, 0, 4, 1};\n"
+PRESSED = """group low surfaces 1
+group disc surfaces 2
+group high surfaces 3
+group foot plane 0 -2 0 1
+group lid plane 0 2 0 1
+size disc 0.15
+size low 0.5
+size high 0.5
+body low E 1000 nu 0.3
+body disc E 1000 nu 0.3
+body high E 2000 nu 0.3
+group face between low disc
+group roof between high disc
+clamp foot
+move lid 0 -0.01
+"""
+RIMS = "group under between disc low\ngroup over between disc high\n"
+
+
+@pytest.mark.parametrize("order", short_of(["{1} {0}"], ["{1} {0}", "{0} {1}"]))
+def test_one_surface_in_two_contacts(order, tmp_path):
+    """`between disc low` and `between disc high` are one circle: as if one group stood in both, with their names."""
+    mesh = gmsh(tmp_path, "part.step", DISC, "-0")
+    contacts = "".join(f"contact {order}\n".format(*pair) for pair in (("{u}", "face"), ("{o}", "roof")))
+    two = part(tmp_path / "two", mesh, PRESSED + RIMS + contacts.format(u="under", o="over"), "-estimate", 0)
+    one = part(
+        tmp_path / "one", mesh, PRESSED + "group rim curves 5\n" + contacts.format(u="rim", o="rim"), "-estimate", 0
+    )
+    assert two.contacts[0]["normalForce"] > 1
+    for of_two, of_one in zip(two.contacts, one.contacts, strict=True):
+        assert of_two["force"] == pytest.approx(of_one["force"], rel=1e-9, abs=1e-9)
+        assert of_two["name"] == of_one["name"].replace(
+            "rim", {"face": "under", "roof": "over"}[of_one["name"].replace("rim", "").strip()]
+        )
+
+
+@pytest.mark.parametrize(
+    "lines, said",
+    [
+        ("contact face under\nclamp over\n", 'in two physical groups of the case, "under" and "over"; allowed: one'),
+        ("contact face under\ncontact face over\n", "the same surfaces as in line"),
+        ("contact under over\n", "both are the same surface"),
+        (
+            "group wide curves 5 2\ncontact under face\ncontact wide roof\n",
+            '"under" and "wide"; allowed: one of them, or two',
+        ),
+        ("group wide curves 5 2\ncontact face under\ncontact roof wide\n", None),  # a master of more than is needed
+    ],
+)
+def test_one_surface_refused(lines, said, tmp_path):
+    mesh = gmsh(tmp_path, "part.step", DISC, "-0")
+    code, why, *_ = readable(tmp_path, mesh, PRESSED + RIMS + lines, 0)
+    assert (code == 1 and said in why and "allowed: " in why) if said else code == 0, why
+
+
+# ---------------------------------------------------------------- refusals
+
+CUT = "cut waist low plane 0 0 1 0 0 1\npreload waist 1\n"
+REFUSED = {  # lines in place of the join and the cut, and what is said
+    "cut waist low plane 0 0 1 0 0 1\n": "line 12: cut waist: nothing tightens it; allowed: a line preload waist force",
+    "cut waist low plane 0 0 4 0 0 1\npreload waist 1\n": "plane does not cross low, which lies from -4 to -1 along",
+    "cut waist low plane 0 0 3 0 0 1\npreload waist 1\n": "the plane does not cross low, which lies from -3 to 0 along",
+    "cut waist low plane 0 0 1 0 0 0\n": "the normal is 0 in every direction; allowed: cut NAME BODY plane x y z",
+    "cut waist low 0 0 1 0 0 1\n": "0: not allowed here; allowed: cut NAME BODY plane x y z nx ny nz, as cut",
+    "cut waist lower plane 0 0 1 0 0 1\n": "lower: no body of the geometry has this name",
+    "cut top low plane 0 0 1 0 0 1\n": "a cut or a join has a group of this name",
+    "join low high\n": "how they are joined is missing after high; allowed: join BODY BODY part, tie or contact",
+    "join low high parts\n": "parts: unknown; did you mean part? allowed: join BODY BODY part, tie or contact",
+    "join low low part\n": "low: twice the same body; allowed: two bodies",
+    "join low high part\njoin high low part\n": "join of high and low: stated before, in line 12; allowed: once",
+    "join low high part 3\n": "3: more than the statement takes; allowed: join BODY BODY",
+    "join low high contact fricton 3\n": "fricton: not allowed here; allowed: contact SLAVE MASTER",
+    "join low high tie\n": "tie: read by parts.edp and parts-3d.edp alone",
+}
+
+
+@pytest.mark.parametrize("lines", short_of(list(REFUSED)[::4], REFUSED))
+def test_refused(lines, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("refused")
+    mesh = gmsh(folder, "part.step", STACK, "-0")
+    code, why, *_ = readable(folder, mesh, STACKED + lines)
+    assert code == 3 and REFUSED[lines] in why and "allowed" in why, why
+
+
+@pytest.mark.parametrize(
+    "height, how, said",
+    [
+        (
+            "3.1",
+            "part",
+            "join low high part: they share no face, there is a gap between them; allowed: bodies that touch, or",
+        ),
+        (
+            "3.1",
+            "tie",
+            "join low high tie: they touch nowhere, there is a gap between them; allowed: bodies that touch, a",
+        ),
+        (
+            "2.9",
+            "part",
+            "join low high part: bodies of it overlap; allowed: bodies that touch, or join low high contact",
+        ),
+    ],
+)
+def test_joined_at_a_distance(height, how, said, tmp_path, monkeypatch):
+    monkeypatch.setenv("RUBS", "1")
+    mesh = gmsh(tmp_path, "part.step", STACK.replace("0, 0, 3, 1", f"0, 0, {height}, 1"), "-0")
+    case = STACKED.replace("0 0 5 ", f"0 0 {2 + float(height)} ") + f"join low high {how}\n"
+    code, why, *_ = readable(tmp_path, mesh, case)
+    assert code == 3 and said in why, why
+
+
+@pytest.mark.parametrize(
+    "third, said", [("", "bolt and two touch, and joins with other"), ("join bolt two part\n", None)]
+)
+def test_three_that_touch(third, said, tmp_path):
+    """Two joins hang the third pair together: gmsh cannot mesh it, unless it is one part too."""
+    three = OCC + "Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {1, 0, 0, 1, 1}; Rectangle(3) = {0, 1, 0, 2, 1};\n"
+    mesh = gmsh(tmp_path, "part.step", three, "-0")
+    case = "group bolt surfaces 1\ngroup two surfaces 2\ngroup top surfaces 3\ngroup foot plane 0 0 0 1\n"
+    case += "".join(f"body {name} E 1 nu 0.3\n" for name in ("bolt", "two", "top")) + "clamp foot\n"
+    case += "group lid plane 0 2 0 1\nobstacle lid plane 0 3 0 -1\njoin bolt top part\njoin two top part\n" + third
+    code, why, _, volumes = readable(tmp_path, mesh, case, 0)
+    assert (code == 3 and said in why) if said else (code == 0 and sum(volumes) == pytest.approx(4)), why
+
+
+def test_no_shapes(tmp_path):
+    """A mesh cannot be joined, a geometry of gmsh's own kernel neither joined nor cut."""
+    case = re.sub("size.*\n", "", STACKED) + "join low high part\n"
+    mesh = gmsh(tmp_path, "a.msh", STACK, "-3", "-format", "msh41", "-setnumber", "Mesh.MeshSizeMax", 1)
+    code, why, *_ = readable(tmp_path, mesh, case)
+    assert code == 3 and "part: a mesh cannot be joined; allowed: with a geometry, or join low high tie" in why, why
+    (tmp_path / "a.geo").write_text(GRID)
+    code, why, *_ = readable(tmp_path, tmp_path / "a.geo", ON_GRID.format("0 2.5 0 1"), 0)
+    assert code == 3 and "bodies of it cannot be cut, joined or taken apart" in why and "OpenCASCADE" in why, why
+
+
+def test_messages_on_the_page():
+    """What the readers of meshes refuse about parts from CAD stands on the page of refusals."""
+    page = (ROOT / "edp/TROUBLESHOOTING.md").read_text().split("## Refused mesh files")[1]
+    known = [
+        p.split("…")
+        for line in page.splitlines()
+        for p in re.findall(r"`([^`]+)`", line.split("|")[1] if "|" in line else "")
+    ]
+    for name in ("cad", "cuts", "same"):
+        for call in re.findall(r"\b(?:no|fail)\((.*)\)$", (ROOT / f"meshes/{name}.awk").read_text(), re.M):
+            text = " ".join(re.findall(r'"((?:\\.|[^"\\])*)"', call))
+            assert any(all(piece.strip() in text for piece in pieces) for pieces in known), call
