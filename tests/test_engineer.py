@@ -15,6 +15,7 @@ from PIL import Image
 from test_parts import read
 
 from postprocess.__main__ import main
+from postprocess.vtu import read_arrays
 
 RING = data("engineer/ring.geo")
 SLICE = """
@@ -102,6 +103,33 @@ def test_shrink_fit(state, tmp_path):
 
 
 BLOCK = data("engineer/block.geo")
+
+
+HELD = """state {}
+body b E 1000 nu 0.3
+expand b 1e-3 1
+symmetry left
+symmetry right
+symmetry base
+obstacle top plane 0 2 0 -1 move 0 -0.99
+"""
+STRIP = """SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 4, 1}; Physical Surface("b") = {1}; Physical Curve("left") = {4};
+Physical Curve("right") = {2}; Physical Curve("top") = {3}; Physical Curve("base") = {1}; Mesh.MeshSizeMax = SIZE;
+"""
+
+
+@pytest.mark.parametrize("state, exact", [("stress", 1), ("strain", 1 / 0.7)])
+def test_heat_held_on_two_sides(state, exact, tmp_path):
+    """The von Mises stress of the pictures: E alpha dT in plane stress, that over 1 - nu in plane strain."""
+    solve(tmp_path, STRIP, HELD.format(state), size=0.5)
+    found = read_arrays(tmp_path / "out/solution.vtu")["PointData", "vonMises[pressure]"]
+    np.testing.assert_allclose(found, exact, rtol=1e-9)
+
+
+def test_axis_without_initial_strains(tmp_path):
+    """Stresses below the contact leave initial strains out: refused."""
+    told = part(tmp_path, STRIP.replace("SIZE", "1"), HELD.format("strain"), "-axis", 1, expect=10)
+    assert "-axis: not with expand, preload or conduct" in told.stdout
 
 
 @pytest.mark.long

@@ -22,7 +22,7 @@ WARM = UNLIKE + "conduct lower 1 expand 1e-2 from 0.3\nconduct upper 2 expand 2e
 FIT = "body shaft E 210e3 nu 0.3\nbody ring E 70e3 nu 0.33\n"
 CONDUCTS = "conduct shaft 0.05 expand 12e-6 from 20\nconduct ring 0.2 expand 23e-6 from 140\n"
 RADII = 10, 25, 45
-PARTS = "words grammar groups pushed worn heat file".split()  # of the reader of case files
+PARTS = "words grammar groups pushed worn heat cad file".split()  # of the reader of case files
 
 
 def solve(folder, mesh, case, *flags, space=False, expect=0):

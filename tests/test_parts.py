@@ -205,7 +205,7 @@ def test_examples_of_statements(tmp_path, monkeypatch, space):
     (tmp_path / "block.msh").write_text((cube if space else block)(Mesh()).text())
     bodies = ("body", "expand", "weight", "spin", "conduct", "plastic")
     for word, words in examples.items():
-        left_out = ("group", "size", "preload", "leg", "cut", "join", "cycles")
+        left_out = ("group", "size", "law", "preload", "leg", "cut", "join", "cycles")
         if word in left_out or (space and word in ("thickness", "state", "plastic")):
             continue
         if word not in ("line", "about", "gravity", "thickness", "state"):
