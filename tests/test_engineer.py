@@ -114,7 +114,8 @@ symmetry base
 obstacle top plane 0 2 0 -1 move 0 -0.99
 """
 STRIP = """SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 4, 1}; Physical Surface("b") = {1};
-Physical Curve("left") = {4}; Physical Curve("right") = {2}; Physical Curve("top") = {3}; Physical Curve("base") = {1}; Mesh.MeshSizeMax = SIZE;
+Physical Curve("left") = {4}; Physical Curve("right") = {2};
+Physical Curve("top") = {3}; Physical Curve("base") = {1}; Mesh.MeshSizeMax = SIZE;
 """
 
 
