@@ -241,10 +241,6 @@ def test_files_that_are_none(tmp_path, cad):
     (tmp_path / "a.step").write_text("no geometry")
     code, why, *_ = readable(tmp_path, tmp_path / "a.step", PRESSED)
     assert code == 1 and why.startswith("gmsh cannot read it")
-    torus = tmp_path / "torus.geo"
-    torus.write_text('SetFactory("OpenCASCADE");\nTorus(7) = {12, 12, 0, 2, 0.5};\nMeshSize{:} = 0.35;\n')
-    code, why, *_ = readable(tmp_path, torus, PRESSED)
-    assert code == 1 and why.startswith("gmsh reads it, but cannot mesh it: ") and "; allowed: another size" in why, why
     shell = gmsh(tmp_path, "b.brep", 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 4, 2};\n', "-0")
     assert readable(tmp_path, shell, PRESSED)[:2] == (1, "no solid in it")
     mesh = gmsh(tmp_path, "c.msh", CUBOIDS, "-3", "-format", "msh22")
