@@ -38,7 +38,7 @@ CASES = {
         'symmetry "upper left"\nsymmetry "upper front"\n',
         ["-order", 1, "-points", "nodal", "-estimate", 0],
     ),
-    "tie": (2, MOVED.replace("contact", "tie"), ["-order", 2]),
+    "tie": (2, MOVED.replace("contact", "tie"), ["-order", 1]),
     "legs": (3, RUBS + f'leg 1\nmove "upper top" {PRESS}\nleg 2\nmove "upper top" {ASIDE}\n', ["-order", 1]),
     "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
     "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),
