@@ -112,6 +112,29 @@ def test_hardness():
     assert row["code"] == 0 and row["strain"] > 60 and 2.8 < row["meanPressure"] < 3
 
 
+GUIDED = """state {}
+body block E 1000 nu 0.3
+plastic block 10 100
+clamp left
+obstacle bottom plane 0 -5 0 1
+leg 8
+{}
+"""
+
+
+@pytest.mark.parametrize("load", ["moment right 9 about 3 1", "moment right 9 rigid", "force right 0 3 rigid"])
+def test_guided_loads(tmp_path, load):
+    """A beam that yields: the clamp carries the whole load on a rigid group, the guide nothing that the group could follow."""
+    run = part(tmp_path, block(Mesh(), cells=(6, 4)).text(), GUIDED.format("strain", load) + "about O 0 0\n")
+    assert run.summary["plastic"]["bodies"][0]["share"] > 0.01
+    told = {one["name"]: one for one in run.summary["supports"]}
+    word, _, *numbers = load.split()
+    if word == "force":
+        assert told["clamp left"]["force"] == pytest.approx([-float(n) for n in numbers[:2]], abs=1e-6)
+    if "rigid" in load:
+        assert all(np.abs(guide["force"]).max() < 1e-5 for guide in run.summary["guides"])
+
+
 @pytest.mark.long
 def test_unloading(tmp_path):
     """The first unloading is elastic, with the stiffness 2 E* a of a flat punch, a as far as the mesh tells it."""
@@ -280,8 +303,9 @@ REFUSED = {
     (BODY.format(""), "-distance", "exact"): "plastic: not with -distance exact; allowed: linear",
     (BODY.format(""), "-history", 1): "plastic: not with -history 1; allowed: a line leg STEPS",
     (BODY.format("\nrotate left 0 0 0.1"),): "plastic: not with rotate",
-    (BODY.format(" wear 1e-6 slide 1\ncycles 10"),): "plastic: not with expand, preload or wear",
-    (BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand, preload or wear",
+    (BODY.format(" wear 1e-6 slide 1\ncycles 10"),): "plastic: not with expand, preload, conduct or wear",
+    (BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand, preload, conduct or wear",
+    (BODY.format(" interference 0.1"),): "plastic: not with interference, which would act as a whole",
     (BODY.format("").replace("nu 0.3", "nu 0.3 yield 2"),): "plastic: not with yield of the same body",
     (BODY.format("").replace("1 0\nclamp", "0 0\nclamp"),): "0: the yield stress is out of range; allowed: above 0",
     (
