@@ -6,7 +6,8 @@ import numpy as np
 
 from postprocess.results import ResultsError, Run, column_names, read_table
 
-HINT = "; run the case with -history 1, or with friction and load phases (leg)"
+HINT = "; run the case with -history 1, or with load phases (leg)"
+PLASTIC = "; a plastic case writes none: its energies are in the columns work, stored and dissipated"
 
 
 @dataclass
@@ -30,7 +31,7 @@ def read_series(chosen: Run) -> dict:
     read_table(path, ["step"], HINT)
     table = read_table(path, column_names(path))
     if not any(name.endswith((" reaction", " normal force")) for name in table):
-        raise ResultsError(path, f"has no loads and contacts of a case{HINT}")
+        raise ResultsError(path, f"has no loads and contacts of a case{PLASTIC if 'plasticStrain' in table else HINT}")
     return table
 
 

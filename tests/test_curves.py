@@ -4,8 +4,9 @@ from math import atan, exp, pi, radians, sqrt, tan
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part
+from freefem import ROOT, data, part, short_of
 from test_friction import case, series
+from test_parts import Mesh, block
 
 from postprocess.__main__ import main
 from postprocess.results import read_run
@@ -98,6 +99,85 @@ def test_columns_of_loads(tmp_path):
     carried = rows["traction head y reaction"] - rows["weight base reaction"]
     assert rows["clamp bottom force y"] == pytest.approx(-carried, rel=1e-6)
     assert (np.diff(rows["weight base displacement"]) > 0).all()
+
+
+BEAM = "state stress\nbody beam E 1000 nu 0\nobstacle bottom plane 0 -3 0 1\nclamp left\n"
+BACK = {  # first phase, second phase, values, displacement by value, reaction by value
+    "moment right": ("1", "-1", (1, -1), 0.048, 1),
+    "traction right": ("2 0", "-4 0", (2, -4), 0.004, 1),
+    "pressure right": ("-3", "2", (-3, 2), 0.004, 1),
+    "force right": ("-2 0 free", "4 0 free", (2, -4), 0.004, 1),
+    "traction  right": ("-4 0", "2 0", (4, -2), 0.004, 1),
+}
+
+
+@pytest.mark.parametrize("load", short_of([*BACK][:3], [*BACK]))
+def test_a_load_that_reverses(tmp_path, load):
+    """A beam of 4 by 1, E 1000: value, displacement and reaction change their sign together; the area is the energy."""
+    first, second, values, way, reaction = BACK[load]
+    mesh = block(Mesh(), size=(4, 1), cells=(4, 1), at=(0, -0.5), name="beam").text()
+    run = case(tmp_path, mesh, f"{BEAM}leg 1\n{load} {first}\nleg 1\n{load} {second}\n", "-estimate", 1)
+    rows, name, values = series(run), " ".join(load.split()), np.array(values)
+    assert rows[name] == pytest.approx(values, rel=1e-9)
+    assert rows[f"{name} displacement"] == pytest.approx(way * values, rel=1e-6)
+    assert rows[f"{name} reaction"] == pytest.approx(reaction * values, rel=1e-6)
+    energy = 0.5 * way * reaction * values**2
+    assert rows["work"] == pytest.approx(energy, rel=1e-6) and rows["stored"] == pytest.approx(energy, rel=1e-6)
+    (curve,) = curves(read_series(read_run(run.folder)))
+    assert curve.work()[1:] == pytest.approx(energy, rel=1e-6)
+    told = abs(values[1]) if not name.startswith("pressure") else values[1]
+    (entry,) = run.summary["prescribed"]
+    assert entry["force" if "force" in entry else "moment"] == pytest.approx(told, rel=1e-6)
+
+
+def test_moment_of_a_rigid_end(tmp_path):
+    """The same beam in a load series, its end rigid: a moment below 0 turns it by a negative angle."""
+    mesh = block(Mesh(), size=(4, 1), cells=(4, 1), at=(0, -0.5), name="beam").text()
+    rows = series(case(tmp_path, mesh, f"{BEAM}moment right -1 rigid\n", "-history", 1, "-steps", 1))
+    for word, number in {"": -1, " displacement": -0.048, " reaction": -1}.items():
+        assert rows[f"moment right{word}"] == pytest.approx([number], rel=1e-6)
+
+
+SPRUNG = """state stress
+body low E 1000 nu 0
+body up E 1000 nu 0
+contact ubottom top
+symmetry bottom
+symmetry left
+symmetry uleft
+spring utop 0 400
+leg 1
+pressure utop 2
+{}leg 1
+pressure utop {}
+"""
+BLOCKS = 1000.0  # stiffness of two blocks of height 1 and width 2, one on the other
+
+
+def sprung(folder, last, *flags, first=""):
+    mesh = block(block(Mesh(), (2, 1), (4, 2), name="low"), (2, 1), (4, 2), (0, 1), "u", "up").text()
+    return case(folder, mesh, SPRUNG.format(first, last), *flags)
+
+
+def test_pressure_on_a_spring_reverses(tmp_path):
+    """Two blocks and a spring: pressed they share the load, pulled only the spring carries it."""
+    run = sprung(tmp_path, -3)
+    rows = series(run)
+    expected = {"": [2, -3], " displacement": [4 / (BLOCKS + 400), -6 / 400], " reaction": [4, -6]}
+    for word, numbers in expected.items():
+        assert rows[f"pressure utop{word}"] == pytest.approx(numbers, rel=1e-5)
+    assert rows["stored"] == pytest.approx([0.5 * 4**2 / (BLOCKS + 400), 0.5 * 6**2 / 400], rel=1e-5)
+    assert "  pressure utop                          -6 of the whole 2 times as much: -12" in run.stdout
+
+
+@pytest.mark.parametrize("last, name", [("1", "pressure utop"), ("0\ntraction utop 0 -1", "traction utop")])
+def test_results_are_of_the_last_phase(tmp_path, last, name):
+    """Load and load-point displacement on the screen are those of the end, not of a phase before."""
+    run = sprung(tmp_path, last, "-estimate", 1, first="traction utop 0 0\n" * ("traction" in last))
+    (load,), (way,) = run.summary["prescribed"], run.summary["estimates"]["loads"]
+    assert load["name"] == way["name"] == name and load["force"] == pytest.approx(2, rel=1e-9)
+    assert way["way"]["value"] == pytest.approx(2 / (BLOCKS + 400), rel=1e-5)
+    assert way["way"]["value"] == pytest.approx(series(run)[f"{name} displacement"][-1], rel=1e-5)
 
 
 BELT = data("friction-bodies/belt.geo")
@@ -318,6 +398,17 @@ def test_strains_that_are_not_small(tmp_path):
         run = case(tmp_path, ONE, f"{bar}pressure bottom {pressure}\nsymmetry side\n")
         said = [warning for warning in run.summary["warnings"] if "strains are taken to be small" in warning]
         assert len(said) == told and all(warning.startswith("base: strains of 12 %") for warning in said)
+
+
+def test_no_curve_of_a_plastic_case(tmp_path, capsys):
+    """The advice names the columns that its series has, and no flag that the case refuses."""
+    mesh = block(Mesh(), cells=(2, 1)).text()
+    text = "body block E 1000 nu 0.3\nplastic block 1 150\nsymmetry bottom\nsymmetry left\n"
+    run = case(tmp_path, mesh, f"{text}leg 1\nobstacle top plane 0 2 0 -1 move 0 -0.01\n")
+    assert main(["curve", str(run.folder)]) == 2
+    said = capsys.readouterr().err
+    assert "a plastic case writes none: its energies are in the columns work, stored and dissipated" in said
+    assert "-history" not in said and {"work", "stored", "dissipated"} < set(series(run).dtype.names)
 
 
 @pytest.mark.parametrize(

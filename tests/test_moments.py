@@ -142,6 +142,65 @@ def test_guided_force(tmp_path):
     assert "  guide of force head carries " in run.stdout
 
 
+def stacked(force, *, spring, side='symmetry "u left"\n', more="", contact=""):
+    """Two squares of width 2, one on the other, on which a guided force acts."""
+    mesh = block(block(Mesh(), (2, 1), (4, 2), name="low"), (2, 1), (4, 2), (0, 1), "u ", "up").text()
+    case = f'state stress\nbody low E 1000 nu 0\nbody up E 1000 nu 0\ncontact "u bottom" top{contact}\n'
+    return mesh, f'{case}symmetry bottom\nsymmetry left\n{side}spring "u {spring}" 300 400\n{more}{force}\n'
+
+
+@pytest.mark.parametrize("spring", short_of(["top"], ["top", "right"]))
+@pytest.mark.parametrize("along", short_of(["0 -2"], ["0 -2", "0.5 -2"]))
+def test_guide_beside_a_spring(tmp_path, spring, along):
+    """A spring on the guided group, or at its corner, carries its own force; the guide carries none along the load."""
+    case = stacked(f'force "u top" {along}', spring=spring, more="about A 0 0\n")
+    along = np.array(along.split(), float)
+    oblique = along[0] != 0
+    run = part(tmp_path, case[0], case[1].replace('symmetry "u left"\n', "") if oblique else case[1])
+    supports = {entry["name"]: np.array(entry["force"]) for entry in run.summary["supports"]}
+    (entry,) = run.summary["guides"]
+    guide, contact = np.array(entry["force"]), np.array(run.summary["contacts"][0]["force"])
+    assert guide @ along == pytest.approx(0, abs=1e-6)
+    others = sum(force for name, force in supports.items() if "u " in name)
+    assert guide + others + contact == pytest.approx(-along, abs=1e-6)
+    assert moments(run)["guide of force u top", "up"]["force"] == pytest.approx(guide, abs=1e-6)
+    assert np.abs(guide).max() > 1e-2 or (spring, oblique) == ("top", False)
+    if (spring, oblique) == ("top", False):  # 1000 of two blocks and 400 of the spring share the force
+        assert supports["spring u top"] == pytest.approx([0, 2 * 400 / 1400], rel=1e-5)
+        assert not entry["carries"] and "guide of" not in run.stdout
+
+
+@pytest.mark.long
+def test_move_beside_a_spring(tmp_path):
+    """A moved side has a corner in common with a spring: each carries its own force, in balance with the contact."""
+    run = part(tmp_path, *stacked('move "u top" 0 -0.002', spring="right", more="about A 0 0\n"))
+    supports = {entry["name"]: np.array(entry["force"]) for entry in run.summary["supports"]}
+    others = sum(force for name, force in supports.items() if "u " in name)
+    assert others + run.summary["contacts"][0]["force"] == pytest.approx([0, 0], abs=1e-6)
+    assert np.abs(supports["spring u right"]).min() > 1e-2
+    assert moments(run)["move u top", "up"]["force"] == pytest.approx(supports["move u top"], abs=1e-6)
+    assert run.summary["prescribed"][0]["force"] == pytest.approx(-supports["move u top"][1], rel=1e-6)
+
+
+@pytest.mark.parametrize("about", short_of(["0 0"], ["0 0", "0.5 3"]))
+def test_moments_of_a_half(tmp_path, about):
+    """Of a mirrored half all moments are those of the half: a uniform pressure, 2 wide, acts at 1."""
+    load = 'pressure "u top" 1'
+    more = f"about O {about}\nleg 1\n"
+    run = part(tmp_path, *stacked(load, spring="top", more=more, contact=" friction 0.3"))
+    found, force = moments(run), 2 / 1.4
+    moment = (1 - float(about.split()[0])) * force
+    assert found["u bottom top", "up"]["moment"][0] == pytest.approx(moment, rel=1e-5)
+    assert found["u bottom top", "low"]["moment"][0] == pytest.approx(-moment, rel=1e-5)
+    assert found["symmetry bottom", "low"]["moment"][0] == pytest.approx(moment, rel=1e-5)
+    with open(run.folder / "series.csv") as lines:
+        told = [float(row["u bottom top moment"]) for row in csv.DictReader(lines)]
+    assert told == pytest.approx([moment], rel=1e-5)
+    summary = run.summary
+    assert summary["contactMoment"] == pytest.approx(force, rel=1e-5)
+    assert summary["masterMoment"] == pytest.approx(-force, rel=1e-5)
+
+
 @pytest.mark.long
 def test_rigid_like_others(tmp_path):
     """In the middle of a half a rigid force does as a guided one, on a stiff post as a free one: in errors too."""

@@ -534,6 +534,13 @@ def test_nothing_presses(tmp_path, case, gap, flags):
     assert run.summary["outOfBalance"] < 1e-6
 
 
+def test_gap_left_of_an_interference(tmp_path):
+    """The gap left is that of the thicker bodies: the displacement less the interference."""
+    fit = STACK.replace('"upper bottom"', '"upper bottom" interference 0.0007')
+    run = solve(tmp_path, MEETING, f'{fit}clamp bottom\nmove "upper top" 0 0.005\n', "-order", 1)
+    assert not run.force and "nothing presses on anything: the least gap left is 0.0043:" in run.stdout
+
+
 @pytest.mark.long
 def test_large_rotation(tmp_path):
     """A body that turns by so much that linearised rotations show: said, by methods that know no others."""

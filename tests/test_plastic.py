@@ -124,7 +124,7 @@ leg 8
 
 @pytest.mark.parametrize("load", ["moment right 9 about 3 1", "moment right 9 rigid", "force right 0 3 rigid"])
 def test_guided_loads(tmp_path, load):
-    """A beam that yields: the clamp carries the whole load on a rigid group, the guide nothing that the group could follow."""
+    """A beam that yields: the clamp carries the load on a rigid group, the guide nothing that it could follow."""
     run = part(tmp_path, block(Mesh(), cells=(6, 4)).text(), GUIDED.format("strain", load) + "about O 0 0\n")
     assert run.summary["plastic"]["bodies"][0]["share"] > 0.01
     told = {one["name"]: one for one in run.summary["supports"]}

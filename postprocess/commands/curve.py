@@ -1,6 +1,6 @@
 """draw the load curve of a case, step by step: reactions over displacements, what contacts carry, energies
 
-RUN is a run of your own model with -history 1, or with friction and load phases (leg). (a) each load or motion: its
+RUN is a run of your own model with -history 1, or with load phases (leg). (a) each load or motion: its
 reaction over its displacement; (b) the normal force of each contact, and the tension of each preload; (c) the energies.
 The command prints the greatest and the least reaction of each load or motion, and its work. FILE.pdf has a FILE.png
 beside it.
