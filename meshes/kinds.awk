@@ -142,8 +142,30 @@ function isSphere(f,   i, k, v, r, d, n) {
   kind_[f] = space ? "sphere" : "circle"
   radius[f] = r * sizeF
   put3(f, v[1], v[2], v[3], 0, 0, 0)
+  if (space) areaOf[f] = onSphere(f)
   return 1
 }
+# the area of a face on a sphere: the solid angles of its pieces, each of four flat ones
+function onSphere(f,   n, i, e, t) {
+  n = piecesOf(f, mine)
+  for (i = 1; i <= n; i++) {
+    e = mine[i]
+    if (straight[e]) t += solidAngle(f, e, 0, 1, 2)
+    else t += solidAngle(f, e, 0, 3, 5) + solidAngle(f, e, 3, 1, 4) + solidAngle(f, e, 5, 4, 2) + solidAngle(f, e, 3, 4, 5)
+  }
+  return t * radius[f] ^ 2
+}
+# of the flat triangle of three nodes of piece e, seen from the centre (van Oosterom and Strackee, 1983)
+function solidAngle(f, e, i, j, k,   a, b, c, la, lb, lc, det) {
+  la = ray_(f, e, i, a); lb = ray_(f, e, j, b); lc = ray_(f, e, k, c)
+  det = a[1] * (b[2] * c[3] - b[3] * c[2]) + a[2] * (b[3] * c[1] - b[1] * c[3]) + a[3] * (b[1] * c[2] - b[2] * c[1])
+  return 2 * atan2(det < 0 ? -det : det, la * lb * lc + dot_(a, b) * lc + dot_(b, c) * la + dot_(c, a) * lb)
+}
+function ray_(f, e, i, a) {
+  a[1] = X[e, i] - spotOf[f, 1]; a[2] = Y[e, i] - spotOf[f, 2]; a[3] = Z[e, i] - spotOf[f, 3]
+  return sqrt(dot_(a, a))
+}
+function dot_(a, b) { return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] }
 # a cone, of which a cylinder is one: its normals make one angle with the axis; from there Newton's method on distances from the axis
 function isCone(f,   i, k, j, S, a, e1, e2, p, v, d, t, w, q, r0, rise, off, most, ends) {
   for (k = 1; k <= 3; k++) { S[k] = momentN[k] / areaOf[f] - (sumN[k] / areaOf[f]) ^ 2; S[3 + k] = momentN[3 + k] / areaOf[f] - sumN[k] * sumN[k % 3 + 1] / areaOf[f] ^ 2 }

@@ -3,7 +3,7 @@
 # Gives: tell(): TABLE, bodies and faces with their kinds and neighbours, and the pairs of bodies that touch, with the statements that
 #        say what they are;  touching(): touch_[a, b] the pairs of faces;  tellCut(name, body, faces): a line more;  warnOfTouch(): TOUCH, a line for each pair of bodies of which
 #        no statement of the case says anything. Two faces lie on each other if they are of one kind, at one place, within 1e-6 of the
-#        whole, and a piece of one lies inside the other; those of kind other, if they have one area and one middle.
+#        whole, and a piece of one lies inside the other, with opposite normals; those of kind other, if they have one area and one middle.
 function boxOf(f,   n, i, k, e, list) {
   if ((f, 0) in boxLow) return
   for (k = 0; k < 3; k++) { boxLow[f, k] = 1e300; boxHigh[f, k] = -1e300 }
@@ -76,6 +76,14 @@ function partOn(f, g,   A, B, n, m, i, j, k, r, q, t, b, cx, cy, cz, wide, cell,
   }
   return 0
 }
+# do faces of one shape look at each other? flush ones, with one outward normal, share an edge at most
+function opposite(f, g,   k, c, w) {
+  if (kind_[f] == "other" || split(sidesOf[f], w, " ") != 1 || split(sidesOf[g], w, " ") != 1) return 1
+  outward(f); outward(g)
+  if (kind_[f] !~ /^(plane|line)$/) return hollow[f] != hollow[g]
+  for (k = 1; k <= 3; k++) c += wayOf[f, k] * wayOf[g, k]
+  return c < 0
+}
 function cellOf(v, wide) { v /= wide; return v < 0 ? -int(-v) - 1 : int(v) }
 function touching(   n, w, i, j, a, b, k, l, nf, ng, F, G) {
   n = split(entities[dim], w, " ")
@@ -85,7 +93,7 @@ function touching(   n, w, i, j, a, b, k, l, nf, ng, F, G) {
       nf = split(around[a], F, " "); ng = split(around[b], G, " ")
       for (k = 1; k <= nf; k++)
         for (l = 1; l <= ng; l++)
-          if (F[k] != G[l] && nearBoxes(F[k], G[l]) && (ENVIRON["TABLE"] != "" || !isStated(a, b, F[k], G[l])) && oneShape(F[k], G[l]) && (partOn(F[k], G[l]) || partOn(G[l], F[k]))) {
+          if (F[k] != G[l] && nearBoxes(F[k], G[l]) && (ENVIRON["TABLE"] != "" || !isStated(a, b, F[k], G[l])) && oneShape(F[k], G[l]) && (partOn(F[k], G[l]) || partOn(G[l], F[k])) && opposite(F[k], G[l])) {
             if (!((a, b) in touch_)) touchAt[++touches_] = a SUBSEP b
             touch_[a, b] = touch_[a, b] " " F[k] "," G[l]
             meets[F[k]] = meets[F[k]] " " G[l]

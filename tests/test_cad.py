@@ -361,6 +361,38 @@ def test_disc_in_a_hole(radius, tmp_path):
     assert ("touch (curves" in said) == (radius == 1)
 
 
+FLUSH = """Box(1) = {0, 0, 0, 4, 4, 2}; Cylinder(2) = {2, 2, -1, 0, 0, 4, 1};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {2, 2, 0, 0, 0, 3, 1}; Cylinder(5) = {2, 2, 2.5, 0, 0, 1.5, 1}; Sphere(6) = {8, 8, 8, 1};
+MeshSize{:} = 0.8;
+"""
+
+
+def test_flush(tmp_path):
+    """Faces with one outward normal, in a plane or on a cylinder, are no neighbours; a coarse sphere has its area."""
+    geo = tmp_path / "flush.geo"
+    geo.write_text(OCC + FLUSH)
+    said = table(tmp_path, geo)
+    pairs = sorted(re.findall(r"touch \(faces (.*)\)", said))
+    of = {row[0].split()[0] + f" of {row[5].split(';')[0]}": row for row in rows(said).values()}
+    assert len(pairs) == 1 and pairs[0].count(" on ") == 1, pairs
+    assert of["sphere of 6"][4] == pytest.approx(4 * np.pi, rel=4e-4)
+    assert "; on" in of["cylinder of 4"][5] and "; on" not in of["cylinder of 5"][5]
+
+
+@pytest.mark.long
+def test_part_of_two_materials(tmp_path):
+    """Strains jump between bodies that share nodes, recovery keeps the jump: P2 is exact here, and ± says so."""
+    mesh = gmsh(tmp_path, "part.step", STACK, "-0")
+    case = STACKED.replace("E 300", "E 3e5") + "traction top 0 0 3\njoin high low part\n"
+    case = case.replace("side plane -1 0 0 1 0 0", "top plane 0 0 5.01 0 0 -1")
+    found = part(tmp_path, mesh, case, space=True).summary
+    left = 3 - 0.01 / (3 / 100 + 2 / 3e5)
+    (contact,) = found["estimates"]["contacts"]
+    assert contact["normalForce"]["value"] == pytest.approx(left, rel=1e-6)
+    assert contact["normalForce"]["error"] < 1e-4 * left
+
+
 FITTED = (
     OCC
     + """Cylinder(1) = {0, 0, 0, 0, 0, 4, RADIUS}; Box(2) = {-3, -3, 0, 6, 6, 2}; Cylinder(12) = {0, 0, -1, 0, 0, 9, 1};

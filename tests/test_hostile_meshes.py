@@ -442,16 +442,23 @@ UPPER = ["-1.2, 1.1", "1.2, 1.1", "1.2, 2.1", "-1.2, 2.1"]
 GEO += polygon("upper", "0.5", UPPER, {1: "master", 3: "pushed"}, 5)
 
 
+CROSSED = """Point(1) = {0, 0, 0, 1}; Point(2) = {2, 2, 0, 1}; Point(3) = {2, 0, 0, 1}; Point(4) = {0, 2, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Physical Surface("upper") = {1}; Physical Curve("master") = {1};
+"""
+
+
 @pytest.mark.parametrize(
     "text, words",
     [
         ("Point(1) = {0, 0", ["gmsh cannot read it"]),
+        (CROSSED, ["gmsh reads it, but cannot mesh it: ", "; allowed: another size of elements, another algorithm"]),
         ("Point(1) = {0, 0, 0};", ["no physical groups"]),
         (GEO.replace("Physical", "// Physical"), ["no physical groups"]),
         (GEO.replace('"master"', '"Master"'), ["line 3: master: no physical curve", "did you mean Master?"]),
         (GEO + "Recombine Surface{1, 2};", ["quadrangle"]),
     ],
-    ids="broken point unnamed misnamed quadrangles".split(),
+    ids="broken crossed point unnamed misnamed quadrangles".split(),
 )
 def test_refused_geo(text, words, tmp_path):
     """What gmsh cannot read, or reads as another mesh than the scene wants, shall be refused."""

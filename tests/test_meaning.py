@@ -53,6 +53,7 @@ def test_half(go):
     assert told.summary["force"] == 20
     assert told.summary["prescribed"] == [{"name": "force head", "force": 20, "times": 2}]
     assert re.search(r"^  force head +20 of the whole 2 times as much: 40$", told.stdout, re.M)
+    assert re.search(rf"^  force head moves +{told.summary['ways'][0]['way']:.6g}$", told.stdout, re.M)
     assert told.summary["contacts"][0]["force"] == pytest.approx([0, 20], abs=1e-6)
     assert told.summary["contacts"][0]["normalForce"] > 20.01
 

@@ -43,7 +43,11 @@ def moments(run):
 
 def way(run):
     """The load-point displacement of the first load."""
-    return run.summary["estimates"]["loads"][0]["way"]["value"]
+    estimated = [(load["name"], load["way"]["value"]) for load in run.summary["estimates"]["loads"]]
+    told = [(load["name"], load["way"]) for load in run.summary["ways"]]
+    assert [name for name, _ in told] == [name for name, _ in estimated]
+    assert [value for _, value in told] == pytest.approx([value for _, value in estimated], rel=1e-5)
+    return estimated[0][1]
 
 
 def across(place, force):

@@ -720,6 +720,14 @@ def test_gap_vertical_in_space(tmp_path):
     assert forces[1:] == pytest.approx([forces[0]] * 2, rel=1e-8)
 
 
+def test_gap_vertical_of_a_slave_that_faces_down(tmp_path):
+    """In space the gap is measured up: a slave that faces down is refused, with the contact to write."""
+    case = STACK.replace('top "upper bottom"', '"upper bottom" top gap vertical') + "clamp bottom\n"
+    said = solve(tmp_path, boxes(), case, script="parts-3d.edp", expect=10).stdout
+    assert "contact upper bottom top: gap vertical: the slave does not face up at (" in said
+    assert "allowed: slave and master exchanged, or no gap vertical" in said
+
+
 @pytest.mark.parametrize(
     "text, words",
     [

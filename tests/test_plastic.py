@@ -298,6 +298,7 @@ BODY = "body block E 100 nu 0.3\nplastic block 1 0\nclamp bottom\nobstacle top p
 REFUSED = {
     ("state stress\n" + BODY.format(""),): "plastic: in plane strain and about an axis only; allowed: state strain",
     (BODY.format(""), "-order", 1): "plastic: not with -order 1; allowed: 2",
+    (BODY.format(""), "-accuracy", 0.1): "plastic: not with -accuracy 0.1; allowed: -accuracy 0, for the errors",
     (BODY.format(" friction 0.2"),): "plastic: not with friction or tie",
     (BODY.format(""), "-method", "newton"): "plastic: not with -method newton; allowed: xnewton",
     (BODY.format(""), "-distance", "exact"): "plastic: not with -distance exact; allowed: linear",

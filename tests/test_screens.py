@@ -43,6 +43,41 @@ SUMMARY = {
 }
 
 
+def thick_body(thickness, state="strain"):
+    """A summary of a half with a force, a moment, a preload, and no estimates."""
+    own = {"bodies": [{"name": "bar"}], "units": ["mm", "MPa"], "thickness": thickness, "state": state}
+    pushed, turned = {"name": "force top", "force": 48}, {"name": "moment right", "moment": 1.5}
+    own["prescribed"] = [{**pushed, "times": 2}, {**turned, "times": 2}]
+    own["ways"] = [{"name": "force top", "way": 0.25}, {"name": "moment right", "way": 0.125}]
+    own["supports"] = [{"name": "clamp foot", "force": [0, 48]}]
+    own["preloads"] = [{"name": "waist", "force": 12.5, "preload": 10, "shortened": 0.25}]
+    own["moments"] = [{"name": "clamp foot", "body": "bar", "point": "", "about": [0, 0], "moment": [1.5]}]
+    own["moments"][0]["printed"] = True
+    return {**SUMMARY, **own}
+
+
+def test_units_of_a_unit(tmp_path):
+    """Forces on the screen are those of a unit of thickness, with that unit; the whole's stand beside them in N."""
+    said = screen(tmp_path / "5", thick_body(5))
+    for line in (
+        r"  forces, moments, work and heat are those of a unit of thickness; all 5 carry 5 times as much",
+        r"  force top +48 N/mm +240 N for the thickness 5, of the whole 2 times as much: 96, 480 N for the thickness 5",
+        r"  moment right +1.5 N +7.5 N mm for the thickness 5",
+        r"  force top moves +0.25 mm",
+        r"  moment right turns +0.125 rad",
+        r"  clamp foot carries +\(0, 48\) N/mm",
+        r"    clamp foot +1.5 N +on bar, about \(0, 0\)",
+        r"  preload waist +12.5 N/mm +under the loads; tightened to 10, 50 N for the thickness 5, shortened by 0.25",
+    ):
+        assert re.search(f"^{line}", said, re.M), (line, said)
+    thin, ring = screen(tmp_path / "1", thick_body(1)), screen(tmp_path / "ring", thick_body(1, "axisymmetric"))
+    assert "unit of thickness" not in thin + ring and "for the thickness" not in thin + ring
+    assert re.search(r"^  force top +48 N/mm +of the whole 2 times as much: 96$", thin, re.M)
+    assert re.search(r"^  moment right +1.5 N +of the whole 2 times as much: 3$", thin, re.M)
+    assert re.search(r"^  moment right +1.5 N mm +of the whole 2 times as much: 3$", ring, re.M)
+    assert re.search(r"^  clamp foot carries +\(0, 48\) N$", ring, re.M)
+
+
 # ---------------------------------------------------------------- whole screens
 
 

@@ -197,6 +197,7 @@ REFUSED = {  # @: an obstacle
     "@ friction 0.3 wear 1e-6 slide 1\ncycles 1": "wear: slide with friction, whose slip is computed",
     "@ friction 0.3 wear 1e-6\ncycles 1": "wear by friction without a cycle",
     "@ friction 0.3 wear 1e-6\nobstacle left plane 0 0 1 0 wear 1e-6 slide 1\ncycles 1\nleg 1\nleg 1": "one kind",
+    "contact left right gap vertical wear 1e-6 slide 1\ncycles 1": "left: gap vertical with wear: depth and pressure",
     "wear top 1e-6": "wear: unknown statement; it stands behind a contact or an obstacle",
 }
 

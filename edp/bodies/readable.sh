@@ -106,6 +106,12 @@ fi
 named() { ! grep -q '[[:cntrl:]]' "$folder/names" || no "a control character in a group's name; allowed: other names"; }
 # gmsh's own way to name what it cannot read
 complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
+# an error of gmsh's: in reading the file, or, once it has begun a mesh, in meshing it
+stopped() {
+    grep -q '^Error' "$1" || return 0
+    sed '/^Error/q' "$1" | grep -q '^Info *: Meshing [123]D' || no "gmsh cannot read it: $(complaint "$1")"
+    no "gmsh reads it, but cannot mesh it: $(complaint "$1"); allowed: another size of elements, another algorithm of gmsh's (Mesh.Algorithm), or closed surfaces, as a torus, split in the geometry"
+}
 reader=${0%/*}/../case/case
 readCase() {
     CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=$again BODIES=${bodies-} \
@@ -130,7 +136,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
         gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
             -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
         ! test -s "$folder/apart.geo" || ! grep -q '^Error' "$folder/log" || no "-case $case_: bodies of it cannot be cut, joined or taken apart: $(complaint "$folder/log"); allowed: a STEP or BREP file, or a .geo file with SetFactory(\"OpenCASCADE\")" 3
-        grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
+        stopped "$folder/log"
         grep '^piece ' "$folder/log" > "$folder/pieces"
         test -s "$folder/outline.msh" || no "gmsh makes no mesh of it"
         test "$space" = 0 || test $cad = 1 || awk '/^\$Entities/ { getline; exit !($4 > 0) }' "$folder/outline.msh" || no "$plane"
@@ -215,7 +221,7 @@ case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q
 if test -n "$how"; then
     command -v gmsh > /dev/null || no "not gmsh's version 2 text format, and gmsh, which would convert it, is not on the PATH"
     gmsh "$how" $order -v 4 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
-    grep -q '^Error' "$folder/log" && no "gmsh cannot read it: $(complaint "$folder/log")"
+    stopped "$folder/log"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
     test "$how" != -3 || gmsh $flat -v 1 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
     test ! -s "$folder/surface.msh" || surface=$folder/surface.msh

@@ -189,6 +189,8 @@ function readContact(   side, v, f, wear, heat, law, gap, next_, over) {
     else if (next_ == "interference" && !over) over = number("the interference", 0, 1e300)
     else no(next_ ": not allowed here; " usageOf("contact"))
   }
+  if (gap == "vertical" && (0 in heat)) no(nameOf[side[0]] ": gap vertical with conductance: heat crosses the true area, this gap weighs the one seen along the vertical; allowed: conductance without gap vertical")
+  if (gap == "vertical" && (0 in wear)) no(nameOf[side[0]] ": gap vertical with wear: depth and pressure of wear are those along the normal; allowed: wear without gap vertical")
   measured(side[0], gap)
   v[4] -= over
   put(side[0], side[1], gap, "none", law, v)

@@ -166,7 +166,7 @@ function stresses(   k, p, e, unit) {
 }
 function turns(p) { return v[p ".name"] ~ /^moment / }
 function moments(   k, p, i, e, m, unit, note, some) {
-  unit = force == "" ? "" : (force ~ /\// ? "N" : force " " v[".units.0"])
+  unit = turning
   for (k = 0; k < count[".moments"]; k++) {
     p = ".moments." k
     if (v[p ".printed"] != "true") continue
@@ -195,28 +195,40 @@ function heat(   k, p, most) {
   if (most > 0) print "    heat in = heat out (to " digits(size(v[".heat.in"] - v[".heat.out"]) / most, 1) ")"
 }
 function rounded(x, most) { return size(x) < 1e-9 * most ? 0 : x + 0 }
+# of a force or moment of a unit of thickness, that of the whole thickness
+function thick(x, word,   unit) {
+  if (dimension == 3 || v[".state"] == "axisymmetric" || v[".thickness"] == 1) return ""
+  unit = whole == "" ? "" : " " whole (word == "moment" ? " " v[".units.0"] : "")
+  return digits(x * v[".thickness"], 6) unit " for the thickness " v[".thickness"]
+}
 function own(   k, p, e, word, times) {
   for (k = 0; k < count[".prescribed"]; k++)
     if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
+  if (thick(1) != "") print "  forces, moments, work and heat are those of a unit of thickness; all " v[".thickness"] " carry " v[".thickness"] " times as much"
   for (k = 0; k < count[".contacts"]; k++) { contact(k); worn(k) }
   if (v[".wear.stepsError"] ~ /^not known/) print "  error of the wear steps " v[".wear.stepsError"]
   for (k = 0; k < count[".prescribed"]; k++) {
     p = ".prescribed." k
     word = (p ".moment") in v ? "moment" : "force"
     e = error(p)
-    times = v[p ".times"] > 1 ? "of the whole " v[p ".times"] " times as much: " digits(v[p ".times"] * v[p "." word], 6) : ""
-    if (v[".thickness"] != 1) times = also(times, digits(v[p "." word] * v[".thickness"], 6) " for the thickness " v[".thickness"])
+    times = thick(v[p "." word], word)
+    if (v[p ".times"] > 1)
+      times = also(times, "of the whole " v[p ".times"] " times as much: " also(digits(v[p ".times"] * v[p "." word], 6), thick(v[p ".times"] * v[p "." word], word)))
     if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
     if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {
-      result(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : "", also(unknown(e), times))
+      result(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : turning, also(unknown(e), times))
       worse(e, v[p "." word], word " of " v[p ".name"])
-    } else if (times != "") result(v[p ".name"], v[p "." word], 0, force, times)
+    } else if (times != "") result(v[p ".name"], v[p "." word], 0, word == "force" ? force : turning, times)
   }
   for (k = 0; k < count[".estimates.loads"]; k++) {
     p = ".estimates.loads." k
     e = error(p ".way")
     if (known(p ".way.value")) result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way.value"], e, turns(p) ? "rad" : v[".units.0"], "")
     worse(e, v[p ".way.value"], "displacement of " v[p ".name"])
+  }
+  for (k = 0; k < count[".ways"] && !estimated; k++) {
+    p = ".ways." k
+    result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way"], 0, turns(p) ? "rad" : v[".units.0"], "")
   }
   for (k = 0; k < count[".supports"]; k++)
     put(sprintf("  %-26s %14s %s", v[".supports." k ".name"] " carries", vector(".supports." k ".force", count[".supports." k ".force"], 0), force))
@@ -227,7 +239,7 @@ function own(   k, p, e, word, times) {
   for (k = 0; k < count[".preloads"]; k++) {
     p = ".preloads." k
     e = known(p ".error") ? v[p ".error"] : -1
-    result("preload " v[p ".name"], v[p ".force"], e, force, "under the loads; tightened to " digits(v[p ".preload"], 6) ", shortened by " \
+    result("preload " v[p ".name"], v[p ".force"], e, force, "under the loads; tightened to " also(digits(v[p ".preload"], 6), thick(v[p ".preload"], "force")) ", shortened by " \
       (e < 0 ? digits(v[p ".shortened"], 6) ", errors not known" : shown(v[p ".shortened"], v[p ".shortenedError"]) " ± " off(v[p ".shortened"], v[p ".shortenedError"])))
   }
   stresses()
@@ -309,7 +321,11 @@ END {
   estimated = ".estimates.parts.inside" in v
   owned = ".bodies.0.name" in v
   worst = wide = 0
-  if (v[".units.0"] " " v[".units.1"] ~ /^(mm MPa|m Pa)$/) force = dimension == 3 || v[".state"] == "axisymmetric" || v[".thickness"] != 1 ? "N" : "N/" v[".units.0"]
+  if (v[".units.0"] " " v[".units.1"] ~ /^(mm MPa|m Pa)$/) {
+    whole = "N"
+    force = dimension == 3 || v[".state"] == "axisymmetric" ? whole : whole "/" v[".units.0"]
+    turning = force == whole ? "N " v[".units.0"] : whole
+  }
   if (known(".units.0")) wide = 1 + (length(force) > 4 ? length(force) : 4)
   cost = v[".newton"] (v[".newton"] == 1 ? " iteration" : " iterations") (v[".adaptations"] > 1 ? ", " v[".adaptations"] " models" : "") ", " digits(v[".seconds.total"], 2) " s"
   if (v[".converged"] != "true") {
