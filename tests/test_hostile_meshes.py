@@ -371,7 +371,7 @@ def untouched(tmp_path_factory):
     (folder / "mesh.msh").write_text(Mesh().text())
     run = attempt(folder / "mesh.msh", folder)
     assert run.code == 0, run.stdout
-    assert not run.summary["warnings"]
+    assert not [said for said in run.summary["warnings"] if "strains are taken to be small" not in said]
     return run.force, checked(folder / "mesh.msh", folder)[0]
 
 

@@ -269,7 +269,7 @@ WORDS = {
     "support": "did you mean clamp (no displacement)?",
     "acceleration": "did you mean gravity (an acceleration of all bodies with a density)?",
     "glue": "did you mean tie (two surfaces glued: no gap, no slip)?",
-    "weld": "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part",
+    "weld": "join BODY BODY part makes two bodies of a geometry that touch one part",
     "friction": "it stands behind a contact or an obstacle",
     "material": "did you mean body (",
     "mesh": "did you mean size (",
