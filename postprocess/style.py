@@ -78,11 +78,16 @@ def add_units(parser) -> None:
     )
 
 
-def add_picture(parser, name: str, written: str = "") -> None:
-    """The arguments of a command that draws one run into its own folder."""
+def add_output(parser, name: str, written: str = "") -> None:
+    """The run, and --out, of a command that draws it into its own folder."""
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
     written = written or f"{name}.pdf"
     parser.add_argument("--out", metavar=written.replace(name, "FILE"), help=f"where to write (default: RUN/{written})")
+
+
+def add_picture(parser, name: str, written: str = "") -> None:
+    """The arguments of a command that draws one run's bodies into its own folder."""
+    add_output(parser, name, written)
     parser.add_argument(
         "--scale",
         type=lambda text: None if text == "auto" else float(text),
@@ -97,7 +102,7 @@ def add_picture(parser, name: str, written: str = "") -> None:
         metavar=("AZIMUTH", "ELEVATION"),
         help="in space: where the eye is, degrees from x towards y, and above; default: where it sees the contact",
     )
-    if written.endswith(".pdf"):
+    if not written or written.endswith(".pdf"):
         parser.add_argument("--slide", action="store_true", help="panels side by side on a page of 16:9, for a slide")
     add_units(parser)
 

@@ -17,7 +17,7 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (8065, 117), "edp/parts.edp": (17460, 169), BARE: (5544, 81)}  # lines, files
+READ = {"edp/main.edp": (8065, 117), "edp/parts.edp": (17472, 169), BARE: (5544, 81)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 107,
     "of these by two other files or more": 19,

@@ -21,8 +21,7 @@ ENERGIES = {"work": "work of the loads", "stored": "stored", "stored energy": "s
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("folder", metavar="RUN", help="a run's result folder")
-    parser.add_argument("--out", metavar="FILE.pdf", help="where to write (default: RUN/curve.pdf)")
+    style.add_output(parser, "curve")
     style.add_units(parser)
 
 

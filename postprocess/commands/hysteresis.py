@@ -17,7 +17,7 @@ from postprocess import style
 from postprocess.bodies import ZONES, units_of, zones
 from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, column_names, read_run, read_table
-from postprocess.series import curves, driving, read_series
+from postprocess.series import Curve, curves, driving, read_series
 from postprocess.words import Units
 
 COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
@@ -25,8 +25,7 @@ STRONG = {1: style.GREEN, 2: style.ORANGE}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("folder", metavar="RUN", help="a run's result folder")
-    parser.add_argument("--out", metavar="FILE.pdf", help="where to write (default: RUN/hysteresis.pdf)")
+    style.add_output(parser, "hysteresis")
     parser.add_argument(
         "--contact", type=int, default=0, metavar="N", help="in (b) the contact with this number; default 0"
     )
@@ -63,8 +62,8 @@ def flexibility(table: dict) -> float:
     return (drag[pulls] / shear[pulls]).min()
 
 
-def of_case(chosen: Run, table: dict, named: str | None) -> tuple[dict, str]:
-    """The table with displacement and reaction of one load or motion in place of drag and shear; and its name."""
+def of_case(chosen: Run, table: dict, named: str | None) -> tuple[dict, Curve]:
+    """The table with displacement and reaction of one load or motion in place of drag and shear; and that curve."""
     path = chosen.path / "series.csv"
     whole = read_series(chosen)
     if named is None:
@@ -77,24 +76,24 @@ def of_case(chosen: Run, table: dict, named: str | None) -> tuple[dict, str]:
     if each is None:
         raise ResultsError(path, "has no load or motion that does work in the last load phase; allowed: --along NAME")
     rows = len(table["step"])
-    return {**table, "drag": each.way[-rows:], "shearForce": each.force[-rows:]}, each.name
+    return {**table, "drag": each.way[-rows:], "shearForce": each.force[-rows:]}, each
 
 
 def draw(chosen: Run, units: style.Units, asked: argparse.Namespace, own: Units) -> Figure:
     """The figure, one column of a page wide, or a slide."""
     table = read_table(chosen.path / "series.csv", COLUMNS, "; run it with friction")
-    name = ""
+    curve = None
     if any(column.endswith(" reaction") for column in column_names(chosen.path / "series.csv")):
-        table, name = of_case(chosen, table, asked.along)
+        table, curve = of_case(chosen, table, asked.along)
     figure, panels = style.sheet([("a", 1.0), ("b", 0.9)], "ab", asked.slide)
     above, below = panels["a"], panels["b"]
-    words = f"displacement of {style.plain(name)}" if name else "dragged by"
+    words = f"displacement of {style.plain(curve.name)}" if curve else "dragged by"
     if asked.slip:
         words = "displacement without its elastic part"
         table["drag"] -= flexibility(table) * table["shearForce"]
-    turns = name.startswith(("rotate ", "moment "))
+    turns = curve is not None and curve.turns
     force = own.moment if turns else own.force
-    said = ("moment" if turns else "reaction") if name else "shear force"
+    said = ("moment" if turns else "reaction") if curve else "shear force"
     plot_loop(above, table, f"{words} [{'rad' if turns else units.length}]", f"{said} [{force}]" if force else said)
     if (chosen.path / "slides.csv").exists():
         plot_zones(below, chosen, asked.contact, len(table["step"]), units)

@@ -20,8 +20,7 @@ SIZE = (style.PAGE, 0.36 * style.PAGE)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("folder", metavar="RUN", help="a run's result folder")
-    parser.add_argument("--out", metavar="FILE.pdf", help="where to write (default: RUN/wear.pdf)")
+    style.add_output(parser, "wear")
     style.add_units(parser)
 
 

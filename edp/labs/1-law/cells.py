@@ -21,7 +21,7 @@ for kappa, (_, _, folder) in runs.items():
     right.plot(points["s"].mean(), points["pressure"].mean(), "o", label=f"κ = {kappa:g}")
 right.set_xlabel("s = d − d0")
 right.set_ylabel("pressure")
-right.legend()
+right.legend();
 
 # %% 3
 overlaps = [read(folder / "contact.csv")["s"].mean() for _, _, folder in runs.values()]

@@ -18,7 +18,7 @@ for m in (2, 3, 8):
     print(f"m = {m}: first ratio {(s[1] - s[-1]) / (s[0] - s[-1]):.4f}, 1 − 1/m = {1 - 1 / m:.4f}")
 axes.set_xlabel("Newton step")
 axes.set_ylabel("error s − s*")
-axes.legend()
+axes.legend();
 
 # %% 7
 for flags in (["-method", "linesearch"], ["-method", "incremental", "-steps", 5]):

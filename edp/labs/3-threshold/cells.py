@@ -10,7 +10,7 @@ for axes, number in zip(panels, numbers, strict=True):
     axes.set_ylim(-0.5, 0.1)
     axes.set_title(f"model {number:.0f}")
     axes.set_xlabel("x")
-panels[0].legend()
+panels[0].legend();
 
 # %% 3
 # One model, then the next threshold from its greatest pressure, at every point. Stop where no wall acts.
