@@ -366,6 +366,39 @@ def test_errors_of_two_preloads(tmp_path):
     assert off(found, true, "vonMises", "error") < 1
 
 
+ROUND_BOLT = """SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 6, 2, Pi/2};
+Cylinder(2) = {0, 0, 6, 0, 0, 1, 3, Pi/2};
+Mesh.MeshSizeMax = 1.5;
+"""
+ROUND = """group shank volumes 1
+group head volumes 2
+group x plane 0 0 0 1 0 0
+group y plane 0 0 0 0 1 0
+group foot plane 0 0 0 0 0 1
+group seat plane 0 0 6 0 0 1
+body shank E 200 nu 0
+body head E 200e6 nu 0
+join shank head part
+symmetry x
+symmetry y
+clamp foot
+obstacle seat plane 0 0 6 0 0 1
+cut waist shank plane 0 0 3 0 0 1
+preload waist 10
+"""
+
+
+def test_errors_of_a_round_bolt(tmp_path):
+    """Curved elements in front of the cut open as it does: a uniform strain has no error but that of the curves."""
+    (tmp_path / "bolt.geo").write_text(ROUND_BOLT)
+    run = case(tmp_path, tmp_path / "bolt.geo", ROUND, "-estimate", 1, space=True)
+    found = run.summary["preloads"][0]
+    exact = 10 * 6 / (200 * pi)
+    assert found["shortened"] == pytest.approx(exact, abs=found["shortenedError"])
+    assert 0 < found["shortenedError"] < 2e-3 * exact and 0 < found["error"] < 0.05
+
+
 @pytest.mark.long
 def test_an_interrupted_path_with_a_bolt(tmp_path):
     """It goes on with the shortenings that it has found, and says that its errors are not known."""
