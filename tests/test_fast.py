@@ -53,7 +53,7 @@ def without(package, tmp_path, *missing):
 
 
 INTERFACES = {
-    "fast-plugin-1": "454ea60306e9757b9c40c6ac9f5a9014",
+    "fast-plugin-2": "454ea60306e9757b9c40c6ac9f5a9014",
     "multigrid-plugin-3": "5680ba1b2f15b7359265135d5849aacc",
 }
 
