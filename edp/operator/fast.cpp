@@ -4,8 +4,8 @@
 // Gives: assembledInOrder(K, elementNode, nodeDof, nodeAt, moduli, power, shapes): the lower triangle of linear elasticity's K, known
 //        as half, for straight simplices in the plane or in space: tables as bodies/element.idp has them; moduli (elements x 2):
 //        lambda and mu; functions: shapes/6 times monomials of these powers (functions x 3); sortedRows(K): K in CHOLMOD's order;
-//        facingTriangles(...): searchMasters of surface/placed-space.idp on one tree, by the same sums; squaresFrom(...): squaredFrom
-//        of options/floating/chords-space.idp.
+//        entriesAdded(K, rows, columns, values): adds these to entries of an ordered K; facingTriangles(...): searchTree of
+//        surface/tree.idp, by the same sums; squaresFrom(...): squaredFrom of options/floating/chords-space.idp.
 // FreeFEM adds each entry to a hash table, and sorts by heap what it then factorises. Here a row is added up where it stands.
 // CHOLMOD copies between its supernodes by four OpenMP threads, whose waking costs more than they save: here it uses one.
 #include "ff++.hpp"
@@ -180,6 +180,25 @@ long facingTriangles(List *const &pFirst, List *const &pFace, Real *const &pBall
     return place.size();
 }
 
+// of half a matrix in order, with places for all of these entries
+long entriesAdded(Matrix *const &pK, List *const &pRow, List *const &pColumn, Row *const &pValue)
+{
+    Hashed *K = pK->pHM();
+    List &row = *pRow, &column = *pColumn;
+    if (!alike() || !K || K->state != Hashed::sorted_ij || !K->half) return 0;
+    const int n = row.N();
+    Ints start(K->n + 1, 0), place(n);
+    FOR(k, int(K->nnz)) ++start[K->i[k] + 1];
+    FOR(r, K->n) start[r + 1] += start[r];
+    FOR(k, n) {
+        const int *last = K->j + start[row[k] + 1], *at = std::lower_bound(K->j + start[row[k]], K->j + start[row[k] + 1], int(column[k]));
+        if (at == last || *at != column[k]) return 0;
+        place[k] = at - K->j;
+    }
+    FOR(k, n) K->aij[place[k]] += (*pValue)[k];
+    return 1;
+}
+
 // points of other contacts than that of point i: 1000 times as far as the farthest, and a length more
 long squaresFrom(List *const &pI, Row *const &pX, Row *const &pY, Row *const &pZ, List *const &pContact, long const &i,
                  double const &length, Row *const &pAway)
@@ -205,6 +224,7 @@ static void Load_Init()
     // OpenBLAS by OpenMP would wait for threads that are not there
     if (omp_set_max_active_levels && openblas_get_parallel && openblas_get_parallel() != 2) omp_set_max_active_levels(0);
     Global.Add("assembledInOrder", "(", new OneOperator7_<long, Matrix *, Whole *, Whole *, Real *, Real *, Whole *, Real *>(assembledInOrder));
+    Global.Add("entriesAdded", "(", new OneOperator4_<long, Matrix *, List *, List *, Row *>(entriesAdded));
     Global.Add("facingTriangles", "(", new OneOperator8_<long, List *, List *, Real *, Real *, Real *, Real *, Row *, Whole *>(facingTriangles));
     Global.Add("squaresFrom", "(", new OneOperator8_<long, List *, Row *, Row *, Row *, List *, long, double, Row *>(squaresFrom));
     Global.Add("sortedRows", "(", new OneOperator1_<long, Matrix *>(sortedRows));
