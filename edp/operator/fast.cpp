@@ -1,5 +1,5 @@
 // operator/fast.cpp: FreeFEM's stiffness assembled row by row, entries sorted by counting, searches: built by `make fast`
-// Another list of functions at the end, or another meaning: raise the number in the names of operator/without/ and their includes.
+// Another list of functions at the end, or another meaning: raise the number in the names of case/without/ and their includes.
 // Needs: FreeFEM's headers; the FreeFEM that they are of: another one is told 0, and goes its own way.
 // Gives: assembledInOrder(K, elementNode, nodeDof, nodeAt, moduli, power, shapes): the lower triangle of linear elasticity's K, known
 //        as half, for straight simplices in the plane or in space: tables as bodies/element.idp has them; moduli (elements x 2):
@@ -135,22 +135,22 @@ long sortedRows(Matrix *const &pK)
     return 1;
 }
 
-// found (2 x pairs): places and triangles; the others as surface/tree.idp has them
-long facingTriangles(List *const &pFirst, List *const &pFace, Real *const &pBall, Real *const &pNormal, Real *const &pAt,
-                     Real *const &pAlong, Row *const &pLimits, Whole *const &pFound)
+// all as surface/tree.idp has them; the last two are what is found
+long facingTriangles(List *const &pFace, Real *const &pBall, Real *const &pNormal, Real *const &pAt, Real *const &pAlong,
+                     Row *const &pLimits, List *const &pFor, List *const &pFound)
 {
-    List &first = *pFirst, &face = *pFace;
+    List &face = *pFace;
     Real &ball = *pBall, &normal = *pNormal, &at = *pAt, &along = *pAlong;
     Row &limits = *pLimits;
     const double back = limits[0], ahead = limits[1], cosine = limits[2];
     const int balls = ball.M();
-    if (!alike()) return -1;
-    Ints place, triangle, todo, level;                       // todo: balls that are to be looked at, the next one last
+    if (!alike()) return 0;
+    Ints first(1, 0), place, triangle, todo, level;          // each level's first ball; balls that are to be looked at, the next one last
+    for (int count = face.N(); count > 1; count = (count + 1) / 2) first.push_back(first.back() + count);
+    first.push_back(balls);
     FOR(p, at.M()) {
-        int top = 0;
-        while (first[top + 1] < balls) ++top;
         todo.assign(1, balls - 1);
-        level.assign(1, top);
+        level.assign(1, first.size() - 2);
         while (!todo.empty()) {
             const int b = todo.back(), l = level.back();
             todo.pop_back(), level.pop_back();
@@ -175,9 +175,9 @@ long facingTriangles(List *const &pFirst, List *const &pFace, Real *const &pBall
             if (facing > cosine) place.push_back(p), triangle.push_back(face[b]);
         }
     }
-    pFound->resize(2, place.size());
-    FOR(k, int(place.size())) (*pFound)(0, k) = place[k], (*pFound)(1, k) = triangle[k];
-    return place.size();
+    pFor->resize(place.size()), pFound->resize(place.size());
+    FOR(k, int(place.size())) (*pFor)[k] = place[k], (*pFound)[k] = triangle[k];
+    return 1;
 }
 
 // of half a matrix in order, with places for all of these entries
@@ -225,7 +225,7 @@ static void Load_Init()
     if (omp_set_max_active_levels && openblas_get_parallel && openblas_get_parallel() != 2) omp_set_max_active_levels(0);
     Global.Add("assembledInOrder", "(", new OneOperator7_<long, Matrix *, Whole *, Whole *, Real *, Real *, Whole *, Real *>(assembledInOrder));
     Global.Add("entriesAdded", "(", new OneOperator4_<long, Matrix *, List *, List *, Row *>(entriesAdded));
-    Global.Add("facingTriangles", "(", new OneOperator8_<long, List *, List *, Real *, Real *, Real *, Real *, Row *, Whole *>(facingTriangles));
+    Global.Add("facingTriangles", "(", new OneOperator8_<long, List *, Real *, Real *, Real *, Real *, Row *, List *, List *>(facingTriangles));
     Global.Add("squaresFrom", "(", new OneOperator8_<long, List *, Row *, Row *, Row *, List *, long, double, Row *>(squaresFrom));
     Global.Add("sortedRows", "(", new OneOperator1_<long, Matrix *>(sortedRows));
 }
