@@ -23,8 +23,8 @@ VENV    := $(if $(CACHE),$(CACHE)/venv,.venv)
 BUILD   := $(if $(CACHE),$(CACHE)/build,build)
 PYTHON  := $(VENV)/bin/python
 # The plugins, by the names that the modules ask for: of another version's build/ they find none.
-FAST      := $(BUILD)/$(notdir $(wildcard edp/operator/without/fast-plugin-*.idp))
-MULTIGRID := $(BUILD)/$(notdir $(wildcard edp/operator/without/multigrid-plugin-*.idp))
+FAST      := $(BUILD)/$(notdir $(wildcard edp/case/without/fast-plugin-*.idp))
+MULTIGRID := $(BUILD)/$(notdir $(wildcard edp/case/without/multigrid-plugin-*.idp))
 # A plugin in the cache is named by a .freefem++.pref there: of FreeFEM's lists only those of HOME's come before this folder's.
 FREEFEM := $(if $(CACHE),env HOME=$(BUILD) )FreeFem++ -nw -v 0
 ifneq ($(RESULTS),results)

@@ -45,7 +45,7 @@ case $edp in *\;*)
     echo "$edp: FreeFEM's lists of folders have ; between them; allowed: a path without ;"
     exit 10 ;;
 esac
-FF_INCLUDEPATH="$root/build;$edp/operator/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
+FF_INCLUDEPATH="$root/build;$edp/case/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
 export FF_INCLUDEPATH
 test ! -d /usr/lib/freefem++ || FF_LOADPATH="/usr/lib/freefem++${FF_LOADPATH:+;$FF_LOADPATH}"
 export FF_LOADPATH="$root/build${FF_LOADPATH:+;$FF_LOADPATH}"

@@ -337,7 +337,7 @@ def find_multigrid() -> list:
 
 def own_plugin(name: str, how: str) -> Finding:
     """A plugin that `make` builds: under the name that the scripts ask for, from the present source."""
-    asked = next((ROOT / "edp/operator/without").glob(f"{name}-plugin-*.idp"), Path("none"))
+    asked = next((ROOT / "edp/case/without").glob(f"{name}-plugin-*.idp"), Path("none"))
     plugin, source, log = BUILD / asked.name, ROOT / f"edp/operator/{name}.cpp", BUILD / f"{name}.log"
     compiler = os.environ.get("CXX", "g++")
     if not plugin.exists():

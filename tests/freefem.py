@@ -23,7 +23,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 MULTIGRID, FAST = (  # as built; the numbers in the names are those of what the plugins give the scripts
-    ROOT / "build" / next((ROOT / "edp/operator/without").glob(f"{name}-plugin-*.idp")).name
+    ROOT / "build" / next((ROOT / "edp/case/without").glob(f"{name}-plugin-*.idp")).name
     for name in ("multigrid", "fast")
 )
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]

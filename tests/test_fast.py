@@ -7,8 +7,9 @@ import os
 import re
 import shutil
 
+import numpy as np
 import pytest
-from freefem import FAST, MULTIGRID, ROOT, environment, execute, run_in, script, tree
+from freefem import FAST, MULTIGRID, ROOT, data, environment, execute, run_in, script, snippet, told, tree
 
 DONE = ["-o", "system", "-o", ".venv/dev.stamp"]
 RUNS = [  # elements with half matrices, bodies of two materials, and what the plugin sorts but does not assemble
@@ -53,7 +54,7 @@ def without(package, tmp_path, *missing):
 
 
 INTERFACES = {
-    "fast-plugin-1": "454ea60306e9757b9c40c6ac9f5a9014",
+    "fast-plugin-2": "5bd3c518a64ca7ca517ac9767824ccec",
     "multigrid-plugin-3": "5680ba1b2f15b7359265135d5849aacc",
 }
 
@@ -87,6 +88,51 @@ def test_no_compiler_no_word(package, tmp_path):
     code, stdout = make(package, "try-fast", CXX="false")
     assert code == 0 and len(stdout.splitlines()) == 1, stdout
     assert not list((package / "build").glob("*.idp"))
+
+
+def hit(places, along, corners):
+    """Pairs of a place and a triangle that faces it and that its line, both ways, hits inside by far."""
+    first, second, third = corners.transpose(1, 0, 2)
+    normal = np.cross(second - first, third - first)
+    size = np.linalg.norm(normal, axis=1)
+    pairs = set()
+    for p, (place, way) in enumerate(zip(places, along, strict=True)):
+        facing = -normal @ way
+        x = place + (((first - place) * normal).sum(axis=1) / -facing)[:, None] * way
+        inside = [
+            (np.cross(t - s, x - s) * normal).sum(axis=1) > 0.01 * size**2
+            for s, t in ((first, second), (second, third), (third, first))
+        ]
+        pairs |= {(p, k) for k in np.flatnonzero(np.all(inside, axis=0) & (facing > 0.1 * size))}
+    return pairs
+
+
+def test_same_in_space(tmp_path):
+    """Curved elements, searches along rays and distances shall be the same with the plugin and without, and right."""
+    bracket = "edp/examples/ball-on-bracket/ball-on-bracket"
+    text = (ROOT / "edp/parts-3d.edp").read_text()
+    parts = (ROOT / "edp/parts.edp").read_text().split('include "solve/solve.idp"')[0]
+    text = text.replace('include "parts.edp"', parts) + data("fast/space.edp")
+    sizes = [word for name, size in (("size", 0.8), ("round", 4), ("coarse", 12)) for word in ("-set", name, size)]
+    flags = ["-mesh", f"{bracket}.geo", "-case", f"{bracket}.case", *sizes]
+    without, by_plugin = tmp_path / "without", tmp_path / "with"
+    for folder in (without, by_plugin):
+        folder.mkdir()
+    if FAST.exists():
+        (by_plugin / "build").symlink_to(FAST.parent)
+    plain, fast = (told(snippet(folder, text, *flags)) for folder in (without, by_plugin))
+    scale = abs(plain["forces"]).max()
+    assert abs(fast["forces"] - plain["forces"]).max() < 1e-11 * scale
+    for name in ("rays", "squares"):
+        assert (fast[name] == plain[name]).all(), name
+    found = set(map(tuple, plain["rays"].reshape(-1, 2).astype(int)))
+    expected = hit(*(plain[name].reshape(-1, 3) for name in ("places", "along")), plain["corners"].reshape(-1, 3, 3))
+    assert len(expected) > 50 and expected <= found
+    points = plain["points"].reshape(-1, 3)
+    for i, squares in enumerate(plain["squares"].reshape(20, -1)):
+        away = np.linalg.norm(points[::3] - points[i], axis=1)
+        away[np.arange(0, len(points), 3) % 2 != i % 2] = 1e3 * (away.max() + 5)
+        assert squares == pytest.approx(away**2, rel=1e-12)
 
 
 @pytest.mark.long

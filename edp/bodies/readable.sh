@@ -49,6 +49,24 @@ test -d "$file" && no "a folder, no mesh"
 test -f "$file" || no "no file: a pipe or a device"
 test "$case_" = none || test -f "$case_" || no "-case $case_: a folder, a pipe or a device; allowed: a case file" 3
 test -r "$file" || no "may not be read"
+kind=$(printf %s "${file##*.}" | tr A-Z a-z)
+# what was read of a geometry is kept beside its mesh, with the checksums of all that it comes of: the next run takes it
+memory=
+generated=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
+generated=${generated:+$generated/meshes}
+generated=${generated:-$meshes/generated}
+case $as$kind in solvegeo | solvestep | solvestp | solvebrep | solveiges | solveigs)
+    sources=$(sh "${0%/*}/reads.sh" "$run" "$file" "$case_")
+    if test "$(printf '%s\n' "$sources" | wc -l)" = 2 && mkdir -p "$generated" 2> /dev/null; then
+        memory=$generated/own-$(printf '%s\n' "$sources" "$SETS" "$space" | cksum | tr ' ' -).tar
+        from=$(cksum < "$file"; cksum < "$case_"; cat "${0%/*}"/*.sh "${0%/*}"/*.geo "${0%/*}"/../case/*.awk "$meshes"/*.awk | cksum)
+        if tar -xof "$memory" -C "$folder" 2> /dev/null && test "$from" = "$(cat "$folder/from" 2> /dev/null)"; then
+            after=$(sed -n 2p "$folder/told")
+            if test -z "$after" || test -f "$after"; then exit 0; fi
+        fi
+        rm -f "$folder"/*
+    fi ;;
+esac
 how=
 order=
 for name in gmsh left touch; do : > "$folder/$name"; done
@@ -58,7 +76,6 @@ finer="mesh with smaller elements"
 every=${0%/*}/every-curve.geo
 # a name with = would be an assignment to awk
 case $case_ in none) path=/dev/null ;; /*) path=$case_ ;; *) path=./$case_ ;; esac
-kind=$(printf %s "${file##*.}" | tr A-Z a-z)
 import=
 overlap=
 again=
@@ -195,9 +212,6 @@ case $kind in geo | step | stp | brep | iges | igs)
     how=-$((2 + space))
     test "$space" = 1 || order="-order 2"
     # kept as the package's own meshes are, if it stands for itself: what it includes may change unseen
-    generated=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
-    generated=${generated:+$generated/meshes}
-    generated=${generated:-$meshes/generated}
     after=$picked
     test -n "$after" || test "$space" = 1 || after=$every
     if test -n "$picked" && mkdir -p "$generated" 2> /dev/null; then
@@ -255,4 +269,9 @@ test $code = 0 || room 1024
 room 1
 test $code -le 1 || no "cannot be checked: is awk there, and room in ${folder%/*}?"
 test $code -eq 1 || test "$(tail -n 1 "$folder/mesh.msh")" = '$EndElements' || no "its larger copy cannot be written in ${folder%/*}"
+case $after in "$folder"/*) memory= ;; esac
+if test $code = 0 && test -n "$memory"; then
+    printf '%s\n' "$from" > "$folder/from"
+    { tar -cf "$memory.$run" -C "$folder" . && mv -f "$memory.$run" "$memory" || rm -f "$memory.$run"; } 2> /dev/null
+fi
 exit $code

@@ -1,10 +1,13 @@
-// operator/fast.cpp: FreeFEM's stiffness assembled row by row, and entries sorted by counting: built by `make fast`
-// Another list of functions at the end, or another meaning: raise the number in the names of operator/without/ and their includes.
+// operator/fast.cpp: FreeFEM's stiffness assembled row by row, entries sorted by counting, searches: built by `make fast`
+// Another list of functions at the end, or another meaning: raise the number in the names of case/without/ and their includes.
 // Needs: FreeFEM's headers; the FreeFEM that they are of: another one is told 0, and goes its own way.
 // Gives: assembledInOrder(K, elementNode, nodeDof, nodeAt, moduli, power, shapes): the lower triangle of linear elasticity's K, known
 //        as half, for straight simplices in the plane or in space: tables as bodies/element.idp has them; moduli (elements x 2):
-//        lambda and mu; functions: shapes/6 times monomials of these powers (functions x 3); sortedRows(K): K in CHOLMOD's order.
+//        lambda and mu; functions: shapes/6 times monomials of these powers (functions x 3); sortedRows(K): K in CHOLMOD's order;
+//        entriesAdded(K, rows, columns, values): adds these to entries of an ordered K; facingTriangles(...): searchTree of
+//        surface/tree.idp, by the same sums; squaresFrom(...): squaredFrom of options/floating/chords-space.idp.
 // FreeFEM adds each entry to a hash table, and sorts by heap what it then factorises. Here a row is added up where it stands.
+// CHOLMOD copies between its supernodes by four OpenMP threads, whose waking costs more than they save: here it uses one.
 #include "ff++.hpp"
 #include "AFunction_ext.hpp"
 #include "strversionnumber.hpp"
@@ -16,6 +19,13 @@ typedef KNM<long> Whole;
 typedef KNM<double> Real;
 typedef std::vector<double> Reals;
 typedef std::vector<int> Ints;
+typedef KN<long> List;
+typedef KN<double> Row;
+
+extern "C" {
+void omp_set_max_active_levels(int) __attribute__((weak));
+int openblas_get_parallel(void) __attribute__((weak));
+}
 
 static bool alike() { return std::abs(VersionNumber() - atof(FREEFEM_VERSION)) < 1e-6; }
 
@@ -125,9 +135,98 @@ long sortedRows(Matrix *const &pK)
     return 1;
 }
 
+// all as surface/tree.idp has them; the last two are what is found
+long facingTriangles(List *const &pFace, Real *const &pBall, Real *const &pNormal, Real *const &pAt, Real *const &pAlong,
+                     Row *const &pLimits, List *const &pFor, List *const &pFound)
+{
+    List &face = *pFace;
+    Real &ball = *pBall, &normal = *pNormal, &at = *pAt, &along = *pAlong;
+    Row &limits = *pLimits;
+    const double back = limits[0], ahead = limits[1], cosine = limits[2];
+    const int balls = ball.M();
+    if (!alike()) return 0;
+    Ints first(1, 0), place, triangle, todo, level;          // each level's first ball; balls that are to be looked at, the next one last
+    for (int count = face.N(); count > 1; count = (count + 1) / 2) first.push_back(first.back() + count);
+    first.push_back(balls);
+    FOR(p, at.M()) {
+        todo.assign(1, balls - 1);
+        level.assign(1, first.size() - 2);
+        while (!todo.empty()) {
+            const int b = todo.back(), l = level.back();
+            todo.pop_back(), level.pop_back();
+            const double r = ball(3, b), v = at(3, p) + r;
+            double away = 0, s = 0;
+            FOR(c, 3) {
+                const double t = ball(c, b) - at(c, p);
+                s += along(c, p) * t;
+                away += t * t;
+            }
+            away -= s * s;
+            away -= 1.000001 * (v * v);
+            if (!(away <= 0 && ahead + r - s >= 0 && back + r + s >= 0)) continue;
+            if (l > 0) {
+                const int child = first[l - 1] + 2 * (b - first[l]);
+                if (child + 1 < first[l]) todo.push_back(child + 1), level.push_back(l - 1);
+                todo.push_back(child), level.push_back(l - 1);
+                continue;
+            }
+            double facing = 0;
+            FOR(c, 3) facing -= along(c, p) * normal(c, int(face[b]));
+            if (facing > cosine) place.push_back(p), triangle.push_back(face[b]);
+        }
+    }
+    pFor->resize(place.size()), pFound->resize(place.size());
+    FOR(k, int(place.size())) (*pFor)[k] = place[k], (*pFound)[k] = triangle[k];
+    return 1;
+}
+
+// of half a matrix in order, with places for all of these entries
+long entriesAdded(Matrix *const &pK, List *const &pRow, List *const &pColumn, Row *const &pValue)
+{
+    Hashed *K = pK->pHM();
+    List &row = *pRow, &column = *pColumn;
+    if (!alike() || !K || K->state != Hashed::sorted_ij || !K->half) return 0;
+    const int n = row.N();
+    Ints start(K->n + 1, 0), place(n);
+    FOR(k, int(K->nnz)) ++start[K->i[k] + 1];
+    FOR(r, K->n) start[r + 1] += start[r];
+    FOR(k, n) {
+        const int *last = K->j + start[row[k] + 1], *at = std::lower_bound(K->j + start[row[k]], K->j + start[row[k] + 1], int(column[k]));
+        if (at == last || *at != column[k]) return 0;
+        place[k] = at - K->j;
+    }
+    FOR(k, n) K->aij[place[k]] += (*pValue)[k];
+    return 1;
+}
+
+// points of other contacts than that of point i: 1000 times as far as the farthest, and a length more
+long squaresFrom(List *const &pI, Row *const &pX, Row *const &pY, Row *const &pZ, List *const &pContact, long const &i,
+                 double const &length, Row *const &pAway)
+{
+    List &I = *pI, &contact = *pContact;
+    Row &X = *pX, &Y = *pY, &Z = *pZ, &away = *pAway;
+    const int n = I.N();
+    double most = 0;
+    if (!alike()) return 0;
+    FOR(k, n) {
+        const double x = X[I[k]] - X[i], y = Y[I[k]] - Y[i], z = Z[I[k]] - Z[i];
+        away[k] = sqrt(x * x + y * y + z * z);
+        most = std::max(most, away[k]);
+    }
+    const double far = 1e3 * (most + length);
+    FOR(k, n) if (contact[I[k]] != contact[i]) away[k] = far;
+    FOR(k, n) away[k] *= away[k];
+    return 1;
+}
+
 static void Load_Init()
 {
+    // OpenBLAS by OpenMP would wait for threads that are not there
+    if (omp_set_max_active_levels && openblas_get_parallel && openblas_get_parallel() != 2) omp_set_max_active_levels(0);
     Global.Add("assembledInOrder", "(", new OneOperator7_<long, Matrix *, Whole *, Whole *, Real *, Real *, Whole *, Real *>(assembledInOrder));
+    Global.Add("entriesAdded", "(", new OneOperator4_<long, Matrix *, List *, List *, Row *>(entriesAdded));
+    Global.Add("facingTriangles", "(", new OneOperator8_<long, List *, Real *, Real *, Real *, Real *, Row *, List *, List *>(facingTriangles));
+    Global.Add("squaresFrom", "(", new OneOperator8_<long, List *, Row *, Row *, Row *, List *, long, double, Row *>(squaresFrom));
     Global.Add("sortedRows", "(", new OneOperator1_<long, Matrix *>(sortedRows));
 }
 LOADFUNC(Load_Init)

@@ -1,7 +1,7 @@
 // multigrid.cpp: a FreeFEM plugin on PETSc: the stiffness of bodies in space, spread over the ranks, solved by multigrid
 // Built by `make mpi`; operator/multigrid.idp is its only user. Needs PETSc 3.14 or newer; runs in FreeFem++ and FreeFem++-mpi.
 // Here: the solves, by conjugate gradients, and the forces K u; multigrid-nodes.hpp and -part.hpp have the nodes, -matrix.hpp the matrix.
-// Another list of functions at the end, or another meaning: raise the number in the names of operator/without/ and their includes.
+// Another list of functions at the end, or another meaning: raise the number in the names of case/without/ and their includes.
 // Supports that are moved: a load along what is held, a huge stiffness times the displacement, as the direct engine has it. Bodies
 // that nothing holds are grounded at dofs that are held; their rigid motions are taken from loads and displacements.
 #include "multigrid-matrix.hpp"
