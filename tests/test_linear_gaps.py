@@ -8,7 +8,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part, short_of
+from freefem import ROOT, data, part, run_in, short_of, tree
 
 # an ellipse, finer near (0, 5), turned by `turn` about its centre
 CAM = data("linear-gaps/cam.geo")
@@ -211,6 +211,25 @@ def test_turned_in_space(said):
     # points that face nothing are no example for their neighbours
     exact = said(WHEEL, case.format("clamp shaft"), "-distance", "exact", space=True)
     assert exact.holds("force", true) and exact.known("force")[1] < 0.05 * true
+
+
+def test_open_points_change_nothing(tmp_path):
+    """The change by the true distance, of points in contact alone, shall be that of all points."""
+    package = tree(tmp_path / "package")
+    path = package / "edp/options/estimates/true-gap.idp"
+    text = path.read_text()
+    assert text.count("if (!hereTrue) pairOnly(touching);") == 1
+    path.write_text(text.replace("if (!hereTrue) pairOnly(touching);", ""))
+    example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders"
+    flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-order", 1, "-vtu", 0]
+    alone, all_of_them = (run_in(folder, "edp/parts-3d.edp", *flags, out=tmp_path / folder.name) for folder in (ROOT, package))
+    assert alone.summary["contactPoints"] < 0.5 * alone.summary["points"]
+    found, expected = alone.summary["linearised"], all_of_them.summary["linearised"]
+    assert found["trusted"] and len(expected["changes"]) > 1
+    assert found["normals"] == pytest.approx(expected["normals"], rel=1e-9)
+    assert found["pressureMax"] == pytest.approx(expected["pressureMax"], rel=1e-9)
+    for change, other in zip(found["changes"], expected["changes"], strict=True):
+        assert change["change"] == pytest.approx(other["change"], rel=1e-9, abs=1e-9)
 
 
 # ---------------------------------------------------------------- with friction
