@@ -223,7 +223,8 @@ def test_open_points_change_nothing(tmp_path):
     example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders"
     flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-order", 1, "-vtu", 0]
     places = {"alone": ROOT, "all": package}
-    alone, all_of_them = (run_in(place, "edp/parts-3d.edp", *flags, out=tmp_path / name) for name, place in places.items())
+    runs = [run_in(place, "edp/parts-3d.edp", *flags, out=tmp_path / name) for name, place in places.items()]
+    alone, all_of_them = runs
     assert alone.summary["contactPoints"] < 0.5 * alone.summary["points"]
     found, expected = alone.summary["linearised"], all_of_them.summary["linearised"]
     assert found["trusted"] and len(expected["changes"]) > 1
