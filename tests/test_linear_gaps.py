@@ -8,7 +8,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part, short_of
+from freefem import ROOT, data, part, run_in, short_of, tree
 
 # an ellipse, finer near (0, 5), turned by `turn` about its centre
 CAM = data("linear-gaps/cam.geo")
@@ -233,7 +233,7 @@ traction top 0 150
 
 @pytest.mark.parametrize("friction", short_of([""], [" friction 0.2"]))
 def test_ends_that_open(said, friction):
-    """The flank turns, and points at the contact's ends open and close: forces are foreseen, the resultant is held as a vector."""
+    """The flank turns, and points at the contact's ends open and close: foreseen, and the resultant is held as a vector."""
     linear = said(DOVETAIL, BLADE.format(friction))
     true = said(DOVETAIL, BLADE.format(friction), "-distance", "exact")
     moved = true.known("normalForce")[0] - linear.known("normalForce")[0]
@@ -266,11 +266,30 @@ def test_stress_and_way_on_a_layer(said):
     """The stress of the layer under the true distance is within its error; a tie leaves that of the way as it is."""
     bonded, true = said(KNEE, ON_LAYER.format("part")), said(KNEE, ON_LAYER.format("part"), "-distance", "exact")
     stress, exact = bonded.summary["stresses"][0], true.summary["stresses"][0]
-    assert abs(stress["vonMises"] - exact["vonMises"]) > 0.1 * stress["vonMises"]
-    assert abs(stress["vonMises"] - exact["vonMises"]) <= stress["error"] < 4 * abs(stress["vonMises"] - exact["vonMises"])
+    moved = abs(stress["vonMises"] - exact["vonMises"])
+    assert 0.1 * stress["vonMises"] < moved <= stress["error"] < 4 * moved
     tied = said(KNEE, ON_LAYER.format("tie"))
     assert tied.known("way") == pytest.approx(bonded.known("way"), rel=0.03)
     assert bonded.holds("way", true.known("way")[0]) and tied.holds("way", true.known("way")[0])
+def test_open_points_change_nothing(tmp_path):
+    """The change by the true distance, of points in contact alone, shall be that of all points."""
+    package = tree(tmp_path / "package")
+    path = package / "edp/options/estimates/true-gap.idp"
+    text = path.read_text()
+    assert text.count("if (!hereTrue) pairOnly(touching);") == 1
+    path.write_text(text.replace("if (!hereTrue) pairOnly(touching);", ""))
+    example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders"
+    flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-order", 1, "-vtu", 0]
+    places = {"alone": ROOT, "all": package}
+    runs = [run_in(place, "edp/parts-3d.edp", *flags, out=tmp_path / name) for name, place in places.items()]
+    alone, all_of_them = runs
+    assert alone.summary["contactPoints"] < 0.5 * alone.summary["points"]
+    found, expected = alone.summary["linearised"], all_of_them.summary["linearised"]
+    assert found["trusted"] and len(expected["changes"]) > 1
+    assert found["normals"] == pytest.approx(expected["normals"], rel=1e-9)
+    assert found["pressureMax"] == pytest.approx(expected["pressureMax"], rel=1e-9)
+    for change, other in zip(found["changes"], expected["changes"], strict=True):
+        assert change["change"] == pytest.approx(other["change"], rel=1e-9, abs=1e-9)
 
 
 # ---------------------------------------------------------------- with friction

@@ -83,6 +83,7 @@ def test_lost(first, how):
         for file in (cache / "meshes").glob("own-*.geo"):
             file.unlink()
     assert read(folder, cache) == found
+    assert list((cache / "meshes").glob("own-*.geo"))  # a mesh of other sizes would be made with it
     assert read(folder, cache, programs=programs) == found
 
 
