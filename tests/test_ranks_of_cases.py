@@ -47,10 +47,10 @@ QUICK = {"floats"}
 RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
 
 
-def boxes(folder):
+def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2)):
     """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike."""
-    mesh = cube(Mesh(), cells=(4, 4, 3))
-    cube(mesh, cells=(5, 3, 2), at=(0.013, 0.017, 1), prefix="upper ", name="upper")
+    mesh = cube(Mesh(), cells=lower)
+    cube(mesh, cells=upper, at=(0.013, 0.017, 1), prefix="upper ", name="upper")
     nodes = np.array(mesh.nodes)
     flat = [np.isclose(nodes[:, c], at) for c, at in ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))]
     loose = ~np.any(flat, axis=0)
@@ -59,10 +59,10 @@ def boxes(folder):
     (folder / "a.msh").write_text(mesh.text(TURN))
 
 
-def solved(folder, case, ranks, *flags, whole=False):
+def solved(folder, case, ranks, *flags, whole=False, solver="multigrid"):
     """The summary of a case of the mesh a.msh on so many processes."""
     (folder / "a.case").write_text(case)
-    given = ["-mesh", folder / "a.msh", "-case", folder / "a.case", "-solver", "multigrid", "-tol", 1e-9, *flags]
+    given = ["-mesh", folder / "a.msh", "-case", folder / "a.case", "-solver", solver, "-tol", 1e-9, *flags]
     code, output = on_ranks(ranks, "edp/parts-3d.edp", *given, "-out", folder / str(ranks))
     assert code == 0, output[-2000:]
     assert ("mesh: whole" in output) == whole, output
@@ -149,6 +149,37 @@ def test_same_case(name, tmp_path):
     if "-history" in flags:
         series = [np.genfromtxt(tmp_path / each / "series.csv", delimiter=",")[1:] for each in ("1", str(ranks))]
         assert series[0].shape[1] > 8 and np.allclose(*series, rtol=1e-6, atol=1e-6 * force, equal_nan=True)
+
+
+CROSSED = {
+    # grounded, under loads of both bodies and of surfaces
+    "floats": (2, FLOATS + f"weight block {ASIDE}\n", []),
+    # a force on a group that something else hinders: its motion is solved for
+    "guided": (2, STACK + f'clamp "upper left"\nforce "upper right" {DOWN}\nweight block {DOWN}\n', []),
+    "moved": (2, MOVED + f"weight upper {DOWN}\n", ["-history", 1, "-steps", 2]),
+    "three": (3, FLOATS + f"weight block {ASIDE}\n", []),
+}
+
+
+@built
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name == "three")) for name in CROSSED])
+def test_loads_across_cuts(name, tmp_path):
+    """Two boxes with inner nodes that a process does not have: the direct engine's answers, works and errors."""
+    boxes(tmp_path, lower=(8, 5, 5), upper=(7, 5, 5))
+    ranks, case, flags = CROSSED[name]
+    flags = ["-order", 1, "-vtu", 0, *flags]
+    one, _ = solved(tmp_path, case, 1, *flags, solver="direct")
+    many, _ = solved(tmp_path, case, ranks, *flags)
+    alike(one, many, max(np.linalg.norm(each["force"]) for each in one["contacts"]), 2)
+    same_errors(one["estimates"], many["estimates"])
+    for a, b in zip(one["ways"], many["ways"], strict=True):
+        assert b["way"] == pytest.approx(a["way"], rel=1e-7)
+    for key in ("rotation", "normals", "pressureMax"):
+        assert many["linearised"][key] == pytest.approx(one["linearised"][key], rel=1e-5), key
+    if "-history" in flags:
+        series = [np.genfromtxt(tmp_path / each / "series.csv", delimiter=",")[1:] for each in ("1", str(ranks))]
+        force = abs(one["contacts"][0]["normalForce"])
+        assert np.allclose(*series, rtol=1e-6, atol=1e-6 * force, equal_nan=True)
 
 
 @built
