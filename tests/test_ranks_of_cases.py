@@ -20,6 +20,7 @@ STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bo
 DOWN, ASIDE, PRESS, AT = (vector(at, TURN, 3) for at in ((0, 0, -1), (2e-3, 1e-3, -1e-2), (0, 0, -1e-2), (0, 0, 2.01)))
 MOVED = STACK + f'move "upper top" {ASIDE}\n'
 FLOATS = STACK + f'symmetry "upper left"\npressure "upper top" 2\ntraction "upper front" {DOWN}\nweight upper {DOWN}\n'
+SPUN = MOVED.replace("E 150 nu 0.3", "E 150 nu 0.3 density 0.5") + f"spin upper 3 about {AT} axis {ASIDE}\n"
 RUBS = STACK.replace('bottom"', 'bottom" friction 0.3', 1)
 CASES = {
     # grounded and held along no axis, with a pressure and a traction
@@ -156,7 +157,8 @@ CROSSED = {
     "floats": (2, FLOATS + f"weight block {ASIDE}\n", []),
     # a force on a group that something else hinders: its motion is solved for
     "guided": (2, STACK + f'clamp "upper left"\nforce "upper right" {DOWN}\nweight block {DOWN}\n', []),
-    "moved": (2, MOVED + f"weight upper {DOWN}\n", ["-history", 1, "-steps", 2]),
+    # strains by heat, and what spins, under a motion in two steps
+    "moved": (2, SPUN + f"weight upper {DOWN}\nexpand block 1e-4 20\n", ["-history", 1, "-steps", 2]),
     "three": (3, FLOATS + f"weight block {ASIDE}\n", []),
 }
 
@@ -198,6 +200,26 @@ def test_same_curved_case(tmp_path):
     alike(one, many, abs(one["force"]), 1)
     same_errors(one["estimates"], many["estimates"])
     same_pictures(tmp_path / "1", tmp_path / str(ranks))
+
+
+DOME = """SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1, -Pi / 6, Pi / 2};
+Mesh.MeshSizeMin = 0.35; Mesh.MeshSizeMax = 0.35; Mesh.ElementOrder = 2;
+Physical Volume("dome") = {1}; Physical Surface("skin") = {1}; Physical Surface("base") = {2};
+"""
+PRESSED = "body dome E 1000 nu 0.3 density 2\nclamp base\nobstacle skin plane 0 0 1 0 0 -1 move 0 0 -0.02\n"
+
+
+@built
+@pytest.mark.long
+@pytest.mark.parametrize("load", ["expand dome 1e-4 10", "spin dome 3 about 0.1 0.2 0 axis 0 0 1", "weight dome 5 0 0"])
+def test_loads_of_curved_elements(load, tmp_path):
+    """Integrals over elements that follow a surface: the direct engine's answers and errors."""
+    gmsh(tmp_path, DOME)
+    flags = ["-order", 2, "-vtu", 0]
+    one, _ = solved(tmp_path, PRESSED + load + "\n", 1, *flags, solver="direct")
+    many, _ = solved(tmp_path, PRESSED + load + "\n", 3, *flags)
+    alike(one, many, one["contacts"][0]["normalForce"], 1)
+    same_errors(one["estimates"], many["estimates"])
 
 
 @built

@@ -212,8 +212,8 @@ PROCESSES = [(1, False), (2, False), (4, False), (2, True), (4, True)]
 # name, order, flags of the mesh, runs: processes, lean or not
 RANKED = [
     ("P1", 1, {"h": 0.132}, PROCESSES),
-    ("P2", 2, {"h": 0.3}, PROCESSES),
-    ("P1 halved", 1, {"h": 0.19, "refine": 1}, [(4, False), (4, True)]),
+    ("P2", 2, {"h": 0.3}, [(1, False), (4, False), (4, True)]),
+    ("P1 halved", 1, {"h": 0.19, "refine": 1}, [(4, False)]),
 ]
 # name: geometry among the examples, and the text of a case, if it is not the example's own
 RANKED_PARTS = {
