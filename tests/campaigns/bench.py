@@ -9,8 +9,8 @@ accuracy.csv: runs that make their own meshes, `-accuracy`, beside meshes that a
 estimate, and CPU seconds from the first mesh to the result, estimates and later meshes included.
 large.csv, only if asked for, by `make bench-large`: large bodies in space with `-solver multigrid`, on one process
 and two.
-ranks.csv, by `make bench-ranks`: memory, seconds and agreement of several processes, with the usual and the lean set-up of
-the levels, for a scene and for cases.
+ranks.csv, only if asked for, by `make bench-ranks`: memory and agreement of several processes, with the usual and the
+lean set-up of the levels, for a scene and for cases.
 
 One run at a time. The default method's are repeated three times, unless they are long; the rivals are run once. Failed
 runs are kept. Interrupted and started again, it goes on where it was. A part can be run alone: `python
@@ -366,7 +366,7 @@ def answers(*_) -> campaign.Measure:
 
 
 def ranks_table(rows: list[dict]) -> str:
-    """Memory of the largest process over that of one, set-up with one solve, and how far answers are from those of one."""
+    """Memory of the largest process over that of one, seconds, and how far answers are from those of one."""
     header = "run|dofs|processes|MB of the largest|over one|CPU s of process 0|of it levels and first solve|iterations"
     lines = []
     alone = {}
@@ -747,7 +747,12 @@ PARTS = {
     "accuracy": (accuracy_cases, ("forceError", "said", "asked", "meshes", "seconds"), accuracy_errors, accuracy_runs),
 }
 OPT_IN = ("large", "ranks")
-FILES = {"accuracy": accuracy_files, "large": large_files, "ranks": ranks_files}  # what a part adds to the sources: name to text
+# what a part adds to the sources: name to text
+FILES = {
+    "accuracy": accuracy_files,
+    "large": large_files,
+    "ranks": ranks_files,
+}
 
 
 def main(argv: list[str] | None = None) -> int:
