@@ -123,11 +123,11 @@ def test_products_are_freed(tmp_path):
 LEAN = [
     # bytes of the machine, PETSc's options, code, whether the run says so, whether its products are lean
     (9e9, "", 0, False, False),
-    (4e6, "", 0, True, True),
+    (4.6e6, "", 0, True, True),
     (3e6, "", 10, False, False),
     (9e9, "-matptap_via allatonce", 0, False, True),
-    (4e6, "-matptap_via allatonce", 0, False, True),
-    (4e6, "-matptap_via nonscalable", 10, False, False),
+    (4.6e6, "-matptap_via allatonce", 0, False, True),
+    (4.6e6, "-matptap_via nonscalable", 10, False, False),
 ]
 
 

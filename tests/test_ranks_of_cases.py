@@ -176,6 +176,9 @@ def test_loads_across_cuts(name, tmp_path):
     same_errors(one["estimates"], many["estimates"])
     for a, b in zip(one["ways"], many["ways"], strict=True):
         assert b["way"] == pytest.approx(a["way"], rel=1e-7)
+    for a, b in zip(one["estimates"]["loads"], many["estimates"]["loads"], strict=True):
+        assert b["way"]["value"] == pytest.approx(a["way"]["value"], rel=1e-7)
+    assert many["estimates"]["contactStiffness"] == pytest.approx(one["estimates"]["contactStiffness"], rel=1e-3)
     for key in ("rotation", "normals", "pressureMax"):
         assert many["linearised"][key] == pytest.approx(one["linearised"][key], rel=1e-5), key
     if "-history" in flags:
