@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -369,6 +369,9 @@ bench: $(VENV)/run.stamp | system ## error against run time, cost growth, ingred
 # Large bodies: up to three million unknowns in space, 8 GB, an hour.
 bench-large: $(VENV)/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, two processes, into results/bench/
 	@$(MPI) $(PYTHON) tests/campaigns/bench.py large
+
+bench-ranks: $(VENV)/run.stamp | system mpi ## memory and answers of one, two and four processes, with lean levels too, into results/bench/
+	@$(MPI) $(PYTHON) tests/campaigns/bench.py ranks
 
 # NGSolve is wanted by this target alone.
 $(VENV)-peers/run.stamp: requirements-peers.txt | system

@@ -233,7 +233,7 @@ traction top 0 150
 
 @pytest.mark.parametrize("friction", short_of([""], [" friction 0.2"]))
 def test_ends_that_open(said, friction):
-    """The flank turns, and points at the contact's ends open and close: foreseen, and the resultant is held as a vector."""
+    """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector."""
     linear = said(DOVETAIL, BLADE.format(friction))
     true = said(DOVETAIL, BLADE.format(friction), "-distance", "exact")
     moved = true.known("normalForce")[0] - linear.known("normalForce")[0]
@@ -271,6 +271,8 @@ def test_stress_and_way_on_a_layer(said):
     tied = said(KNEE, ON_LAYER.format("tie"))
     assert tied.known("way") == pytest.approx(bonded.known("way"), rel=0.03)
     assert bonded.holds("way", true.known("way")[0]) and tied.holds("way", true.known("way")[0])
+
+
 def test_open_points_change_nothing(tmp_path):
     """The change by the true distance, of points in contact alone, shall be that of all points."""
     package = tree(tmp_path / "package")

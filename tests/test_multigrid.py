@@ -120,6 +120,45 @@ def test_products_are_freed(tmp_path):
     assert found[0] == found[1]
 
 
+LEAN = [
+    # bytes of the machine, PETSc's options, code, whether the run says so, whether its products are lean
+    (9e9, "", 0, False, False),
+    (4.6e6, "", 0, True, True),
+    (3e6, "", 10, False, False),
+    (9e9, "-matptap_via allatonce", 0, False, True),
+    (4.6e6, "-matptap_via allatonce", 0, False, True),
+    (4.6e6, "-matptap_via nonscalable", 10, False, False),
+]
+
+
+@built
+@pytest.mark.parametrize(
+    "free, options, code, told, lean",
+    [pytest.param(*row, marks=[] if row[0] == 4.6e6 else [pytest.mark.long]) for row in LEAN],
+)
+def test_lean_levels(free, options, code, told, lean, tmp_path):
+    """Two ranks: levels take less memory where the usual way does not fit, and the run says so; an option decides."""
+    package = tree(tmp_path / "package")
+    (package / "build").symlink_to(ROOT / "build")
+    (package / "edp" / "operator" / "memory.sh").write_text(f"echo {free} 1e300\n")
+    flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-vtu", 0, "-estimate", 0, "-tol", 1e-9, "-out", tmp_path / "out"]
+    start = ["sh", "-c", 'ulimit -v 50000000 && exec "$@"', "sh", *MPIEXEC, 2, "sh", "edp/freefem.sh"]
+    set_by = environment(**AS_ROOT, PETSC_OPTIONS=f"{options} -info {tmp_path}/info:mat")
+    found, output = execute(
+        [*map(flag_text, start), script("sphere-on-block"), *map(flag_text, flags)], package, set_by
+    )
+    assert found == code, output[-2000:]
+    assert ("multigrid: lean set-up" in output) == told, output
+    if code == 10:
+        assert len(said(output)) == 1 and "GB" in output, output
+        return
+    assert ("Nonscalable" not in (tmp_path / "info.0").read_text()) == lean
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["force"] == pytest.approx(
+        run("sphere-on-block", "-h", 1.2, "-layers", 2, "-tol", 1e-9).force, rel=1e-8
+    )
+
+
 @pytest.mark.long
 @built
 def test_load_series(tmp_path):

@@ -20,6 +20,7 @@ STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bo
 DOWN, ASIDE, PRESS, AT = (vector(at, TURN, 3) for at in ((0, 0, -1), (2e-3, 1e-3, -1e-2), (0, 0, -1e-2), (0, 0, 2.01)))
 MOVED = STACK + f'move "upper top" {ASIDE}\n'
 FLOATS = STACK + f'symmetry "upper left"\npressure "upper top" 2\ntraction "upper front" {DOWN}\nweight upper {DOWN}\n'
+SPUN = MOVED.replace("E 150 nu 0.3", "E 150 nu 0.3 density 0.5") + f"spin upper 3 about {AT} axis {ASIDE}\n"
 RUBS = STACK.replace('bottom"', 'bottom" friction 0.3', 1)
 CASES = {
     # grounded and held along no axis, with a pressure and a traction
@@ -47,10 +48,10 @@ QUICK = {"floats"}
 RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
 
 
-def boxes(folder):
+def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2)):
     """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike."""
-    mesh = cube(Mesh(), cells=(4, 4, 3))
-    cube(mesh, cells=(5, 3, 2), at=(0.013, 0.017, 1), prefix="upper ", name="upper")
+    mesh = cube(Mesh(), cells=lower)
+    cube(mesh, cells=upper, at=(0.013, 0.017, 1), prefix="upper ", name="upper")
     nodes = np.array(mesh.nodes)
     flat = [np.isclose(nodes[:, c], at) for c, at in ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))]
     loose = ~np.any(flat, axis=0)
@@ -59,10 +60,10 @@ def boxes(folder):
     (folder / "a.msh").write_text(mesh.text(TURN))
 
 
-def solved(folder, case, ranks, *flags, whole=False):
+def solved(folder, case, ranks, *flags, whole=False, solver="multigrid"):
     """The summary of a case of the mesh a.msh on so many processes."""
     (folder / "a.case").write_text(case)
-    given = ["-mesh", folder / "a.msh", "-case", folder / "a.case", "-solver", "multigrid", "-tol", 1e-9, *flags]
+    given = ["-mesh", folder / "a.msh", "-case", folder / "a.case", "-solver", solver, "-tol", 1e-9, *flags]
     code, output = on_ranks(ranks, "edp/parts-3d.edp", *given, "-out", folder / str(ranks))
     assert code == 0, output[-2000:]
     assert ("mesh: whole" in output) == whole, output
@@ -151,6 +152,42 @@ def test_same_case(name, tmp_path):
         assert series[0].shape[1] > 8 and np.allclose(*series, rtol=1e-6, atol=1e-6 * force, equal_nan=True)
 
 
+CROSSED = {
+    # grounded, under loads of both bodies and of surfaces
+    "floats": (2, FLOATS + f"weight block {ASIDE}\n", []),
+    # a force on a group that something else hinders: its motion is solved for
+    "guided": (2, STACK + f'clamp "upper left"\nforce "upper right" {DOWN}\nweight block {DOWN}\n', []),
+    # strains by heat, and what spins, under a motion in two steps
+    "moved": (2, SPUN + f"weight upper {DOWN}\nexpand block 1e-4 20\n", ["-history", 1, "-steps", 2]),
+    "three": (3, FLOATS + f"weight block {ASIDE}\n", []),
+}
+
+
+@built
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name == "three")) for name in CROSSED])
+def test_loads_across_cuts(name, tmp_path):
+    """Two boxes with inner nodes that a process does not have: the direct engine's answers, works and errors."""
+    boxes(tmp_path, lower=(8, 5, 5), upper=(7, 5, 5))
+    ranks, case, flags = CROSSED[name]
+    flags = ["-order", 1, "-vtu", 0, *flags]
+    one, _ = solved(tmp_path, case, 1, *flags, solver="direct")
+    many, _ = solved(tmp_path, case, ranks, *flags)
+    alike(one, many, max(np.linalg.norm(each["force"]) for each in one["contacts"]), 2)
+    same_errors(one["estimates"], many["estimates"])
+    for a, b in zip(one["ways"], many["ways"], strict=True):
+        assert b["way"] == pytest.approx(a["way"], rel=1e-7)
+    for a, b in zip(one["estimates"]["loads"], many["estimates"]["loads"], strict=True):
+        assert b["way"]["value"] == pytest.approx(a["way"]["value"], rel=1e-7)
+    assert many["estimates"]["contactStiffness"] == pytest.approx(one["estimates"]["contactStiffness"], rel=1e-3)
+    for key in ("rotation", "normals", "pressureMax"):
+        assert many["linearised"][key] == pytest.approx(one["linearised"][key], rel=1e-5), key
+    if "-history" in flags:
+        tables = [list(csv.DictReader((tmp_path / each / "series.csv").open())) for each in ("1", str(ranks))]
+        for a, b in zip(*tables, strict=True):
+            for name in a.keys() - {"backsolves"}:
+                assert float(b[name]) == pytest.approx(float(a[name]), rel=1e-6, abs=1e-8, nan_ok=True), name
+
+
 @built
 @pytest.mark.long
 def test_same_curved_case(tmp_path):
@@ -166,6 +203,26 @@ def test_same_curved_case(tmp_path):
     alike(one, many, abs(one["force"]), 1)
     same_errors(one["estimates"], many["estimates"])
     same_pictures(tmp_path / "1", tmp_path / str(ranks))
+
+
+DOME = """SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1, -Pi / 6, Pi / 2};
+Mesh.MeshSizeMin = 0.35; Mesh.MeshSizeMax = 0.35; Mesh.ElementOrder = 2;
+Physical Volume("dome") = {1}; Physical Surface("skin") = {1}; Physical Surface("base") = {2};
+"""
+PRESSED = "body dome E 1000 nu 0.3 density 2\nclamp base\nobstacle skin plane 0 0 1 0 0 -1 move 0 0 -0.02\n"
+
+
+@built
+@pytest.mark.long
+@pytest.mark.parametrize("load", ["expand dome 1e-4 10", "spin dome 3 about 0.1 0.2 0 axis 0 0 1", "weight dome 5 0 0"])
+def test_loads_of_curved_elements(load, tmp_path):
+    """Integrals over elements that follow a surface: the direct engine's answers and errors."""
+    gmsh(tmp_path, DOME)
+    flags = ["-order", 2, "-vtu", 0]
+    one, _ = solved(tmp_path, PRESSED + load + "\n", 1, *flags, solver="direct")
+    many, _ = solved(tmp_path, PRESSED + load + "\n", 3, *flags)
+    alike(one, many, one["contacts"][0]["normalForce"], 1)
+    same_errors(one["estimates"], many["estimates"])
 
 
 @built

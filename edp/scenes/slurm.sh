@@ -1,7 +1,7 @@
 #!/bin/sh
 # slurm.sh: a batch script for a cluster with SLURM, as an example: not tried. From the repository's root: sbatch edp/scenes/slurm.sh
 # The repository is on a file system that all nodes share, and so is TMPDIR for a case file: one process makes the mesh, all read it.
-# Each rank holds its part of the mesh: 0.05 GB for the program, and 3.7 kB an unknown of P1 divided by the ranks.
+# Each rank holds its part of the mesh: 0.05 GB for the program, and at most 3.7 kB an unknown of P1, 6.3 of P2, divided by the ranks.
 #SBATCH --job-name=contact
 #SBATCH --nodes=2
 #SBATCH --ntasks-per-node=8

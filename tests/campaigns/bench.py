@@ -9,6 +9,8 @@ accuracy.csv: runs that make their own meshes, `-accuracy`, beside meshes that a
 estimate, and CPU seconds from the first mesh to the result, estimates and later meshes included.
 large.csv, only if asked for, by `make bench-large`: large bodies in space with `-solver multigrid`, on one process
 and two.
+ranks.csv, only if asked for, by `make bench-ranks`: memory and agreement of several processes, with the usual and the
+lean set-up of the levels, for a scene and for cases.
 
 One run at a time. The default method's are repeated three times, unless they are long; the rivals are run once. Failed
 runs are kept. Interrupted and started again, it goes on where it was. A part can be run alone: `python
@@ -205,6 +207,42 @@ def hertz(_root: Path) -> list[campaign.Case]:
 LARGE = {1: (0.3, 0.21, 0.15, 0.088, 0.058), 2: (0.5, 0.3, 0.2)}  # h, by degree: to 3e6 and 1e6 degrees of freedom
 LARGE_ONE = {1: 0.21, 2: 0.45}  # about 1e5, over stiffness and exponent
 LARGE_LAWS = [(1, 3), (1e4, 3), (1e8, 3), (1e12, 3), (1e3, 1.05), (1e3, 20)]
+LEAN = "-matptap_via allatonce"  # what a run chooses itself where memory is short
+PROCESSES = [(1, False), (2, False), (4, False), (2, True), (4, True)]
+# name, order, flags of the mesh, runs: processes, lean or not
+RANKED = [
+    ("P1", 1, {"h": 0.132}, PROCESSES),
+    ("P2", 2, {"h": 0.3}, [(1, False), (4, False), (4, True)]),
+    ("P1 halved", 1, {"h": 0.19, "refine": 1}, [(4, False)]),
+]
+# name: geometry among the examples, and the text of a case, if it is not the example's own
+RANKED_PARTS = {
+    "wheel on rail": ("wheel-on-rail/wheel-on-rail.step", ""),
+    "ball on bracket": ("ball-on-bracket/ball-on-bracket.geo", ""),
+    "tie": (
+        "ball-on-bracket/ball-on-bracket.geo",
+        """units mm MPa
+body  bracket E 3e3 nu 0.4
+body  ball E 210e3 nu 0.3
+tie   shelf ball-surface
+clamp bolts
+weight ball 0.01 0 -0.046627423
+""",
+    ),
+    "friction": (
+        "crossed-cylinders/crossed-cylinders.geo",
+        """units mm MPa
+body  lower E 210e3 nu 0.3
+body  upper E 210e3 nu 0.3
+contact lower-round upper-round friction 0.3
+clamp base
+leg   2
+move  grip 0 0 -0.01
+leg   4
+move  grip 0.003 0.001 -0.01
+""",
+    ),
+}
 ONE_SOLVE = "edp/scenes/one-solve.edp"  # the scene, and after it one solve under the same forces
 
 
@@ -280,6 +318,75 @@ def large_laws_table(rows: list[dict]) -> str:
         counts = [row["newton"], f"{row['backsolves']} / {row['iterations']}", row["oneSolve"], f"{quotient:.1f}"]
         lines.append([f"P{row['order']}, {row['h']}", row["ndof"], law, *counts])
     return markdown(header.split("|"), lines)
+
+
+def ranks_cases(_root: Path) -> list[campaign.Case]:
+    """A scene of three sizes, and four cases: on one process, on several, and with a lean set-up."""
+    found = []
+
+    def add(name, script, flags, ranks=1, lean=False):
+        start = ("mpiexec", "-n", str(ranks)) if ranks > 1 else ()
+        spared = ("env", f"PETSC_OPTIONS={LEAN}") if lean else ()
+        texts = tuple(text for flag, given in flags.items() for text in (f"-{flag}", campaign.flag_text(given)))
+        program = (*spared, *start, "sh", "edp/freefem.sh")
+        title = f"{name}, {ranks}{', lean' * lean}"
+        found.append(campaign.Case(title, script, texts, 3600, 1, 60, program))
+
+    shared = {"solver": "multigrid", "tol": 1e-8, "estimate": 0}
+    for name, (geometry, case_file) in RANKED_PARTS.items():
+        own = f"{name.split()[0]}.case"
+        example = Path("edp/examples") / geometry
+        flags = {"mesh": example if example.suffix == ".geo" else example.name}
+        flags |= {"case": own if case_file else example.with_suffix(".case"), "order": 1, **shared}
+        for ranks in (1, 2, 4) if name == "wheel on rail" else (1, 2):
+            add(name, "edp/parts-3d.edp", flags, ranks)
+    for name, order, mesh, runs in RANKED:
+        flags = {"order": order, "kappa": 1e9, **mesh, **shared}
+        for ranks, lean in runs:
+            add(name, f"edp/scenes/{SPHERE}.edp", flags, ranks, lean)
+    return found
+
+
+def ranks_files(root: Path) -> dict[str, str]:
+    files = {f"{name.split()[0]}.case": text for name, (_, text) in RANKED_PARTS.items() if text}
+    step = root / "edp/examples" / RANKED_PARTS["wheel on rail"][0]
+    return files | {step.name: step.read_text()}
+
+
+def answers(*_) -> campaign.Measure:
+    """What is compared: processes, force or that of the first contact, greatest pressure."""
+
+    def measure(_item: campaign.Case, summary: dict, _folder: Path) -> dict:
+        contact = summary["contacts"][0] if summary.get("contacts") else summary
+        force = contact.get("normalForce", contact.get("force"))
+        numbers = {"answer": repr(force), "greatest": repr(contact["pressureMax"])}
+        return {"ranks": summary["ranks"], "iterations": summary["iterations"], **numbers}
+
+    return measure
+
+
+def ranks_table(rows: list[dict]) -> str:
+    """Memory of the largest process over that of one, seconds, and how far answers are from those of one."""
+    header = "run|dofs|processes|MB of the largest|over one|CPU s of process 0|of it levels and first solve|iterations"
+    lines = []
+    alone = {}
+    for row in rows:
+        name = row["name"].split(",")[0]
+        size = [row["name"].replace(f", {row['ranks']}", ""), row["ndof"] or "-", row["ranks"] or "-"]
+        if row["status"] != "converged":
+            lines.append([*size, row["status"], *["-"] * 6])
+            continue
+        if row["ranks"] == "1":
+            alone[name] = row
+        one = alone.get(name)
+        over = f"{value(row, 'memory') / value(one, 'memory'):.2f}" if one else "-"
+        off = [f"{abs(value(row, key) / value(one, key) - 1):.0e}" if one else "-" for key in ("answer", "greatest")]
+        if one is row:
+            off = ["-", "-"]
+        costs = [f"{value(row, 'memory'):.0f}", over, f"{value(row, 'cpu'):.0f}"]
+        costs += [f"{value(row, 'seconds_factorisation'):.1f}", row["iterations"]]
+        lines.append([*size, *costs, *off])
+    return markdown([*header.split("|"), "force off by", "greatest pressure off by"], lines)
 
 
 def crossed_geometry(root: Path, size: float) -> str:
@@ -636,10 +743,16 @@ PARTS = {
     "ingredients": (ingredients, (), None, report_ingredients),
     "hertz": (hertz, ("radius", "pressure"), hertz_differences, hertz_table),
     "large": (large, ("iterations", "oneSolve", "ranks"), solves, large_table),
+    "ranks": (ranks_cases, ("iterations", "ranks", "answer", "greatest"), answers, ranks_table),
     "accuracy": (accuracy_cases, ("forceError", "said", "asked", "meshes", "seconds"), accuracy_errors, accuracy_runs),
 }
-OPT_IN = ("large",)
-FILES = {"accuracy": accuracy_files, "large": large_files}  # what a part adds to the sources: name to text
+OPT_IN = ("large", "ranks")
+# what a part adds to the sources: name to text
+FILES = {
+    "accuracy": accuracy_files,
+    "large": large_files,
+    "ranks": ranks_files,
+}
 
 
 def main(argv: list[str] | None = None) -> int:

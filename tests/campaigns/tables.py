@@ -46,6 +46,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "hertz": ("bench/hertz", bench.hertz_table),
     "large": ("bench/large", bench.large_table),
     "large-laws": ("bench/large", bench.large_laws_table),
+    "ranks": ("bench/ranks", bench.ranks_table),
     "asked": ("bench/accuracy", bench.accuracy_runs),
     "peers": ("bench/peers", peers.table),
     "peers-others": ("bench/peers", peers.other_tables),
