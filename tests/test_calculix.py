@@ -101,7 +101,7 @@ def test_statements_without_translation(tmp_path):
 # ---------------------------------------------------------------- the page
 
 
-@pytest.mark.parametrize("name", short_of(["shrink-fit", "bolted-sleeve"], PARTS))
+@pytest.mark.parametrize("name", short_of(["shrink-fit", "taper", "bolted-sleeve"], PARTS))
 def test_numbers_of_the_page(tmp_path, name):
     """The package's numbers in the page's tables, each to its digits."""
     part = PARTS[name]
