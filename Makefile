@@ -383,12 +383,12 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 	}
 	@touch $@
 
-bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and a part by CalculiX, into results/bench/
+bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and parts by CalculiX (ccx), into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
 	@$(PYTHON) tests/campaigns/peers_condensed.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
-	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space; \
-	else echo 'a part in space beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
+	@if command -v ccx >/dev/null; then $(PYTHON) tests/campaigns/calculix.py --space && $(PYTHON) tests/campaigns/calculix_parts.py; \
+	else echo 'parts beside CalculiX: no ccx here (Debian: calculix-ccx)'; fi
 
 # Code 1: a run failed or a check did not pass; the figures show it.
 stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffness, meshes, loads and friction, into results/stability/, results/friction/
@@ -486,9 +486,10 @@ test test-all: $(VENV)/dev.stamp | system
 	@PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -n 3 --dist worksteal $(MARKED) $(PYTEST_ARGS) $(TESTS)
 
 # What tests need beside the package: each is skipped where its tool is not there.
-tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, Chromium, a locale's sources
+tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, CalculiX, Chromium, a locale's sources
 	@missing=; \
 	command -v chromium chromium-browser google-chrome >/dev/null || missing=' chromium'; \
+	command -v ccx >/dev/null || missing="$$missing calculix-ccx"; \
 	test -e /usr/share/i18n/locales/de_DE || missing="$$missing locales"; \
 	$(INSTALL_MISSING)
 

@@ -11,9 +11,6 @@ are CPU seconds of the whole program.
 import argparse
 import csv
 import json
-import os
-import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -21,6 +18,7 @@ import tempfile
 from pathlib import Path
 
 import campaign
+import ccx
 import numpy as np
 
 FILE = campaign.RESULTS_FOLDER / "bench" / "calculix.csv"
@@ -50,76 +48,6 @@ move pushed 0 0 -{PRESS}
 """
 
 
-def mesh_of(path: Path, kind: int = 8) -> tuple[np.ndarray, dict, dict]:
-    """Nodes (n, 3); by group sides, of gmsh's number `kind`, and elements, of a mesh of second order, from 0."""
-    text = path.read_text()
-    names = {int(tag): name for tag, name in re.findall(r'^\d (\d+) "(.*)"$', text, re.M)}
-    nodes = text.split("$Nodes\n")[1].split("$EndNodes")[0].splitlines()[1:]
-    place = np.array([line.split()[1:4] for line in nodes], float)
-    sides, triangles = {}, {}
-    for line in text.split("$Elements\n")[1].split("$EndElements")[0].splitlines()[1:]:
-        words = [int(word) for word in line.split()]
-        (sides if words[1] == kind else triangles).setdefault(names[words[3]], []).append([k - 1 for k in words[5:]])
-    return place, {k: np.array(v) for k, v in sides.items()}, {k: np.array(v) for k, v in triangles.items()}
-
-
-def deck(path: Path, place, sides, bodies, stiffness: float, stick: float, space: bool) -> None:
-    """CalculiX's input: penalty `stiffness` for the pressure, `stick` for the shear, both pressure/length."""
-    elements, kind = np.concatenate(list(bodies.values())), "CPE6"
-    corners = ((0, 1), (1, 2), (2, 0))
-    if space:  # gmsh's last two nodes are the other way round there
-        elements, kind = elements[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]], "C3D10"
-        corners = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
-    lines = ["*NODE"] + [f"{k + 1},{x:.11g},{y:.11g},{z:.11g}" for k, (x, y, z) in enumerate(place)]
-    lines += [f"*ELEMENT,TYPE={kind},ELSET=ALL"]
-    lines += [f"{k + 1}," + ",".join(str(n + 1) for n in nodes) for k, nodes in enumerate(elements)]
-    for group, nodes in sides.items():
-        lines += [f"*NSET,NSET={group}"] + [f"{n + 1}," for n in np.unique(nodes)]
-    faces = {frozenset(e[list(few)]): (k + 1, f + 1) for k, e in enumerate(elements) for f, few in enumerate(corners)}
-    for group in ("flat", "round"):
-        lines += [f"*SURFACE,NAME=S{group},TYPE=ELEMENT"]
-        lines += ["{},S{}".format(*faces[frozenset(side[: len(corners[0])])]) for side in sides[group]]
-    lines += ["*MATERIAL,NAME=M", "*ELASTIC", f"{YOUNG},{POISSON}", "*SOLID SECTION,ELSET=ALL,MATERIAL=M"]
-    lines += [] if space else ["1."]
-    lines += ["*SURFACE INTERACTION,NAME=I", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:g}"]
-    lines += [] if space else ["*FRICTION", f"{FRICTION},{stick:g}"]
-    lines += ["*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE", "Sflat,Sround"]
-    output = ["*NODE PRINT,NSET=pushed,TOTALS=ONLY", "RF", "*CONTACT FILE", "CDIS,CSTR"]
-    if space:
-        lines += ["*STEP,INC=1000", "*STATIC", "1.,1.", "*BOUNDARY", "clamped,1,3", "xs,1,1", "ys,2,2"]
-        lines += ["pushed,1,2", f"pushed,3,3,{-PRESS:g}", *output, "*END STEP"]
-    for x, start in () if space else ((0, 1.0), (DRAG, 0.25)):
-        lines += ["*STEP,INC=1000", "*STATIC", f"{start:g},1.", "*BOUNDARY"]
-        lines += [] if x else ["clamped,1,2", "pushed,1,1", "*BOUNDARY"]
-        lines += [f"pushed,1,1,{x:g}", f"pushed,2,2,{-PRESS:g}", *output, "*NODE FILE,NSET=flat", "U", "*END STEP"]
-    path.write_text("\n".join(lines) + "\n")
-
-
-def timed(command: list, folder: Path) -> tuple[float, int, str]:
-    """CPU seconds, code and words of a program."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(
-        [str(word) for word in command],
-        cwd=folder,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST)),
-        capture_output=True,
-        text=True,
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
-    )
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return seconds, done.returncode, done.stdout + done.stderr
-
-
-def surface_stresses(path: Path, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Of the last block CONTACT of a .frd file: nodes (from 0), and their pressure and shear (., 2)."""
-    block = path.read_text().split(" -4  CONTACT")[-1].split(" -3")[0]
-    rows = [line for line in block.splitlines() if line.startswith(" -1")]
-    node = np.array([int(row[3:13]) for row in rows]) - 1
-    value = np.array([[float(row[13 + 12 * k : 25 + 12 * k]) for k in range(6)] for row in rows])
-    return node, value[:, 3:5]
-
-
 def off(found: np.ndarray, wanted: np.ndarray) -> list[float]:
     """Differences of pressure and shear (3, n: x, p, t) in the mean square along x, over those that are wanted."""
     x, *tractions = found[:, np.argsort(found[0])]
@@ -147,7 +75,7 @@ def package(folder: Path, mesh: Path, space: bool) -> dict:
     (folder / "a.case").write_text(CASE_SPACE if space else CASE)
     words = ["-mesh", mesh, "-case", folder / "a.case", "-vtu", 0, "-estimate", 0, "-out", folder / "out"]
     script = "edp/parts-3d.edp" if space else "edp/parts.edp"
-    seconds, code, said = timed(["FreeFem++", "-nw", "-v", "0", script, *words], campaign.ROOT)
+    seconds, code, said = ccx.timed([*campaign.FREEFEM, script, *words], campaign.ROOT, LONGEST)
     if code:
         return {"code": code, "seconds": seconds, "message": said.strip().splitlines()[-1]}
     if space:
@@ -164,27 +92,20 @@ def package(folder: Path, mesh: Path, space: bool) -> dict:
     return {"code": 0, "seconds": seconds, "force": p @ w, "pull": t @ w, "count": counts, "found": found}
 
 
-def calculix(folder: Path, mesh: Path, stiffness: float, stick: float, space: bool) -> dict:
-    place, sides, elements = mesh_of(mesh, 9 if space else 8)
-    deck(folder / "a.inp", place, sides, elements, stiffness, stick, space)
-    seconds, code, said = timed(["ccx", "-i", "a"], folder)
-    count = len(re.findall(r"^ iteration +\d+", said, re.M))
-    if code or "Job finished" not in said:
-        lines = [line.strip() for line in said.splitlines() if "ERROR" in line or "too" in line] or [f"code {code}"]
-        done = re.findall(r"^ +(\d+) +(\d+) .*$", (folder / "a.sta").read_text(), re.M)
-        lines += [f"not done in {LONGEST} s, {count} iterations" if code < 0 else lines[-1]]
-        lines[-1] += f", {len(done)} increments converged"
-        return {"code": code or 1, "seconds": seconds, "message": lines[-1], "count": count}
-    totals = re.findall(r"total force.*\n\n +(\S+) +(\S+)", (folder / "a.dat").read_text())
-    node, tractions = surface_stresses(folder / "a.frd", len(place))
-    flat = np.isin(node, sides["flat"])
+def calculix(folder: Path, mesh: Path, stiffness: float, space: bool) -> dict:
+    """ccx with a penalty, and a tenth of it along the surface."""
+    read = ccx.mesh_of(mesh)
+    deck = ccx.Deck(read, CASE_SPACE if space else CASE, ccx.Contact(stiffness, stiffness / 10))
+    done = ccx.solve(folder, read, deck.text(), LONGEST)
+    common = {"code": int(bool(done.message)), "seconds": done.seconds, "count": done.iterations}
+    if done.message:
+        return {**common, "message": f"{done.message}, {done.increments} increments converged"}
+    flat = read.nodes("flat")
+    pull, *_, force = done.reactions[-1][: read.axes]
+    place, (pressure, shear) = read.place[flat], done.fields["CONTACT"][flat, 3:5].T
     if space:
-        (force,) = re.findall(r"total force.*\n\n +\S+ +\S+ +(\S+)", (folder / "a.dat").read_text())[-1:]
-        found = np.array([np.hypot(*place[node[flat], :2].T), tractions[flat, 0]])
-        return {"code": 0, "seconds": seconds, "force": -float(force), "count": count, "found": found}
-    pull, force = (float(number) for number in totals[-1])
-    found = np.array([place[node[flat], 0], tractions[flat, 0], -tractions[flat, 1]])
-    return {"code": 0, "seconds": seconds, "force": -force, "pull": pull, "count": count, "found": found}
+        return {**common, "force": -force, "found": np.array([np.hypot(*place[:, :2].T), pressure])}
+    return {**common, "force": -force, "pull": pull, "found": np.array([place[:, 0], pressure, -shear])}
 
 
 def say(row: dict) -> None:
@@ -223,7 +144,7 @@ def main() -> int:
                 wanted = runs[0][1]["found"]
             else:
                 for each in arguments.penalties:
-                    runs += [(f"CalculiX {each:g}", calculix(folder, mesh, each, each / 10, space))]
+                    runs += [(f"CalculiX {each:g}", calculix(folder, mesh, each, space))]
         for who, run in runs:
             found = run.pop("found", None)
             errors = {}

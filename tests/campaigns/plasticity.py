@@ -12,7 +12,6 @@ import argparse
 import csv
 import json
 import math
-import re
 import shutil
 import subprocess
 import sys
@@ -21,13 +20,13 @@ from pathlib import Path
 
 import calculix
 import campaign
+import ccx
 
 FOLDER = campaign.RESULTS_FOLDER / "plasticity"
 YOUNG_OVER_YIELD, POISSON = 400.0, 0.3
 SHALLOW = 40000.0  # E over Y of the hardness: the slope of the surfaces stays small
 MODULUS = 1 / (1 - POISSON**2)
 HARDENING, DEPTHS, STEPS = (0.05, 0.01, 0.0001), (1.6, 5, 20, 80), (1, 10)
-FLOW = "*PLASTIC\n0.5,0.\n1.5,1."  # CalculiX's words for FLOWS
 FLOWS = "plastic lower 0.5 1\nplastic upper 0.5 1\n"
 GEOMETRY = """Point(1) = {{0, 0, 0, {h}}}; Point(2) = {{1, 0, 0, {h}}}; Point(3) = {{{L}, 0, 0, {L} / 6}};
 Point(4) = {{{L}, -{L}, 0, {L} / 4}}; Point(5) = {{0, -{L}, 0, {L} / 4}}; Point(6) = {{0, -1, 0, 1.6 * {h}}};
@@ -142,29 +141,22 @@ def beside_calculix(size: float, steps: int, penalty: float) -> dict:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         mesh = calculix.meshed(folder, size, False)
-        place, sides, elements = calculix.mesh_of(mesh)
-        calculix.deck(folder / "a.inp", place, sides, elements, penalty, penalty / 10, False)
-        text = (folder / "a.inp").read_text().split("*END STEP")[0] + "*END STEP\n"
-        material = f"{calculix.YOUNG},{calculix.POISSON}"
-        text = text.replace(f"{material}\n", f"{material}\n{FLOW}\n")
-        text = text.replace(f"*FRICTION\n{calculix.FRICTION},{penalty / 10:g}\n", "")
-        text = text.replace("*STATIC\n1,1.", f"*STATIC,DIRECT\n{1 / steps:g},1.")
-        (folder / "a.inp").write_text(text)
-        calculix.timed(["ccx", "-i", "a"], folder)
-        totals = re.findall(r"total force.*\n\n +(\S+) +(\S+)", (folder / "a.dat").read_text())
         pressed = calculix.CASE.split("leg 1")[0].replace(f" friction {calculix.FRICTION}", "")
         case = pressed + FLOWS + f"leg {steps}\nmove pushed 0 -{calculix.PRESS}\n"
+        read = ccx.mesh_of(mesh)
+        deck = ccx.Deck(read, case, ccx.Contact(penalty, penalty / 10), direct=True)
+        done = ccx.solve(folder, read, deck.text(), 600)
         (folder / "a.case").write_text(case)
         words = ["-mesh", mesh, "-case", folder / "a.case", "-vtu", "0", "-estimate", "0", "-out", folder / "out"]
         subprocess.run([*campaign.FREEFEM, "edp/parts.edp", *map(str, words)], cwd=campaign.ROOT, capture_output=True)
         summary = json.loads((folder / "out/summary.json").read_text())
-    here, there = summary["contacts"][0]["normalForce"], -float(totals[-1][1])
+    here, there = summary["contacts"][0]["normalForce"], -done.reactions[-1][1]
     strain = max(body["strainMax"] for body in summary["plastic"]["bodies"])
     return {
         "force": here,
         "calculix": there,
         "off": here / there - 1,
-        "increments": len(totals),
+        "increments": done.increments,
         "plasticStrain": strain,
     }
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import bench
+import calculix_parts
 import campaign
 import conditioning
 import coverage
@@ -32,6 +33,7 @@ LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
 LISTS |= {"coverage/space": coverage.cases_in_space, "conditioning/conditioning": conditioning.cases}
 LISTS |= {"models/models": models.cases, "bench/condensed": peers_condensed.cases}
+LISTS |= {"bench/calculix-parts": calculix_parts.cases}
 # name: (CSV below results/, its rows to the table)
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "work-precision": ("bench/work_precision", bench.report_work_precision),
@@ -52,6 +54,8 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "peers-others": ("bench/peers", peers.other_tables),
     "peers-failed": ("bench/peers", peers.failed_table),
     "peers-condensed": ("bench/condensed", peers_condensed.table),
+    "parts": ("bench/calculix-parts", calculix_parts.table),
+    "parts-cost": ("bench/calculix-parts", calculix_parts.cost_table),
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),
