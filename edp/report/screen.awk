@@ -101,6 +101,7 @@ function friction(c,   p, k, x, m, s) {
   s = error(p ".loadSteps.shearForce")
   x = 0
   for (k = 0; k < count[p ".shearForce"]; k++) x += v[p ".shearForce." k] ^ 2
+  if (v[p ".tied"] == "false" && x == 0 && v[p ".stickShare"] == 0) return   # no friction, beside a tie
   if (!owned) print "  friction"
   twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0))
   result("  sticking part", 100 * v[p ".stickShare"], 0, "%", "of the contact")
