@@ -439,10 +439,13 @@ HIGH = [("stress", 4), ("axisymmetric", 4), ("axisymmetric", 3)]
 
 @pytest.mark.parametrize(("state", "order"), short_of(HIGH[:2], HIGH))
 def test_spin_of_curved_elements_at_high_orders(tmp_path, state, order):
-    """A quarter of two rings: their pressure and what the symmetries carry. Of two hollow spheres: as with order 2. The contact reaches the
-    symmetries: its resultant has nothing across them, and the screen says so."""
+    """A quarter of two rings: their pressure and what the symmetries carry. Of two hollow spheres: as with order 2.
+
+    The contact reaches the symmetries: its resultant has nothing across them, and the screen says so.
+    """
     spins = "spin shaft 2000\nspin hub 2000\n"
-    case = f"state {state}\n" + FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + "contact bore seat interference 0.01\nsymmetry low\n" + spins
+    case = f"state {state}\n" + FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + spins
+    case += "contact bore seat interference 0.01\nsymmetry low\n"
     run = part(tmp_path / "1", QUARTERS, case + "symmetry left\n" * (state == "stress"), "-order", order)
     contact, names = run.summary["contacts"][0], ["low", "left"][: 2 if state == "stress" else 1]
     assert contact["across"] == names and contact["force"] == pytest.approx([0, 0], abs=1e-9 * contact["normalForce"])
@@ -451,10 +454,12 @@ def test_spin_of_curved_elements_at_high_orders(tmp_path, state, order):
         low, left = (support["force"] for support in run.summary["supports"])
         assert [low[1], left[0]] == pytest.approx([-8e-9 * 2000**2 * (20**3 - 5**3) / 3] * 2, rel=1e-6)
         lame, opened = fit(state)
-        assert contact["normalForce"] == pytest.approx(np.pi / 2 * 10 * (0.01 - 8e-9 * 2000**2 * opened) / lame, rel=1e-4)
+        true = np.pi / 2 * 10 * (0.01 - 8e-9 * 2000**2 * opened) / lame
+        assert contact["normalForce"] == pytest.approx(true, rel=1e-4)
     else:
-        still = [part(tmp_path / str(k), QUARTERS, case.replace(spins, ""), "-order", k) for k in (2, order)]
-        by = [run.summary["contacts"][0]["normalForce"] for run in (*still, part(tmp_path / "5", QUARTERS, case, "-order", 2))]
+        runs = [part(tmp_path / str(k), QUARTERS, case.replace(spins, ""), "-order", k) for k in (2, order)]
+        runs.append(part(tmp_path / "5", QUARTERS, case, "-order", 2))
+        by = [run.summary["contacts"][0]["normalForce"] for run in runs]
         assert contact["normalForce"] - by[1] == pytest.approx(by[2] - by[0], rel=1e-3) and by[2] < 0.99 * by[0]
 
 
