@@ -392,8 +392,10 @@ function sizeOf(numbers, d, h,   to) {
   if (d == 3) print "edges_() = Abs(Boundary{ Surface{" joined(ofBodies(numbers)) "}; });\nField[" fields "].EdgesList = {edges_()};"
   chosen = chosen (chosen == "" ? "" : ", ") fields
 }
+# ties have no size of contact beside contacts: their surfaces touch all over
 function contactSize(h,   k, n, i, w, p, points, wide, key) {
   for (k = 1; k <= contacts; k++) {
+    if (k in tied && ties < contacts) continue
     split(contact[k], w, "\t")
     n = nearest(members[dim - 1, w[1]], members[dim - 1, w[2]], 2 * h, 0.05 * h, k in obstacle ? w[2] : "")
     for (i = 1; i <= n; i++) {
@@ -434,6 +436,7 @@ END {
     if (f[1] == "join") joinLine[++joins] = line
     if (f[1] == "contact" || f[1] == "obstacle") contact[++contacts] = f[3] "\t" f[4]
     if (f[1] == "obstacle") obstacle[contacts] = 1
+    if (f[1] == "contact" && f[5] == "tie") { tied[contacts] = 1; ties++ }
   }
   if (groups && !elements) {
     split(groupLine[1], f, "\t")

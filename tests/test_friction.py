@@ -240,8 +240,8 @@ def test_no_equilibrium_is_named(tmp_path):
     """Dragged by more than friction bears, in the second leg; tipped over."""
     text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\nleg 1\ntraction head 0 -1\nleg 2\n"
     run = case(tmp_path, LYING, text + "traction head 0.4 -1\n", *EXACT, script="edp/parts.edp", expect=20)
-    assert "leg 2: block: along x: no equilibrium: friction and contact bear 75 % of what drives it" in run.message
-    assert "traction head" in run.message
+    assert "leg 2, load step 2 of 2: block: along x: no equilibrium (traction head): friction" in run.message
+    assert "carry 50 % of this leg's change of load, not 100 %" in run.message
     last = series(run)
     assert len(last["leg"]) == 2 and last["shearForce"][1] == pytest.approx(-0.4, rel=1e-6)
     text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 2\ntraction head 1.1 -1\n"
@@ -277,7 +277,18 @@ def test_of_two_blocks_what_slides_is_named(tmp_path, below, name):
     text = f"body low E 1e4 nu 0.3\nbody up E 1e4 nu 0.3\nobstacle foot plane 0 0 0 1 friction {below}\n"
     text += f"contact up-foot low-top friction {0.8 - below}\npressure up-top 10\ntraction up-top 3.1 0\n"
     message = case(tmp_path, blocks, text, expect=20).message
-    assert f"leg 1: {name}: no equilibrium: friction and contact bear 97 %" in message and "traction up-top" in message
+    assert f"leg 1: {name}: no equilibrium (pressure up-top, traction up-top): friction and contact do not" in message
+
+
+@pytest.mark.parametrize(("pull", "steps", "said"), [(1.6, 4, (25, 50)), (1.6, 1, ()), (0.6004, 4, (75, 100))])
+def test_what_friction_carries_of_the_load_is_told_by_its_steps(tmp_path, pull, steps, said):
+    """Friction bears 0.6: no other number is printed, and the advice is never less friction, not even 0.07 % above."""
+    text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\n"
+    text += f"leg 1\npressure head 1\ntraction head 0 0\nleg {steps}\npressure head 1\ntraction head {pull / 2} 0\n"
+    message = case(tmp_path, LYING, text, expect=20).message
+    shares = [int(share) for share in re.findall(r"(\d+) %", message)]
+    assert shares == list(said) and "no equilibrium" in message and "more friction or pressure" in message
+    assert "less friction" not in message and (not said or said[0] < 60 / pull < said[1])
 
 
 @pytest.mark.long

@@ -416,6 +416,53 @@ def test_spinning_disc(tmp_path, inner):
     assert np.array(found) == pytest.approx(rho * omega**2 * spun(20, inner, 20, young, nu), rel=1e-5)
 
 
+QUARTERS = """h = 2.5; Point(1) = {0, 0, 0, h};
+Function quarter
+  Point(n + 1) = {r, 0, 0, h}; Point(n + 2) = {0, r, 0, h}; Circle(n) = {n + 1, 1, n + 2};
+Return
+n = 10; r = 5; Call quarter;
+n = 20; r = 10; Call quarter;
+n = 30; Call quarter;
+n = 40; r = 20; Call quarter;
+For n In {10 : 30 : 20}
+  Line(n + 1) = {n + 1, n + 11}; Line(n + 2) = {n + 12, n + 2};
+  Curve Loop(n) = {n + 1, n + 10, n + 2, -n}; Plane Surface(n) = {n};
+EndFor
+Physical Surface("shaft") = {10}; Physical Surface("hub") = {30};
+Physical Curve("seat") = {20}; Physical Curve("bore") = {30}; Physical Curve("rest") = {10, 40};
+Physical Curve("low") = {11, 31}; Physical Curve("left") = {12, 32};
+"""
+
+
+HIGH = [("stress", 4), ("axisymmetric", 4), ("axisymmetric", 3)]
+
+
+@pytest.mark.parametrize(("state", "order"), short_of(HIGH[:2], HIGH))
+def test_spin_of_curved_elements_at_high_orders(tmp_path, state, order):
+    """A quarter of two rings: their pressure and what the symmetries carry. Of two hollow spheres: as with order 2.
+
+    The contact reaches the symmetries: its resultant has nothing across them, and the screen says so.
+    """
+    spins = "spin shaft 2000\nspin hub 2000\n"
+    case = f"state {state}\n" + FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + spins
+    case += "contact bore seat interference 0.01\nsymmetry low\n"
+    run = part(tmp_path / "1", QUARTERS, case + "symmetry left\n" * (state == "stress"), "-order", order)
+    contact, names = run.summary["contacts"][0], ["low", "left"][: 2 if state == "stress" else 1]
+    assert contact["across"] == names and contact["force"] == pytest.approx([0, 0], abs=1e-9 * contact["normalForce"])
+    assert f"without its part across symmetry {', symmetry '.join(names)}\n" in run.stdout
+    if state == "stress":
+        low, left = (support["force"] for support in run.summary["supports"])
+        assert [low[1], left[0]] == pytest.approx([-8e-9 * 2000**2 * (20**3 - 5**3) / 3] * 2, rel=1e-6)
+        lame, opened = fit(state)
+        true = np.pi / 2 * 10 * (0.01 - 8e-9 * 2000**2 * opened) / lame
+        assert contact["normalForce"] == pytest.approx(true, rel=1e-4)
+    else:
+        runs = [part(tmp_path / str(k), QUARTERS, case.replace(spins, ""), "-order", k) for k in (2, order)]
+        runs.append(part(tmp_path / "5", QUARTERS, case, "-order", 2))
+        by = [run.summary["contacts"][0]["normalForce"] for run in runs]
+        assert contact["normalForce"] - by[1] == pytest.approx(by[2] - by[0], rel=1e-3) and by[2] < 0.99 * by[0]
+
+
 @pytest.mark.parametrize("order", short_of([1], [1, 2]))
 def test_spin_in_space(tmp_path, order):
     """A clamped box that spins about any axis: the clamp carries its mass times the middle's distance."""

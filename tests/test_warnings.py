@@ -1,6 +1,7 @@
 """What makes a converged result doubtful is said: in summary.json, on the screen, by postprocess."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -274,3 +275,38 @@ def test_facets(tmp_path, pin, said):
     else:
         assert done.pressureMax == pytest.approx(TRUE_CIRCLES, rel=0.02)
         assert done.warnings == []
+
+
+FOOT = """h = 1; r = 0.3;
+Point(1) = {-2, r, 0, h}; Point(2) = {-2 + r, r, 0, h}; Point(3) = {-2 + r, 0, 0, h}; Point(4) = {2 - r, 0, 0, h};
+Point(5) = {2 - r, r, 0, h}; Point(6) = {2, r, 0, h}; Point(7) = {2, 3, 0, h}; Point(8) = {-2, 3, 0, h};
+Circle(1) = {1, 2, 3}; Line(2) = {3, 4}; Circle(3) = {4, 5, 6};
+Line(4) = {6, 7}; Line(5) = {7, 8}; Line(6) = {8, 1};
+Curve Loop(1) = {1 : 6}; Plane Surface(1) = {1};
+Physical Surface("pad") = {1}; Physical Curve("foot") = {1 : 3};
+Physical Curve("head") = {5}; Physical Curve("sides") = {4, 6};
+"""
+
+
+@pytest.mark.parametrize(("fillet", "h", "young", "told"), [(0.3, 1, 1e5, True), (1, 0.1, 1e3, False)])
+def test_a_greatest_pressure_below_its_error(tmp_path, fillet, h, young, told):
+    """Fillets beside a flat foot, touched within less than an edge: their pressure means nothing, as a warning says."""
+    text = f"body pad E {young} nu 0.3\nobstacle foot plane 0 0 0 1\npressure head 100\n"
+    run = part(tmp_path, FOOT.replace("h = 1; r = 0.3", f"h = {h}; r = {fillet}"), text)
+    pressure = run.summary["estimates"]["contacts"][0]["pressureMax"]
+    assert (pressure["error"] > pressure["value"]) is told
+    said = "the error of the greatest pressure of foot plane is estimated at"
+    warned = [text for text in run.summary["warnings"] if said in text]
+    assert bool(warned) is told and all("it means nothing" in text for text in warned)
+    assert run.summary["contacts"][0]["normalForce"] == pytest.approx(400, rel=1e-8)
+
+
+def test_points_at_a_singular_edge_are_no_jumps(tmp_path):
+    """The ends of a press fit are singular, as a warning says; the pressures there are no oscillation inside."""
+    groups = "group seat faces 1\ngroup bore faces 7\ngroup end faces 3\ngroup rim faces 4\n"
+    text = "body shaft E 210e3 nu 0.3\nbody hub E 210e3 nu 0.3\ncontact bore seat interference 0.02\n"
+    text += "clamp rim\nclamp end\n"
+    run = part(tmp_path, data("warnings/hub.geo"), groups + text, space=True)
+    (warning,) = run.summary["warnings"]
+    assert "the pressure grows without bound towards the edge" in warning
+    assert re.search(r"the contact carries about \d\d?0*, a mean pressure of about \d\d?0*$", warning)

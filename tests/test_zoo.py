@@ -4,11 +4,13 @@ The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a f
 """
 
 import os
+import re
 import subprocess
 
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, data, execute, part, short_of
+from shapes import polygon
 
 from postprocess.__main__ import main
 
@@ -311,3 +313,17 @@ def test_step_solved(tmp_path, cad):
         done = part(tmp_path, mesh, case + NAMED.format("0"), "-estimate", 0, space=True)
         forces.append(done.contacts[0]["force"][2])
     assert forces[0] == pytest.approx(forces[1], rel=0.05)
+
+
+def test_ties_beside_contacts(tmp_path):
+    """`size contact` is of where contacts touch: a tie, which touches all over, has it only where it is alone."""
+    stack = polygon("low", 1, ["-4, -2", "4, -2", "4, 0", "-4, 0"], {1: "base", 3: "lid"})
+    stack += polygon("high", 1, ["-4, 0", "4, 0", "4, 1", "-4, 1"], {1: "sole", 3: "top"}, 5)
+    bodies = "body low E 1 nu 0.3\nbody high E 1 nu 0.3\nclamp base\ntie sole lid\n"
+    found, contact = [], "obstacle top circle 0 3 2 move 0 -0.1\n"
+    for k, own in enumerate((contact, "pressure top 1\n")):
+        run = part(tmp_path / str(k), stack, f"size contact 0.05\n{bodies}{own}", "-check", 1)
+        found.append(int(re.search(r"mesh +(\d+)", run.stdout)[1]))
+    assert 300 < found[0] < found[1] / 3
+    # and of the two only the tie has shears
+    assert part(tmp_path / "2", stack, bodies + contact, "-estimate", 0).stdout.count("shear force") == 1

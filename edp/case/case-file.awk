@@ -173,7 +173,7 @@ function readPair(side,   a, b) {
   if (a == b) no(nameOf[a] ": slave and master are the same; allowed: two groups")
   once("contact" SUBSEP (a < b ? a SUBSEP b : b SUBSEP a), "contact of " nameOf[a] " and " nameOf[b])
   slaves[a] = touches[a] = touches[b] = FNR
-  pick("contact\t" FNR "\t" nameOf[a] "\t" nameOf[b])
+  pick("contact\t" FNR "\t" nameOf[a] "\t" nameOf[b] "\t" word[1])
 }
 function readContact(   side, v, f, wear, heat, law, gap, next_, over) {
   over = 0

@@ -101,6 +101,7 @@ function friction(c,   p, k, x, m, s) {
   s = error(p ".loadSteps.shearForce")
   x = 0
   for (k = 0; k < count[p ".shearForce"]; k++) x += v[p ".shearForce." k] ^ 2
+  if (v[p ".tied"] == "false" && x == 0 && v[p ".stickShare"] == 0) return   # no friction, beside a tie
   if (!owned) print "  friction"
   twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0))
   result("  sticking part", 100 * v[p ".stickShare"], 0, "%", "of the contact")
@@ -112,7 +113,7 @@ function twofold(name, x, mesh, steps, unit, note) {  # two errors, of the mesh 
   put(sprintf("    %-24s %14s%s%s %s %s", name, shown(x, mesh > steps ? mesh : steps), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
-function contact(c,   p, q, k, F, e, x, note, unit, balanced) {
+function contact(c,   p, q, k, F, e, x, note, across, unit, balanced) {
   p = ".contacts." c
   q = ".estimates.contacts." c
   print "  contact " v[p ".name"] (v[p ".contactPoints"] == 0 ? " touches nowhere" : "")
@@ -122,8 +123,10 @@ function contact(c,   p, q, k, F, e, x, note, unit, balanced) {
   F = sqrt(F)
   balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
   e = error(q ".force")
-  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) " " (balanced ? "" : percent(e, F)) : unknown(e))
-  put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, note))
+  across = ""
+  for (k = 0; k < count[p ".across"]; k++) across = across (k ? ", " : "without its part across ") "symmetry " v[p ".across." k]
+  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) (balanced ? "" : " " percent(e, F)) : unknown(e))
+  put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(note, across)))
   if (!balanced) worse(e, F, "force of " v[p ".name"])
   e = error(q ".normalForce")
   result("  normal force", v[p ".normalForce"], e, force, unknown(e))
