@@ -789,3 +789,47 @@ def test_rotation_by_a_radian_drags(tmp_path):
     bound = 0.3 * run.summary["contacts"][0]["normalForce"]
     # the force grows a little faster than the way in
     assert 0.4 * bound < rows(run, "dissipated")[0][-1] < 0.5 * bound
+
+
+# a wedge in a frame, pressed in, let go, and pulled
+FRAME = polygon("frame", 20, ["-2, -3", "9, -3", "9, 0", "0, 0", "0, 1", "9, 1.9", "9, 5", "-2, 5"], {1: "base", 3: "floor", 5: "roof"})
+FRAME += polygon("wedge", 20, ["1, 0", "11, 0", "11, 2.1", "1, 1.1"], {1: "below", 2: "head", 3: "above", 4: "tip"}, 9)
+FRAMED = "body frame E 210e3 nu 0.3\nbody wedge E 210e3 nu 0.3\ncontact below floor friction 0.15\ncontact above roof friction 0.15\n"
+FRAMED += "clamp base\nleg 2\ntraction head -50 0\nleg 2\ntraction head -0.05 0\nleg 2\ntraction head {pull} 0\n"
+
+
+def pulled(folder, pull, size, *flags, **how):
+    text = f"{FRAME}Mesh.MeshSizeMax = {size};\n"
+    return case(folder, text, FRAMED.format(pull=pull), "-order", 1, "-vtu", 0, *flags, **how)
+
+
+@pytest.mark.parametrize(("pull", "jumps"), [(5, False), (12, True)])
+def test_path_that_jumps(tmp_path, pull, jumps):
+    """Where one step leaves a wedge's locked state the energies do not balance: one warning with the step; none where they do."""
+    run = pulled(tmp_path, pull, 0.7)
+    rows = series(run)
+    left = rows["work"] - rows["stored"] - rows["dissipated"]
+    assert (left[-1] < -0.1 * rows["dissipated"][-1]) == jumps
+    said = [text for text in run.summary["warnings"] if "energies do not balance" in text]
+    assert len(said) == jumps
+    if jumps:
+        assert "in step 6 (leg 3)" in said[0] and "raise the numbers of steps after leg" in said[0]
+
+
+def test_error_beyond_the_energies_of_a_step(tmp_path):
+    """An error of the dissipated energy beyond all that the step moves is not known, and the screen has words for it."""
+    run = pulled(tmp_path, 5, 0.5, "-estimate", 1)
+    rows = series(run)
+    step = sum(abs(rows[name][-1] - rows[name][-2]) for name in ("work", "stored", "dissipated"))
+    for contact in run.summary["contacts"]:
+        last = contact["mesh"]["dissipatedLastStep"]
+        assert 0 < last["value"] < step and last["error"] is None
+    assert len(re.findall(r"dissipated, last step +\S+  error not known", run.stdout)) == 2
+    run = pulled(tmp_path, 12, 0.7, "-estimate", 1)
+    assert run.summary["contacts"][0]["mesh"]["dissipatedLastStep"]["error"] > 0
+
+
+def test_body_that_comes_free(tmp_path):
+    """A step without a solution names the body that friction may not hold."""
+    run = pulled(tmp_path, 16, 0.7, expect=20)
+    assert "wedge: rotation: friction may no longer hold it, then there is no equilibrium: less load" in run.summary["message"]

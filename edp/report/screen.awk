@@ -213,7 +213,7 @@ function own(   k, p, e, word, times) {
     word = (p ".moment") in v ? "moment" : "force"
     e = error(p)
     times = thick(v[p "." word], word)
-    if (v[p ".cancelled"] > 1e-6) times = also(times, "its mirror images cancel " (v[p ".cancelled"] > 1 - 1e-6 ? "it" : "a part of it"))
+    if (v[p ".cancelled"] > 0) times = also(times, "its mirror images cancel " (v[p ".cancelled"] > 1 - 1e-6 ? "it" : "a part of it"))
     else if (v[p ".times"] > 1)
       times = also(times, "of the whole " v[p ".times"] " times as much: " also(digits(v[p ".times"] * v[p "." word], 6), thick(v[p ".times"] * v[p "." word], word)))
     if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
