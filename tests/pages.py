@@ -430,6 +430,7 @@ def statements():
         return [dict(re.findall(rf"^{kind} (\w+): (.*)$", said, re.M)) for kind in ("usage", "example")]
 
     (plane, examples), (space, _) = usages("0"), usages("1")
+
     def lines(usage):
         """A long usage: a line for each of its options."""
         if len(usage) < 150:

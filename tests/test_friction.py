@@ -792,10 +792,22 @@ def test_rotation_by_a_radian_drags(tmp_path):
 
 
 # a wedge in a frame, pressed in, let go, and pulled
-FRAME = polygon("frame", 20, ["-2, -3", "9, -3", "9, 0", "0, 0", "0, 1", "9, 1.9", "9, 5", "-2, 5"], {1: "base", 3: "floor", 5: "roof"})
-FRAME += polygon("wedge", 20, ["1, 0", "11, 0", "11, 2.1", "1, 1.1"], {1: "below", 2: "head", 3: "above", 4: "tip"}, 9)
-FRAMED = "body frame E 210e3 nu 0.3\nbody wedge E 210e3 nu 0.3\ncontact below floor friction 0.15\ncontact above roof friction 0.15\n"
-FRAMED += "clamp base\nleg 2\ntraction head -50 0\nleg 2\ntraction head -0.05 0\nleg 2\ntraction head {pull} 0\n"
+CORNERS = ["-2, -3", "9, -3", "9, 0", "0, 0", "0, 1", "9, 1.9", "9, 5", "-2, 5"]
+FRAME = polygon("frame", 20, CORNERS, {1: "base", 3: "floor", 5: "roof"})
+CORNERS = ["1, 0", "11, 0", "11, 2.1", "1, 1.1"]
+FRAME += polygon("wedge", 20, CORNERS, {1: "below", 2: "head", 3: "above", 4: "tip"}, 9)
+FRAMED = """body frame E 210e3 nu 0.3
+body wedge E 210e3 nu 0.3
+contact below floor friction 0.15
+contact above roof friction 0.15
+clamp base
+leg 2
+traction head -50 0
+leg 2
+traction head -0.05 0
+leg 2
+traction head {pull} 0
+"""
 
 
 def pulled(folder, pull, size, *flags, **how):
@@ -805,7 +817,7 @@ def pulled(folder, pull, size, *flags, **how):
 
 @pytest.mark.parametrize(("pull", "jumps"), [(5, False), (12, True)])
 def test_path_that_jumps(tmp_path, pull, jumps):
-    """Where one step leaves a wedge's locked state the energies do not balance: one warning with the step; none where they do."""
+    """One step leaves a wedge's locked state, and energies do not balance: one warning names it; none where they do."""
     run = pulled(tmp_path, pull, 0.7)
     rows = series(run)
     left = rows["work"] - rows["stored"] - rows["dissipated"]
@@ -817,7 +829,7 @@ def test_path_that_jumps(tmp_path, pull, jumps):
 
 
 def test_error_beyond_the_energies_of_a_step(tmp_path):
-    """An error of the dissipated energy beyond all that the step moves is not known, and the screen has words for it."""
+    """An error of the dissipated energy beyond all that the step moves is not known, and the screen says so."""
     run = pulled(tmp_path, 5, 0.5, "-estimate", 1)
     rows = series(run)
     step = sum(abs(rows[name][-1] - rows[name][-2]) for name in ("work", "stored", "dissipated"))
@@ -832,4 +844,7 @@ def test_error_beyond_the_energies_of_a_step(tmp_path):
 def test_body_that_comes_free(tmp_path):
     """A step without a solution names the body that friction may not hold."""
     run = pulled(tmp_path, 16, 0.7, expect=20)
-    assert "wedge: rotation: friction may no longer hold it, then there is no equilibrium: less load" in run.summary["message"]
+    assert (
+        "wedge: rotation: friction may no longer hold it, then there is no equilibrium: less load"
+        in run.summary["message"]
+    )
