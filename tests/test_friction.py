@@ -848,3 +848,12 @@ def test_body_that_comes_free(tmp_path):
         "wedge: rotation: friction may no longer hold it, then there is no equilibrium: less load"
         in run.summary["message"]
     )
+    # a wall that it rests on backs off: nothing presses on the state where the step ends
+    text = FRAMED[: FRAMED.index("leg")] + """leg 2
+obstacle head plane 11 1 -1 0 move -0.05 0
+leg 2
+obstacle head move 2 0
+"""
+    flags = ("-order", 1, "-vtu", 0)
+    run = case(tmp_path / "wall", f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, *flags, expect=20)
+    assert "leg 2: wedge: along x: nothing presses on it any more: end the path before, or" in run.summary["message"]
