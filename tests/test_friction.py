@@ -849,11 +849,22 @@ def test_body_that_comes_free(tmp_path):
         in run.summary["message"]
     )
     # a wall that it rests on backs off: nothing presses on the state where the step ends
-    text = FRAMED[: FRAMED.index("leg")] + """leg 2
+    text = (
+        FRAMED[: FRAMED.index("leg")]
+        + """leg 2
 obstacle head plane 11 1 -1 0 move -0.05 0
 leg 2
 obstacle head move 2 0
 """
+    )
     flags = ("-order", 1, "-vtu", 0)
     run = case(tmp_path / "wall", f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, *flags, expect=20)
     assert "leg 2: wedge: along x: nothing presses on it any more: end the path before, or" in run.summary["message"]
+
+
+def test_geometry_updates_are_no_load_steps(tmp_path):
+    """The table of a path with geometry updates names its load steps by their numbers."""
+    text = FRAMED[: FRAMED.index("leg")] + "leg 3\ntraction head -50 0\n"
+    run = case(tmp_path, f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, "-order", 1, "-vtu", 0, *EXACT)
+    assert run.stdout.count("of the exact distance: ") >= 3
+    assert re.findall(r"^ .*   step (\d+)$", run.stdout, re.M) == ["2", "3"]
