@@ -497,7 +497,8 @@ END {
     split(sizeLine[g], f, "\t")
     if (f[3] == "contact" && members[dim, "contact"] members[dim - 1, "contact"] == "") contactSize(f[4] + 0)
     else if (members[dim, f[3]] != "") sizeOf(members[dim, f[3]], dim, f[4])
-    else sizeOf(members[dim - 1, f[3]], dim - 1, f[4])
+    else if (members[dim - 1, f[3]] != "") sizeOf(members[dim - 1, f[3]], dim - 1, f[4])
+    else no(f[2], "size " f[3] ": the geometry has nothing in the group " f[3] "; allowed: a group with a body, or with a " (space ? "face" : "curve") " of one")
   }
   if (chosen != "") {
     field("Min"); print "Field[" fields "].FieldsList = {" chosen "};\nBackground Field = " fields ";"

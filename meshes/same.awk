@@ -11,9 +11,11 @@ function usesGroups(w) {
 }
 function overlaps(s, g, h,   key) {
   key = g < h ? g SUBSEP h : h SUBSEP g
-  if (!(key in common)) { commonSide[key] = sideNumber[s]; shares[++sharing] = key }
+  if (!(key in common)) { commonSide[key] = s; shares[++sharing] = key }
   common[key]++
 }
+# a corner of a side, in the user's lengths
+function corner(s) { return sprintf(space ? "%.4g, %.4g, %.4g" : "%.4g, %.4g", x[side[s, 1]], y[side[s, 1]], z[side[s, 1]]) }
 function one(g) { while (g in sameAs) g = sameAs[g]; return g }
 function mergeGroups(   k, p, g, h, w, v, same) {
   for (k = 1; k <= sharing; k++) {
@@ -21,7 +23,7 @@ function mergeGroups(   k, p, g, h, w, v, same) {
     g = p[1]; h = p[2]
     same = common[shares[k]] == sidesIn[g] && common[shares[k]] == sidesIn[h]
     if ((g in otherIn) || (h in otherIn) || !same && ((g in slaveIn) || (h in slaveIn)))
-      fail("element " commonSide[shares[k]] ": " sideKind " in two physical groups of the case, \"" name[g] "\" and \"" name[h] "\"; allowed: one of them, or two that only contacts use, with the same sides or as masters")
+      fail("element " sideNumber[commonSide[shares[k]]] ": " sideKind " in two physical groups of the case, \"" name[g] "\" and \"" name[h] "\", which share " common[shares[k]] " of their " sidesIn[g] " and " sidesIn[h] ", this one at (" corner(commonSide[shares[k]]) "); allowed: one of them, or two that only contacts use, with the same sides or as masters; group ... plane and box take the sides of all bodies there, near, between and numbers those of one")
     g = one(g); h = one(h)
     if (g != h) sameAs[g > h ? g : h] = g > h ? h : g
   }

@@ -17,11 +17,16 @@ INLINE = re.compile(
 Place = Callable[[str], str]  # a link's target, or a picture's source, to what stands in the page; "": no link
 
 
+def plain(text: str) -> str:
+    """Words; <br>, which breaks a cell of a table, stays."""
+    return html.escape(text).replace("&lt;br&gt;", "<br>")
+
+
 def inline(text: str, link: Place, image: Place) -> str:
     """Code, pictures, links, bold and slanted words of a line."""
     pieces, at = [], 0
     for found in INLINE.finditer(text):
-        pieces.append(html.escape(text[at : found.start()]))
+        pieces.append(plain(text[at : found.start()]))
         at = found.end()
         if found["code"]:
             pieces.append(f"<code>{html.escape(found['code'][1:-1])}</code>")
@@ -36,7 +41,7 @@ def inline(text: str, link: Place, image: Place) -> str:
         else:
             name = "strong" if found["strong"] else "em"
             pieces.append(f"<{name}>{inline(found['strong'] or found['em'], link, image)}</{name}>")
-    return "".join([*pieces, html.escape(text[at:])])
+    return "".join([*pieces, plain(text[at:])])
 
 
 def markup(text: str, link: Place = lambda target: target, image: Place = lambda source: source) -> Markup:

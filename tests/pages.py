@@ -430,12 +430,25 @@ def statements():
         return [dict(re.findall(rf"^{kind} (\w+): (.*)$", said, re.M)) for kind in ("usage", "example")]
 
     (plane, examples), (space, _) = usages("0"), usages("1")
+
+    def lines(usage):
+        """A long usage: a line for each of its options."""
+        if len(usage) < 150:
+            return f"`{usage}`"
+        depth, text = 0, ""
+        for sign in usage:
+            text += "\n" if sign == "[" and depth == 0 else ""
+            depth += (sign == "[") - (sign == "]")
+            text += sign
+        text = re.sub(r"\], (?=\w)", "]\n", text)
+        return "<br>".join(f"`{line.strip()}`" for line in text.split("\n"))
+
     meanings = {re.findall(r"\w+", row[0])[0]: row[-1] for row in of_table("statements")}
     rows = ["| statement | example | meaning |", "|---|---|---|"]
     for word in [*(word for word in meanings if word in plane), *sorted(plane.keys() - meanings.keys())]:
-        other = f"; in space `{space[word]}`" if space[word] != plane[word] else ""
+        other = f"; in space {lines(space[word])}" if space[word] != plane[word] else ""
         example = f"`{examples[word]}`" if word in examples else ""
-        rows.append(f"| `{plane[word]}`{other} | {example} | {meanings.get(word, '')} |")
+        rows.append(f"| {lines(plane[word])}{other} | {example} | {meanings.get(word, '')} |")
     return "\n".join(rows) + "\n"
 
 

@@ -468,12 +468,15 @@ def test_one_surface_in_two_contacts(order, tmp_path):
 @pytest.mark.parametrize(
     "lines, said",
     [
-        ("contact face under\nclamp over\n", 'in two physical groups of the case, "under" and "over"; allowed: one'),
+        (
+            "contact face under\nclamp over\n",
+            'in two physical groups of the case, "under" and "over", which share 42 of their 42 and 42,',
+        ),
         ("contact face under\ncontact face over\n", "the same surfaces as in line"),
         ("contact under over\n", "both are the same surface"),
         (
             "group wide curves 5 2\ncontact under face\ncontact wide roof\n",
-            '"under" and "wide"; allowed: one of them, or two',
+            "allowed: one of them, or two",
         ),
         ("group wide curves 5 2\ncontact face under\ncontact roof wide\n", None),  # a master of more than is needed
     ],
@@ -485,6 +488,35 @@ def test_one_surface_refused(lines, said, tmp_path):
 
 
 # ---------------------------------------------------------------- refusals
+
+PLATES = """SetFactory("OpenCASCADE"); Mesh.MeshSizeMax = 0.5;
+Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {0, 1.1, 0, 1, 1};
+Physical Surface("a") = {1}; Physical Surface("b") = {2}; Physical Curve("empty") = {};
+Physical Curve("lid") = {3}; Physical Curve("low") = {5}; Physical Curve("foot") = {1}; Physical Curve("top") = {7};
+"""
+PLATED = "body a E 1 nu 0.3\nbody b E 1 nu 0.3\ncontact lid low friction 0.1\nclamp foot\n"
+
+
+@pytest.mark.parametrize(
+    "lines, said",
+    [
+        ("size empty 1\n", "line 5: size empty: the geometry has nothing in the group empty; allowed: a group with"),
+        (
+            "move top 0 0\nleg 2\nmove top 0 -0.2\n",
+            "line 7: top: move in line 5, before the first leg, and again in it; allowed: without",
+        ),
+        ("move top 0 0\nmove top 0 -0.2\nleg 2\n", "line 6: top: move after move in line 5; allowed: only one"),
+        (
+            "group both plane 0 1.1 0 1\npressure both 1\n",
+            '"both", which share 5 of their 5 and 5, this one at (0, 1.1); allowed: one of them',
+        ),
+    ],
+)
+def test_groups_and_phases_refused(lines, said, tmp_path):
+    """An empty group, a value before the first phase and in it, sides in two groups: by names, lines and places."""
+    run = part(tmp_path, PLATES, PLATED + lines, "-estimate", 0, expect=10)
+    assert said in run.stdout
+
 
 CUT = "cut waist low plane 0 0 1 0 0 1\npreload waist 1\n"
 REFUSED = {  # lines in place of the join and the cut, and what is said

@@ -456,3 +456,10 @@ def test_no_curve_of_a_plastic_case(tmp_path, capsys):
 def test_refusals_with_examples(tmp_path, line, words):
     run = case(tmp_path, BOLT, f"{JOINT}{line}\n", expect=10)
     assert words in run.stdout
+
+
+def test_curve_of_a_thick_body(tmp_path, capsys):
+    """Forces of a curve are those of a unit of thickness: a line says so, and how much all of it carries."""
+    run = case(tmp_path, PUNCH, "thickness 4\n" + PUNCHED)
+    assert main(["curve", str(run.folder)]) == 0
+    assert "are of a unit of thickness; all 4 carry 4 times as much" in capsys.readouterr().out

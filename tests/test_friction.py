@@ -800,3 +800,82 @@ def test_rotation_by_a_radian_drags(tmp_path):
     bound = 0.3 * run.summary["contacts"][0]["normalForce"]
     # the force grows a little faster than the way in
     assert 0.4 * bound < rows(run, "dissipated")[0][-1] < 0.5 * bound
+
+
+# a wedge in a frame, pressed in, let go, and pulled
+CORNERS = ["-2, -3", "9, -3", "9, 0", "0, 0", "0, 1", "9, 1.9", "9, 5", "-2, 5"]
+FRAME = polygon("frame", 20, CORNERS, {1: "base", 3: "floor", 5: "roof"})
+CORNERS = ["1, 0", "11, 0", "11, 2.1", "1, 1.1"]
+FRAME += polygon("wedge", 20, CORNERS, {1: "below", 2: "head", 3: "above", 4: "tip"}, 9)
+FRAMED = """body frame E 210e3 nu 0.3
+body wedge E 210e3 nu 0.3
+contact below floor friction 0.15
+contact above roof friction 0.15
+clamp base
+leg 2
+traction head -50 0
+leg 2
+traction head -0.05 0
+leg 2
+traction head {pull} 0
+"""
+
+
+def pulled(folder, pull, size, *flags, **how):
+    text = f"{FRAME}Mesh.MeshSizeMax = {size};\n"
+    return case(folder, text, FRAMED.format(pull=pull), "-order", 1, "-vtu", 0, *flags, **how)
+
+
+@pytest.mark.parametrize(("pull", "jumps"), [(5, False), (12, True)])
+def test_path_that_jumps(tmp_path, pull, jumps):
+    """One step leaves a wedge's locked state, and energies do not balance: one warning names it; none where they do."""
+    run = pulled(tmp_path, pull, 0.7)
+    rows = series(run)
+    left = rows["work"] - rows["stored"] - rows["dissipated"]
+    assert (left[-1] < -0.1 * rows["dissipated"][-1]) == jumps
+    said = [text for text in run.summary["warnings"] if "energies do not balance" in text]
+    assert len(said) == jumps
+    if jumps:
+        assert "in step 6 (leg 3)" in said[0] and "raise the numbers of steps after leg" in said[0]
+
+
+def test_error_beyond_the_energies_of_a_step(tmp_path):
+    """An error of the dissipated energy beyond all that the step moves is not known, and the screen says so."""
+    run = pulled(tmp_path, 5, 0.5, "-estimate", 1)
+    rows = series(run)
+    step = sum(abs(rows[name][-1] - rows[name][-2]) for name in ("work", "stored", "dissipated"))
+    for contact in run.summary["contacts"]:
+        last = contact["mesh"]["dissipatedLastStep"]
+        assert 0 < last["value"] < step and last["error"] is None
+    assert len(re.findall(r"dissipated, last step +\S+  error not known", run.stdout)) == 2
+    run = pulled(tmp_path, 12, 0.7, "-estimate", 1)
+    assert run.summary["contacts"][0]["mesh"]["dissipatedLastStep"]["error"] > 0
+
+
+def test_body_that_comes_free(tmp_path):
+    """A step without a solution names the body that friction may not hold."""
+    run = pulled(tmp_path, 16, 0.7, expect=20)
+    assert (
+        "wedge: rotation: friction may no longer hold it, then there is no equilibrium: less load"
+        in run.summary["message"]
+    )
+    # a wall that it rests on backs off: nothing presses on the state where the step ends
+    text = (
+        FRAMED[: FRAMED.index("leg")]
+        + """leg 2
+obstacle head plane 11 1 -1 0 move -0.05 0
+leg 2
+obstacle head move 2 0
+"""
+    )
+    flags = ("-order", 1, "-vtu", 0)
+    run = case(tmp_path / "wall", f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, *flags, expect=20)
+    assert "leg 2: wedge: along x: nothing presses on it any more: end the path before, or" in run.summary["message"]
+
+
+def test_geometry_updates_are_no_load_steps(tmp_path):
+    """The table of a path with geometry updates names its load steps by their numbers."""
+    text = FRAMED[: FRAMED.index("leg")] + "leg 3\ntraction head -50 0\n"
+    run = case(tmp_path, f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, "-order", 1, "-vtu", 0, *EXACT)
+    assert run.stdout.count("of the exact distance: ") >= 3
+    assert re.findall(r"^ .*   step (\d+)$", run.stdout, re.M) == ["2", "3"]

@@ -854,3 +854,52 @@ def test_work_of_an_obstacle(tmp_path, load):
         run["prescribed"][1]["force"] if "move" in load else run["obstacles"][0]["motion"][1] for run in (before, after)
     ]
     assert (after["energy"] - before["energy"]) / (2 * step) == pytest.approx(np.mean(forces), rel=1e-3)
+
+
+QUARTER = 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 3, 3}; Disk(2) = {0, 0, 0, 1};\n'
+QUARTER += 'BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\nPhysical Surface("block") = {3};\n'
+QUARTER += "".join(
+    f'Physical Curve("{name}") = Curve In BoundingBox {{{box}}};\n'
+    for name, box in {
+        "left": "-0.01, 0.9, -1, 0.01, 3.1, 1",
+        "low": "0.9, -0.01, -1, 3.1, 0.01, 1",
+        "bore": "-0.01, -0.01, -1, 1.01, 1.01, 1",
+        "top": "-0.1, 2.9, -1, 3.1, 3.1, 1",
+        "right": "2.9, -0.1, -1, 3.1, 3.1, 1",
+    }.items()
+)
+QUARTER += "Mesh.MeshSizeMax = 0.5;\n"
+
+
+def test_mirror_images_that_cancel(tmp_path):
+    """A quarter of a bore under pressure: the whole's resultant is 0, not 4 times the quarter's; a traction's is 2."""
+    text = "body block E 1000 nu 0.3\nobstacle top plane 0 3 0 -1\nsymmetry left\nsymmetry low\n"
+    text += "pressure bore 4\ntraction right 2 0\n"
+    run = solve(tmp_path, QUARTER, text, "-vtu", 0)
+    bore, right = run.summary["prescribed"]
+    assert bore["force"] == pytest.approx(4 * 2**0.5, rel=1e-2) and bore["cancelled"] == pytest.approx(1, abs=1e-9)
+    assert right["times"] == 2 and "cancelled" not in right
+    assert "its mirror images cancel it" in run.stdout and "4 times as much" not in run.stdout
+
+
+def test_motion_fixed_with_others(tmp_path):
+    """A plate round a pin away from its middle turns about the pin: only motions together change no gap."""
+    geo = 'SetFactory("OpenCASCADE");\nRectangle(1) = {-1.5, -1.5, 0, 6, 3}; Disk(2) = {0, 0, 0, 1};\n'
+    geo += 'BooleanDifference(4) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\nPhysical Surface("plate") = {4};\n'
+    geo += 'Physical Curve("bore") = Curve In BoundingBox {-1.05, -1.05, -1, 1.05, 1.05, 1}; Mesh.MeshSizeMax = 0.2;\n'
+    said = solve(tmp_path, geo, "body plate E 1000 nu 0.3\nobstacle bore circle 0 0 R 0.9\n", "-check", 1).stdout
+    assert re.search(
+        "^  note +plate: .* together with other motions of plate changes no gap and carries no load", said, re.M
+    ), said
+
+
+def test_nothing_presses_at_the_end_of_a_path(tmp_path):
+    """A path that ends open is not told to raise its loads first; one load alone is."""
+    text = "body block E 1000 nu 0.3\nobstacle top plane 0 3.1 0 -1 move 0 {}\nclamp low\n"
+    for steps, words in (
+        ("", "nothing presses on anything: the least gap left is 0.1: raise"),
+        ("leg 1\n", "at the end of the last leg nothing"),
+    ):
+        path = text.format(0) if not steps else f"{text.format(-0.2)}leg 1\nleg 1\nobstacle top move 0 0\n"
+        run = solve(tmp_path / str(len(steps)), QUARTER, path, "-vtu", 0)
+        assert any(text.startswith(words) for text in run.summary["warnings"]), run.summary["warnings"]

@@ -337,3 +337,14 @@ def test_help_by_topics():
                 assert line[head.index("meaning")] != " " and line[head.index("meaning") - 1] == " ", line
         assert "Units are yours, consistent: lengths in one unit" in said
     assert told("main.edp")["-kappa"] == told("main.edp", "-method", "newton")["-kappa"] and len(scripts()) > 20
+
+
+def test_error_of_a_moment_in_space(tmp_path):
+    """What bounds the size of a vector stands behind that size, not behind the components."""
+    own = thick_body(1, "space") | {"reactionZ": 0}
+    row = {"name": "pad disc", "body": "pad", "point": "", "about": [0, 0, 0], "force": [0, 0, 0]}
+    own["moments"] = [{**row, "moment": [30, -40, 0], "printed": True, "error": 2}]
+    said = screen(tmp_path, own)
+    assert re.search(
+        r"^    pad disc +\(30, -40, 0\) N mm +on pad, about \(0, 0, 0\), size 50.0 ± 2.0 \(4 %\)$", said, re.M
+    ), said

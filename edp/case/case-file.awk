@@ -15,6 +15,8 @@ function once(key, what) {
 }
 # a boundary is held in one way
 function holds(g) {
+  if (legs == 1 && (g in heldBy) && heldBy[g] == word[1] && heldIn[g] < legLine)
+    no(nameOf[g] ": " word[1] " in line " heldIn[g] ", before the first leg, and again in it; allowed: without line " heldIn[g] ", which the first leg replaces")
   if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group")
   heldBy[g] = word[1]
   heldIn[g] = FNR
@@ -64,7 +66,7 @@ function readLeg(   v) {
   if (!rubs) no("leg: read by parts.edp and parts-3d.edp alone; allowed here: one load, -history 1 in steps")
   v[0] = number("the number of steps", 0, 100001)
   if (v[0] != int(v[0])) no(word[at] ": no whole number of steps; " usageOf("leg"))
-  legs++
+  if (!legs++) legLine = FNR
   put(0, 0, "none", "none", "none", v)
 }
 function put(a, b, shape, load, law, v) {

@@ -107,7 +107,8 @@ function friction(c,   p, k, x, m, s) {
   result("  sticking part", 100 * v[p ".stickShare"], 0, "%", "of the contact")
   twofold("dissipated", v[p ".dissipated"], -1, error(p ".loadSteps.dissipated"), "", "")
   if (known(p ".mesh.dissipatedLastStep.value"))
-    twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", "")
+    twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", \
+      v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "")
 }
 function twofold(name, x, mesh, steps, unit, note) {  # two errors, of the mesh and of the load steps
   put(sprintf("    %-24s %14s%s%s %s %s", name, shown(x, mesh > steps ? mesh : steps), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
@@ -179,7 +180,7 @@ function moments(   k, p, i, e, m, unit, note, some) {
     if (dimension == 2) { result("  " v[p ".name"], v[p ".moment.0"], e, unit, note); continue }
     m = 0
     for (i = 0; i < 3; i++) m += v[p ".moment." i] ^ 2
-    put(sprintf("    %-24s %14s %s  %s", v[p ".name"], vector(p ".moment", 3, 0), unit, also(note, e > 0 ? "± " off(m ^ 0.5, e) " " percent(e, m ^ 0.5) : "")))
+    put(sprintf("    %-24s %14s %s  %s", v[p ".name"], vector(p ".moment", 3, 0), unit, also(note, e > 0 ? "size " shown(m ^ 0.5, e) " ± " off(m ^ 0.5, e) " " percent(e, m ^ 0.5) : "")))
   }
 }
 function heat(   k, p, most) {
@@ -215,7 +216,8 @@ function own(   k, p, e, word, times) {
     word = (p ".moment") in v ? "moment" : "force"
     e = error(p)
     times = thick(v[p "." word], word)
-    if (v[p ".times"] > 1)
+    if (v[p ".cancelled"] > 0) times = also(times, "its mirror images cancel " (v[p ".cancelled"] > 1 - 1e-6 ? "it" : "a part of it"))
+    else if (v[p ".times"] > 1)
       times = also(times, "of the whole " v[p ".times"] " times as much: " also(digits(v[p ".times"] * v[p "." word], 6), thick(v[p ".times"] * v[p "." word], word)))
     if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
     if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {

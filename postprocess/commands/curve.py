@@ -31,6 +31,11 @@ def run(arguments: argparse.Namespace) -> None:
     units = Units(chosen.summary, arguments.units)
     for each in curves(read_series(chosen)):
         print(extremes(each, units))
+    thickness = chosen.summary.get("thickness", 1)
+    if thickness != 1:
+        print(
+            f"forces, moments and work are of a unit of thickness; all {thickness:g} carry {thickness:g} times as much"
+        )
     with style.look():
         figure = drawn(chosen, units)
         write_own(figure, arguments.out, chosen.path / "curve.pdf")
