@@ -120,6 +120,117 @@ def test_bolt_in_the_plane(file, tmp_path):
     assert found["contacts"][0]["normalForce"] == pytest.approx(20 - 9 * 75 / 175, rel=1e-5)
 
 
+# two flanges that touch at their outer rings, and a bolt through them: they bend
+FLANGES = (
+    OCC
+    + """Rectangle(1) = {0, -12, 0, 5, 24}; Rectangle(2) = {0, 12, 0, 8, 6}; Rectangle(3) = {0, -18, 0, 8, 6};
+BooleanUnion(4) = { Surface{1}; Delete; }{ Surface{2, 3}; Delete; };
+Rectangle(5) = {5.5, 1, 0, 44.5, 11}; Rectangle(6) = {40, 0, 0, 10, 1};
+BooleanUnion(7) = { Surface{5}; Delete; }{ Surface{6}; Delete; };
+Rectangle(8) = {5.5, -12, 0, 46.5, 11}; Rectangle(9) = {40, -1, 0, 9, 1};
+BooleanUnion(10) = { Surface{8}; Delete; }{ Surface{9}; Delete; };
+"""
+)
+FLANGES_CASE = """state axisymmetric
+group bolt surfaces 4
+group upper surfaces 7
+group lower surfaces 10
+group axis plane 0 0 1 0
+group side plane 50 0 1 0
+group foot plane 52 0 1 0
+size bolt 3
+size upper 4
+size lower 4
+body bolt E 210e3 nu 0.3
+body upper E 210e3 nu 0.3
+body lower E 210e3 nu 0.3
+join upper lower contact
+join bolt upper contact
+join bolt lower contact
+cut waist bolt plane 0 1 0 1
+preload waist 10e3
+clamp foot
+traction side 0 1
+"""
+
+
+def test_flanges_that_bend(tmp_path):
+    """They give way far more than the model of the start, whose forces would leave all open."""
+    pull = 12 * 2 * np.pi * 50
+    flags = ("-estimate", 0, "-start")
+    runs = {how: part(tmp_path / how, FLANGES, FLANGES_CASE, *flags, how) for how in ("kernel", "none")}
+    for run in runs.values():
+        force = {each["slave"]: each["normalForce"] for each in run.contacts}
+        assert force["bolt-upper"] - force["upper-lower"] == pytest.approx(pull, rel=1e-6)
+        assert force["bolt-upper"] == pytest.approx(force["bolt-lower"], rel=1e-6)
+    first, other = (run.summary["preloads"][0]["force"] for run in runs.values())
+    assert first == pytest.approx(other, rel=1e-6)
+    assert len(runs["kernel"].history) <= len(runs["none"].history)
+
+
+HEAD_IN_SPACE = (
+    OCC
+    + """Cylinder(1) = {0, 0, 4, 0, 0, 3, 8, Pi/2}; Cylinder(2) = {0, 0, 4, 0, 0, 3, 5, Pi/2};
+BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(3) = {0, 0, 0, 0, 0, 4, 12, Pi/2}; Cylinder(4) = {0, 0, 0, 0, 0, 4, 5.5, Pi/2};
+BooleanDifference(6) = { Volume{3}; Delete; }{ Volume{4}; Delete; };
+"""
+)
+HEAD_CASE = """group head volumes 5
+group plate volumes 6
+group high plane 0 0 7 0 0 1
+group low plane 0 0 0 0 0 1
+group left plane 0 0 0 1 0 0
+group front plane 0 0 0 0 1 0
+size head 0.8
+size plate 0.8
+body head E 1000 nu 0.3
+body plate E 1000 nu 0.3
+join SLAVE contact
+clamp low
+move high 0 0 -0.05
+symmetry left
+symmetry front
+"""
+HEAD_IN_PLANE = OCC + "Rectangle(1) = {5, 4, 0, 3, 3}; Rectangle(2) = {5.5, 0, 0, 6.5, 4};\n"
+HEAD_SECTION = """state axisymmetric
+group head surfaces 1
+group plate surfaces 2
+group high plane 0 7 0 1
+group low plane 0 0 0 1
+size head 0.1
+size plate 0.1
+body head E 1000 nu 0.3
+body plate E 1000 nu 0.3
+join head plate contact
+clamp low
+move high 0 -0.05
+"""
+
+
+@pytest.mark.parametrize(
+    "order, slave", [(1, "head plate"), (2, "head plate"), pytest.param(2, "plate head", marks=pytest.mark.long)]
+)
+def test_head_over_a_hole(order, slave, tmp_path):
+    """The slave reaches over the master's rims: it carries nothing there, and beside them what a fine section does."""
+    ring = part(tmp_path / "plane", HEAD_IN_PLANE, HEAD_SECTION, "-estimate", 0)
+    case = HEAD_CASE.replace("SLAVE", slave)
+    run = part(tmp_path / "space", HEAD_IN_SPACE, case, "-estimate", 0, "-order", order, space=True)
+    assert 4 * run.contacts[0]["normalForce"] == pytest.approx(ring.contacts[0]["normalForce"], rel=0.06 / order**2)
+    at = run.contact
+    away = np.hypot(at["x"], at["y"])
+    beyond = (away < 5.4) | (away > 8.05)
+    assert beyond.sum() > 10 and np.all(at["pressure"][beyond] == 0)
+    assert 4 * at["weight"].sum() == pytest.approx(np.pi * (8**2 - 5.5**2), rel=0.01)
+
+    def mean(points, distance):
+        near = (distance > 5.4) & (distance < 6.25)
+        return np.average(points["pressure"][near], weights=points["weight"][near])
+
+    assert mean(at, away) == pytest.approx(mean(ring.contact, ring.contact["x"]), rel=0.15)
+    assert at["pressure"].max() < 3 * np.average(at["pressure"], weights=at["weight"])
+
+
 def marks(folder):
     """{group: places of its vertices} of the cuts that the reader found."""
     lines = (folder / "case").read_text().splitlines()
