@@ -231,15 +231,15 @@ traction top 0 150
 """
 
 
-@pytest.mark.parametrize("friction", short_of([""], [" friction 0.2"]))
+@pytest.mark.parametrize("friction", ["", " friction 0.2"])
 def test_ends_that_open(said, friction):
     """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector."""
     linear = said(DOVETAIL, BLADE.format(friction))
     true = said(DOVETAIL, BLADE.format(friction), "-distance", "exact")
     moved = true.known("normalForce")[0] - linear.known("normalForce")[0]
-    assert linear.linear["changes"]["slot flank normal force"] == pytest.approx(moved, rel=0.35)
+    assert linear.linear["changes"]["slot flank normal force"] == pytest.approx(moved, rel=0.2)
     assert linear.holds("normalForce", true.known("normalForce")[0])
-    assert apart(linear, true) <= linear.known("force")[1] < 4 * apart(linear, true)
+    assert linear.known("force")[1] == pytest.approx(2 * apart(linear, true), rel=0.25)  # the safety
 
 
 # a round bone on a soft layer that is bonded to a stiff one, axisymmetric
