@@ -15,38 +15,11 @@ from postprocess.results import ResultsError
 from postprocess.vtu import bodies_file, read_grid, read_surface
 
 SAME = ("force", "pressureMax", "halfWidthMoment", "energy", "reactionZ", "approach")
+# bodies carry loads of their own
+LOADED = ["sphere-on-block", "-h", 2, "-layers", 1, "-symmetry", "half", "-bodyForce", 0.1]
 CASES = {
-    # the force is prescribed, and bodies carry loads of their own
-    "loads": [
-        "sphere-on-block",
-        "-h",
-        2,
-        "-layers",
-        1,
-        "-order",
-        2,
-        "-symmetry",
-        "half",
-        "-bodyForce",
-        0.1,
-        "-force",
-        900,
-    ],
-    "loads P1": [
-        "sphere-on-block",
-        "-h",
-        2,
-        "-layers",
-        1,
-        "-order",
-        1,
-        "-symmetry",
-        "half",
-        "-bodyForce",
-        0.1,
-        "-traction",
-        -1,
-    ],
+    "loads": [*LOADED, "-order", 2, "-force", 900],  # the force is prescribed
+    "loads P1": [*LOADED, "-order", 1, "-traction", -1],
     "block": ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-traction", -1],
     "rings": ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-ends", 2],
     "exact": ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-distance", "exact"],
