@@ -208,16 +208,17 @@ LARGE = {1: (0.3, 0.21, 0.15, 0.088, 0.058), 2: (0.5, 0.3, 0.2)}  # h, by degree
 LARGE_ONE = {1: 0.21, 2: 0.45}  # about 1e5, over stiffness and exponent
 LARGE_LAWS = [(1, 3), (1e4, 3), (1e8, 3), (1e12, 3), (1e3, 1.05), (1e3, 20)]
 LEAN = "-matptap_via allatonce"  # what a run chooses itself where memory is short
-PROCESSES = [(1, False), (2, False), (4, False), (2, True), (4, True)]
+PROCESSES = [(1, False), (2, False), (4, False), (8, False), (2, True), (4, True), (8, True)]
 # name, order, flags of the mesh, runs: processes, lean or not
 RANKED = [
     ("P1", 1, {"h": 0.132}, PROCESSES),
-    ("P2", 2, {"h": 0.3}, [(1, False), (4, False), (4, True)]),
+    ("P2", 2, {"h": 0.3}, PROCESSES),
     ("P1 halved", 1, {"h": 0.19, "refine": 1}, [(4, False)]),
 ]
-# name: geometry among the examples, and the text of a case, if it is not the example's own
+# name, of P1 unless it says P2: geometry among the examples, and the text of a case, if it is not the example's own
 RANKED_PARTS = {
     "wheel on rail": ("wheel-on-rail/wheel-on-rail.step", ""),
+    "wheel on rail P2": ("wheel-on-rail/wheel-on-rail.step", ""),
     "ball on bracket": ("ball-on-bracket/ball-on-bracket.geo", ""),
     "tie": (
         "ball-on-bracket/ball-on-bracket.geo",
@@ -337,8 +338,8 @@ def ranks_cases(_root: Path) -> list[campaign.Case]:
         own = f"{name.split()[0]}.case"
         example = Path("edp/examples") / geometry
         flags = {"mesh": example if example.suffix == ".geo" else example.name}
-        flags |= {"case": own if case_file else example.with_suffix(".case"), "order": 1, **shared}
-        for ranks in (1, 2, 4) if name == "wheel on rail" else (1, 2):
+        flags |= {"case": own if case_file else example.with_suffix(".case"), "order": 1 + name.endswith("P2"), **shared}
+        for ranks in (1, 2, 4) if name.startswith("wheel") else (1, 2):
             add(name, "edp/parts-3d.edp", flags, ranks)
     for name, order, mesh, runs in RANKED:
         flags = {"order": order, "kappa": 1e9, **mesh, **shared}
