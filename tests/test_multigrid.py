@@ -5,6 +5,7 @@ Skipped where `make mpi` has not built the plugin; the refusals that need none a
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -341,6 +342,19 @@ def test_engine_chosen_by_size(tmp_path):
     code, output = on_ranks(1, script("sphere-on-block"), "-h", 0.265, *flags)
     assert code == 0 and output.count("engine: multigrid, for ") == 1, output
     assert "faster than -solver direct" in output and "their iterations" in output
+
+
+@built
+def test_job_script(tmp_path):
+    """It takes a script with its flags, says the memory of a rank before the run, and runs so many ranks."""
+    flags = [script("sphere-on-block"), "-h", 1.5, "-layers", 1, "-order", 1, "-estimate", 0, "-out", tmp_path / "out"]
+    command = ["sh", "edp/scenes/slurm.sh", *map(flag_text, flags)]
+    code, output = execute(command, ROOT, environment(**AS_ROOT, SLURM_NTASKS="2"))
+    assert code == 0, output
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    told = float(re.search(r"memory: up to ([\d.]+) GB on each of 2 processes", output)[1])
+    assert summary["ranks"] == 2 and summary["converged"]
+    assert told == pytest.approx(0.05 + 3.7e-6 * summary["ndof"] / 2, rel=0.05)
 
 
 @pytest.mark.long

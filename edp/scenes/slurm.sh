@@ -1,16 +1,19 @@
 #!/bin/sh
-# slurm.sh: a batch script for a cluster with SLURM, as an example: not tried. From the repository's root: sbatch edp/scenes/slurm.sh
-# The repository is on a file system that all nodes share, and so is TMPDIR for a case file: one process makes the mesh, all read it.
+# slurm.sh: a batch script for a cluster with SLURM: sbatch edp/scenes/slurm.sh SCRIPT FLAGS..., from the package's folder
+# A case on 16 ranks: sbatch -n 16 edp/scenes/slurm.sh edp/parts-3d.edp -mesh my.geo -case my.case -order 1. Tried without SLURM only.
+# The package is on a file system that all nodes share, and so is TMPDIR for a case: one process makes the mesh, all read it.
 # Each rank holds its part of the mesh: 0.05 GB for the program, and at most 3.7 kB an unknown of P1, 6.3 of P2, divided by the ranks.
 #SBATCH --job-name=contact
 #SBATCH --nodes=2
 #SBATCH --ntasks-per-node=8
-#SBATCH --mem=64G
+#SBATCH --mem=16G
 #SBATCH --time=02:00:00
 set -e
 export OPENBLAS_NUM_THREADS=1
-run="edp/scenes/sphere-on-block.edp -h 0.05 -order 1"
+test $# -gt 0 || set -- edp/scenes/sphere-on-block.edp -h 0.05 -order 1
 make mpi
-# the mesh first, by one process: the others would wait for gmsh; it says the memory that the rest takes
-FreeFem++ -nw -v 0 $run -solver none
-mpiexec -n "$SLURM_NTASKS" FreeFem++-mpi -nw -v 0 $run -solver multigrid -out results/slurm
+# the mesh first, by one process: the others would wait for gmsh
+sh edp/freefem.sh "$@" -solver none | awk -v ranks="$SLURM_NTASKS" '{ print }
+    match($0, /[0-9]+ unknowns of P[12]/) { split(substr($0, RSTART), word, " ")
+        printf "memory: up to %.2g GB on each of %d processes\n", 0.05 + word[1] * (word[4] == "P1" ? 3.7e-6 : 6.3e-6) / ranks, ranks }'
+mpiexec -n "$SLURM_NTASKS" sh edp/freefem.sh "$@" -solver multigrid

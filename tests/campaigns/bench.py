@@ -338,7 +338,8 @@ def ranks_cases(_root: Path) -> list[campaign.Case]:
         own = f"{name.split()[0]}.case"
         example = Path("edp/examples") / geometry
         flags = {"mesh": example if example.suffix == ".geo" else example.name}
-        flags |= {"case": own if case_file else example.with_suffix(".case"), "order": 1 + name.endswith("P2"), **shared}
+        flags |= {"case": own if case_file else example.with_suffix(".case"), **shared}
+        flags["order"] = 1 + name.endswith("P2")
         for ranks in (1, 2, 4) if name.startswith("wheel") else (1, 2):
             add(name, "edp/parts-3d.edp", flags, ranks)
     for name, order, mesh, runs in RANKED:
