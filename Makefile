@@ -367,7 +367,7 @@ bench: $(VENV)/run.stamp | system ## error against run time, cost growth, ingred
 	@$(DRAW_CAMPAIGN)
 
 # Large bodies: up to three million unknowns in space, 8 GB, an hour.
-bench-large: $(VENV)/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, two processes, into results/bench/
+bench-large: $(VENV)/run.stamp | system mpi ## sizes in space up to three million unknowns with -solver multigrid, laws, into results/bench/
 	@$(MPI) $(PYTHON) tests/campaigns/bench.py large
 
 bench-ranks: $(VENV)/run.stamp | system mpi ## memory and answers of one, two and four processes, with lean levels too, into results/bench/

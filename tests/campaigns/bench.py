@@ -7,8 +7,7 @@ method. ingredients.csv: the default method with each of its ingredients exchang
 hertz.csv: contact of elastic balls, and of a rigid sphere on a block, against Hertz.
 accuracy.csv: runs that make their own meshes, `-accuracy`, beside meshes that a user would try: the true error, the
 estimate, and CPU seconds from the first mesh to the result, estimates and later meshes included.
-large.csv, only if asked for, by `make bench-large`: large bodies in space with `-solver multigrid`, on one process
-and two.
+large.csv, only if asked for, by `make bench-large`: large bodies in space with `-solver multigrid`, on one process.
 ranks.csv, only if asked for, by `make bench-ranks`: memory and agreement of several processes, with the usual and the
 lean set-up of the levels, for a scene and for cases.
 
@@ -248,20 +247,16 @@ ONE_SOLVE = "edp/scenes/one-solve.edp"  # the scene, and after it one solve unde
 
 
 def large(_root: Path) -> list[campaign.Case]:
-    """Sizes on one process; laws at 100 000; 250 000 on two against one, which wants two idle cores."""
+    """Sizes on one process; laws at 100 000."""
     found = []
 
-    def add(name, law, h, order, ranks=1):
+    def add(name, law, h, order):
         flags = {"kappa": law[0], "m": law[1], "h": h, "order": order, "tol": 1e-8, "estimate": 0}
-        item = case(name, SPHERE, 3600, 1, 0.35 / h**2.5 * order**3 / ranks, solver="multigrid", **flags)
+        item = case(name, SPHERE, 3600, 1, 0.35 / h**2.5 * order**3, solver="multigrid", **flags)
         if name == "law":
             item = dataclasses.replace(item, script=ONE_SOLVE)
-        if ranks > 1:
-            item = dataclasses.replace(item, program=("mpiexec", "-n", str(ranks), "FreeFem++-mpi", "-nw", "-v", "0"))
         found.append(item)
 
-    add("two", (1e9, 3), 0.147, 1, 2)
-    add("one", (1e9, 3), 0.147, 1, 1)
     for order, h in LARGE_ONE.items():
         for law in LARGE_LAWS:
             add("law", law, h, order)
@@ -286,24 +281,24 @@ def large_files(root: Path) -> dict[str, str]:
 
 
 def solves(*_) -> campaign.Measure:
-    """How many iterations all solves took, and one to a tenth of the tolerance, and on how many processes."""
+    """How many iterations all solves took, and one to a tenth of the tolerance."""
 
     def measure(_item: campaign.Case, summary: dict, folder: Path) -> dict:
         one = folder / "one-solve"
         alone = int(one.read_text()) if one.exists() else None
-        return {"iterations": summary["iterations"], "oneSolve": alone, "ranks": summary["ranks"]}
+        return {"iterations": summary["iterations"], "oneSolve": alone}
 
     return measure
 
 
 def large_table(rows: list[dict]) -> str:
-    """The sizes, and the one that ran on one process and on two."""
-    header = "element, h|processes|dofs|in contact|linearisations|solves / iterations|cost ratio|CPU s|wall s|MB"
+    """The sizes."""
+    header = "element, h|dofs|in contact|linearisations|solves / iterations|cost ratio|CPU s|wall s|MB"
     lines = []
     for row in (row for row in rows if row["name"] != "law"):
         good = row["status"] == "converged"
         counts = [row["newton"], f"{row['backsolves']} / {row['iterations']}"] if good else [row["status"], "-"]
-        size = [row["ranks"], row["ndof"], row["contactPoints"]]
+        size = [row["ndof"], row["contactPoints"]]
         cost = [f"{value(row, 'costRatio'):.2f}", *(f"{value(row, name):.0f}" for name in ("cpu", "wall", "memory"))]
         lines.append([f"P{row['order']}, {row['h']}", *size, *counts, *cost])
     return markdown(header.split("|"), lines)
@@ -744,7 +739,7 @@ PARTS = {
     "growth": (growth, (), None, report_growth),
     "ingredients": (ingredients, (), None, report_ingredients),
     "hertz": (hertz, ("radius", "pressure"), hertz_differences, hertz_table),
-    "large": (large, ("iterations", "oneSolve", "ranks"), solves, large_table),
+    "large": (large, ("iterations", "oneSolve"), solves, large_table),
     "ranks": (ranks_cases, ("iterations", "ranks", "answer", "greatest"), answers, ranks_table),
     "accuracy": (accuracy_cases, ("forceError", "said", "asked", "meshes", "seconds"), accuracy_errors, accuracy_runs),
 }
