@@ -124,7 +124,8 @@ Physical Surface("left") = {1}; Physical Surface("right") = {2}; Physical Surfac
 Physical Surface("top") = {4}; Physical Surface("behind") = {5}; Mesh.MeshSizeMax = SIZE;
 Rotate {{1, 0.5, 1}, {0, 0, 0}, -Pi/9} { Volume{1}; }
 """
-HELD_BAR = HELD[HELD.index("\n") + 1 :].replace("0 2 0 -1 move 0 -0.99", "0 3 0 0 -1 0 move 0 -0.5 0") + "symmetry behind\n"
+HELD_BAR = HELD[HELD.index("\n") + 1 :].replace("0 2 0 -1 move 0 -0.99", "0 3 0 0 -1 0 move 0 -0.5 0")
+HELD_BAR += "symmetry behind\n"
 
 
 @pytest.mark.parametrize("state, exact", [("stress", 1), ("strain", 1 / 0.7), ("space", 1)])
