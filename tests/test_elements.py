@@ -24,6 +24,13 @@ def test_patch(scene, flags):
     assert done.contact["weight"].sum() == pytest.approx(20 if scene == "patch-test" else 400, rel=1e-12)
 
 
+@pytest.mark.parametrize("order", [1, 3])
+def test_weights_about_the_axis(order):
+    """The points of a surface about the axis shall have the area of its disc."""
+    done = run("disc-on-block", "-geometry", "axisymmetric", "-h", 1, "-order", order, "-estimate", 0)
+    assert done.contact["weight"].sum() == pytest.approx(np.pi * 9.9**2, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     "order, h, dofs, allowed",
     [

@@ -119,10 +119,25 @@ Physical Curve("top") = {3}; Physical Curve("base") = {1}; Mesh.MeshSizeMax = SI
 """
 
 
-@pytest.mark.parametrize("state, exact", [("stress", 1), ("strain", 1 / 0.7)])
+BAR = """SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 4, 1, 1}; Physical Volume("b") = {1};
+Physical Surface("left") = {1}; Physical Surface("right") = {2}; Physical Surface("base") = {3};
+Physical Surface("top") = {4}; Physical Surface("behind") = {5}; Mesh.MeshSizeMax = SIZE;
+Rotate {{1, 0.5, 1}, {0, 0, 0}, -Pi/9} { Volume{1}; }
+"""
+HELD_BAR = HELD[HELD.index("\n") + 1 :].replace("0 2 0 -1 move 0 -0.99", "0 3 0 0 -1 0 move 0 -0.5 0")
+HELD_BAR += "symmetry behind\n"
+
+
+@pytest.mark.parametrize("state, exact", [("stress", 1), ("strain", 1 / 0.7), ("space", 1)])
 def test_heat_held_on_two_sides(state, exact, tmp_path):
-    """The von Mises stress of the pictures: E alpha dT in plane stress, that over 1 - nu in plane strain."""
-    solve(tmp_path, STRIP, HELD.format(state), size=0.5)
+    """The von Mises stress of the pictures: E alpha dT in plane stress and in a bar, that over 1 - nu in plane strain.
+
+    The body lies aslant, so that all stresses count."""
+    if state == "space":
+        solve(tmp_path, BAR, HELD_BAR, "-order", 1, size=1, scene="parts-3d")
+    else:
+        turned = STRIP + "Rotate {{0, 0, 1}, {0, 0, 0}, -Pi/9} { Surface{1}; }\n"
+        solve(tmp_path, turned, HELD.format(state), size=0.5)
     found = read_arrays(tmp_path / "out/solution.vtu")["PointData", "vonMises[pressure]"]
     np.testing.assert_allclose(found, exact, rtol=1e-9)
 

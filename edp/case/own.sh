@@ -12,7 +12,8 @@ notOwn()
 if test -z "$CONTACT_FOLDER" && ! test -h edp; then
     test ! -e edp/case/flags.idp || test edp/case/flags.idp -ef "$programs/case/flags.idp" \
         || notOwn "edp: another copy of the package than the script's, and FreeFEM would read both"
-    for module in "$programs"/*; do
+    for module in "$programs"/*.edp "$programs"/*/.; do
+        module=${module%/.}
         module=./${module##*/}
         test -e "$module" && ! test "$module" -ef "$programs/$module" || continue
         for file in $(find "$module" \( -name '*.idp' -o -name '*.edp' \) -print 2> /dev/null); do
