@@ -4,7 +4,9 @@ Skipped where `make mpi` has not built the plugin.
 """
 
 import csv
+import itertools
 import json
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -163,14 +165,18 @@ def test_same_case(name, tmp_path):
         assert series[0].shape[1] > 8 and np.allclose(*series, rtol=1e-6, atol=1e-6 * force, equal_nan=True)
 
 
-def same_stresses(one, many, folder, other):
-    """Greatest stresses, tensors at the nodes and along lines, and their errors."""
+def same_greatest(one, many):
     same_errors(one, many)
-    assert [each["body"] for each in one] == ["core", "block", "upper"]
-    assert any(each["error"] for each in one) and any(0 < (each["above"] or 0) < 1 for each in one)
     for a, b in zip(one, many, strict=True):
         for key in ("vonMises", "at", "singular", "above"):
             assert b[key] == (a[key] and pytest.approx(a[key], rel=1e-8)), key
+
+
+def same_stresses(one, many, folder, other):
+    """Greatest stresses, tensors at the nodes and along lines, and their errors."""
+    same_greatest(one, many)
+    assert [each["body"] for each in one] == ["core", "block", "upper"]
+    assert any(each["error"] for each in one) and any(0 < (each["above"] or 0) < 1 for each in one)
     for name in ("line-up.csv", "line-across.csv"):
         a, b = (np.genfromtxt(folder / each / name, delimiter=",", names=True) for each in ("1", other))
         for column in a.dtype.names:
@@ -240,6 +246,48 @@ def test_loads_across_cuts(name, tmp_path):
                 assert float(b[name]) == pytest.approx(float(a[name]), rel=1e-6, abs=1e-8, nan_ok=True), name
 
 
+def joint(folder):
+    """A bolt, its shank cut at the waist, with a head to one side that lies on a sleeve beside the shank; turned."""
+    mesh = cube(Mesh(), size=(2.2, 1, 1.4), cells=(11, 5, 7))
+    nodes = np.array(mesh.nodes)
+    corners = [np.array(each) for kind, _, each in mesh.elements if kind == 4]
+    corners = [each for each in corners if nodes[each - 1, 0].mean() < 1 or nodes[each - 1, 2].mean() > 1]
+    used = np.unique(corners)
+    faces = Counter(face for each in corners for face in itertools.combinations(sorted(each), 3))
+    sides = []
+    for face, count in faces.items():
+        for name, at, owners in (("bottom", 0, 1), ("waist", 0.6, 2), ("under", 1, 1), ("top", 1.4, 1)):
+            if count == owners and np.allclose(nodes[np.array(face) - 1, 2], at):
+                sides.append((name, np.searchsorted(used, face)))
+    mesh = Mesh()
+    mesh.add(nodes[used - 1], sides, [("bolt", np.searchsorted(used, each)) for each in corners])
+    cube(mesh, size=(1, 1, 1), cells=(4, 4, 4), at=(1.2, 0, 0), prefix="sleeve ", name="sleeve")
+    nodes = np.array(mesh.nodes)
+    loose = ~np.any([np.isclose(nodes[:, 2], at) for at in (0, 0.6, 1, 1.4)], axis=0)
+    nodes[loose] += np.random.default_rng(5).uniform(-0.03, 0.03, (loose.sum(), 3))
+    mesh.nodes = [tuple(node) for node in nodes]
+    (folder / "a.msh").write_text(mesh.text(TURN))
+
+
+JOINT = 'body bolt E 2e4 nu 0.3\nbody sleeve E 1e4 nu 0.3\ncontact under "sleeve top"\nclamp bottom\n'
+JOINT += f'clamp "sleeve bottom"\npreload waist 2\ntraction top {ASIDE}\nweight bolt {DOWN}\n'
+
+
+@built
+def test_preload_across_cuts(tmp_path):
+    """The forces in front of a bolt's cut, its tension, shortening and their errors: the direct engine's."""
+    joint(tmp_path)
+    flags = ["-order", 1, "-vtu", 0]
+    one, _ = solved(tmp_path, JOINT, 1, *flags, solver="direct")
+    many, _ = solved(tmp_path, JOINT, 2, *flags)
+    alike(one, many, 4, 2)
+    same_errors(one["estimates"], many["estimates"])
+    ((a,), (b,)) = one["preloads"], many["preloads"]
+    assert a["error"] and a["shortenedError"]
+    for key, part in (("force", 1e-6), ("shortened", 1e-6), ("error", 1e-2), ("shortenedError", 1e-2)):
+        assert b[key] == pytest.approx(a[key], rel=part), key
+
+
 @built
 @pytest.mark.long
 def test_same_curved_case(tmp_path):
@@ -249,10 +297,11 @@ def test_same_curved_case(tmp_path):
     first, last = lines.index("$Nodes") + 2, lines.index("$EndNodes")
     lines[first:last] = lines[first:last][::-1]  # nodes inside come first
     (tmp_path / "a.msh").write_text("\n".join([*lines, ""]))
-    case = ON_PLANE + "weight ball 0 0 -1\n"
+    case = ON_PLANE + "weight ball 0 0 -1\nstresses\n"
     one, _ = solved(tmp_path, case, 1, "-order", 2)
     many, _ = solved(tmp_path, case, ranks, "-order", 2)
     alike(one, many, abs(one["force"]), 1)
+    same_greatest(one["stresses"], many["stresses"])
     same_errors(one["estimates"], many["estimates"])
     same_pictures(tmp_path / "1", tmp_path / str(ranks))
 
