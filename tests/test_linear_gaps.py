@@ -271,6 +271,8 @@ def test_stress_and_way_on_a_layer(said):
     tied = said(KNEE, ON_LAYER.format("tie"))
     assert tied.known("way") == pytest.approx(bonded.known("way"), rel=0.03)
     assert bonded.holds("way", true.known("way")[0]) and tied.holds("way", true.known("way")[0])
+    for name in ("cartilage-bone bone-cartilage", "top round"):
+        assert abs(tied.linear["changes"][name]) < 1e-8 * 100, name  # the load is given, and goes through both
 
 
 def test_open_points_change_nothing(tmp_path):

@@ -4,7 +4,9 @@ Skipped where `make mpi` has not built the plugin.
 """
 
 import csv
+import itertools
 import json
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -13,9 +15,9 @@ from test_multigrid import built, on_ranks
 from test_parts import Mesh, cube, turn_in_space, vector
 from test_ranks import in_order
 
-from postprocess.vtu import bodies_file, read_arrays, read_grid, read_surface
+from postprocess.vtu import bodies_file, pieces, read_arrays, read_grid, read_surface
 
-TURN = turn_in_space(1)
+TURN = turn_in_space(1)[:, [2, 0, 1]]  # longest across both boxes, so that cuts of the mesh go through both
 STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
 DOWN, ASIDE, PRESS, AT = (vector(at, TURN, 3) for at in ((0, 0, -1), (2e-3, 1e-3, -1e-2), (0, 0, -1e-2), (0, 0, 2.01)))
 MOVED = STACK + f'move "upper top" {ASIDE}\n'
@@ -48,15 +50,28 @@ QUICK = {"floats"}
 RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
 
 
-def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2)):
-    """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike."""
+FLAT = ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))  # axis, place
+SIDES = ((0, 0), (0, 2), (0, 0.013), (1, 0), (1, 2), (1, 2.017))
+
+
+def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2), sides=(), core=False, rough=0):
+    """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike.
+    sides: others that stay flat; core: another body deep inside the lower one shares its nodes; rough: how far
+    the surfaces in contact rise at random."""
     mesh = cube(Mesh(), cells=lower)
     cube(mesh, cells=upper, at=(0.013, 0.017, 1), prefix="upper ", name="upper")
     nodes = np.array(mesh.nodes)
-    flat = [np.isclose(nodes[:, c], at) for c, at in ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))]
+    flat = [np.isclose(nodes[:, c], at) for c, at in (*FLAT, *sides)]
     loose = ~np.any(flat, axis=0)
+    before = nodes.copy()
     nodes[loose] += np.random.default_rng(5).uniform(-0.04, 0.04, (loose.sum(), 3))
+    touching = np.isclose(nodes[:, 2], 1)
+    nodes[touching, 2] += np.random.default_rng(3).uniform(-rough, rough, touching.sum())
     mesh.nodes = [tuple(node) for node in nodes]
+    for k, (kind, _, corners) in enumerate(mesh.elements):
+        off = np.abs(before[np.array(corners) - 1].mean(axis=0) - (1.375, 1, 0.5))
+        if core and kind == 4 and np.all(off < (0.375, 0.2, 0.1)):
+            mesh.elements[k] = (kind, mesh.group(3, "core"), corners)
     (folder / "a.msh").write_text(mesh.text(TURN))
 
 
@@ -152,14 +167,55 @@ def test_same_case(name, tmp_path):
         assert series[0].shape[1] > 8 and np.allclose(*series, rtol=1e-6, atol=1e-6 * force, equal_nan=True)
 
 
+def same_greatest(one, many):
+    same_errors(one, many)
+    for a, b in zip(one, many, strict=True):
+        for key in ("vonMises", "at", "singular", "above"):
+            assert b[key] == (a[key] and pytest.approx(a[key], rel=1e-8)), key
+
+
+def same_stresses(one, many, folder, other):
+    """Greatest stresses, tensors at the nodes and along lines, and their errors."""
+    same_greatest(one, many)
+    assert [each["body"] for each in one] == ["core", "block", "upper"]
+    assert any(each["error"] for each in one) and any(0 < (each["above"] or 0) < 1 for each in one)
+    for name in ("line-up.csv", "line-across.csv"):
+        a, b = (np.genfromtxt(folder / each / name, delimiter=",", names=True) for each in ("1", other))
+        for column in a.dtype.names:
+            part = 5e-3 if column.endswith("Error") else 1e-7
+            assert np.allclose(a[column], b[column], rtol=part, atol=1e-8), (name, column)
+        assert name != "line-up.csv" or np.isfinite(a["vonMisesError"]).sum() > 5
+    grids = [bodies_file(folder / each) for each in ("1", other)]
+    orders = [in_order(read_grid(grid)) for grid in grids]
+    a, b = (read_arrays(grid) for grid in grids)
+    names = [key for key in a if key[0] == "PointData" and ("stress" in key[1] or "Mises" in key[1])]
+    assert len(names) == 11
+    parts = [read_arrays(piece) for piece in pieces(grids[1])]
+    nodes = np.concatenate([each["PointData", "node"] for each in parts])
+    _, first, place = np.unique(nodes, return_index=True, return_inverse=True)
+    assert len(first) < len(nodes)
+    for key in names:
+        assert np.allclose(a[key][orders[0]], b[key][orders[1]], rtol=1e-6, atol=1e-6), key
+        values = np.concatenate([each[key] for each in parts])
+        assert np.array_equal(values, values[first][place]), key  # of all processes that have a node
+
+
+AWAY = vector((1e-3, 2e-3, -2e-3), TURN, 3)
+INNER, OUTER, LEFT, RIGHT = (
+    vector(at, TURN, 3) for at in ((0.6, 0.5, 1.7), (0.9, 0.8, 4.5), (0.5, 0.8, -8), (1.5, 1.1, 9))
+)
+GUIDED = RUBS + f'move "upper left" {AWAY}\nforce "upper right" {DOWN}\nweight block {DOWN}\nweight upper {ASIDE}\n'
+STRESSED = "body core E 300 nu 0.2 yield 1\n" + FLOATS.replace("E 150 nu 0.3", "E 150 nu 0.3 yield 3")
+STRESSED += f"weight block {ASIDE}\nstresses\nline up {INNER} {OUTER}\nline across {LEFT} {RIGHT}\n"
 CROSSED = {
-    # grounded, under loads of both bodies and of surfaces
-    "floats": (2, FLOATS + f"weight block {ASIDE}\n", []),
-    # a force on a group that something else hinders: its motion is solved for
-    "guided": (2, STACK + f'clamp "upper left"\nforce "upper right" {DOWN}\nweight block {DOWN}\n', []),
+    # grounded, under loads of bodies and of surfaces, with stresses; bodies share nodes, and the rough contact leaves
+    # forces on motions that no gap feels
+    "floats": (2, STRESSED, ["-vtu", 1]),
+    # a force on a group beside a support that moves: its motion is solved for; with friction, and the energies of loads
+    "guided": (2, GUIDED, []),
     # strains by heat, and what spins, under a motion in two steps
-    "moved": (2, SPUN + f"weight upper {DOWN}\nexpand block 1e-4 20\n", ["-history", 1, "-steps", 2]),
-    "three": (3, FLOATS + f"weight block {ASIDE}\n", []),
+    "moved": (2, SPUN + f"weight upper {DOWN}\nexpand block 1e-4 20\n", ["-vtu", 0, "-history", 1, "-steps", 2]),
+    "three": (3, STRESSED, ["-vtu", 1]),
 }
 
 
@@ -167,9 +223,10 @@ CROSSED = {
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name == "three")) for name in CROSSED])
 def test_loads_across_cuts(name, tmp_path):
     """Two boxes with inner nodes that a process does not have: the direct engine's answers, works and errors."""
-    boxes(tmp_path, lower=(8, 5, 5), upper=(7, 5, 5))
     ranks, case, flags = CROSSED[name]
-    flags = ["-order", 1, "-vtu", 0, *flags]
+    core = "core" in case
+    boxes(tmp_path, lower=(8, 5, 5), upper=(7, 5, 5), sides=SIDES, core=core, rough=3e-4 * core)
+    flags = ["-order", 1, *(flags or ["-vtu", 0])]
     one, _ = solved(tmp_path, case, 1, *flags, solver="direct")
     many, _ = solved(tmp_path, case, ranks, *flags)
     alike(one, many, max(np.linalg.norm(each["force"]) for each in one["contacts"]), 2)
@@ -181,11 +238,63 @@ def test_loads_across_cuts(name, tmp_path):
     assert many["estimates"]["contactStiffness"] == pytest.approx(one["estimates"]["contactStiffness"], rel=1e-3)
     for key in ("rotation", "normals", "pressureMax"):
         assert many["linearised"][key] == pytest.approx(one["linearised"][key], rel=1e-5), key
+    if name == "guided":
+        (_, support), (guide,), (contact,) = many["supports"], many["guides"], many["contacts"]
+        down, aside = (np.array([float(number) for number in each.split()]) for each in (DOWN, ASIDE))
+        on_body = down + 4 * aside + support["force"] + guide["force"] - np.array(contact["force"])
+        assert np.abs(on_body).max() < 1e-6 and abs(down @ guide["force"]) < 1e-6
+        for key in ("work", "stored", "dissipated"):
+            assert many[key] == pytest.approx(one[key], rel=1e-6), key
+    if "stresses" in case:
+        same_stresses(one["stresses"], many["stresses"], tmp_path, str(ranks))
     if "-history" in flags:
         tables = [list(csv.DictReader((tmp_path / each / "series.csv").open())) for each in ("1", str(ranks))]
         for a, b in zip(*tables, strict=True):
             for name in a.keys() - {"backsolves"}:
                 assert float(b[name]) == pytest.approx(float(a[name]), rel=1e-6, abs=1e-8, nan_ok=True), name
+
+
+def joint(folder):
+    """A bolt, its shank cut at the waist, with a head to one side that lies on a sleeve beside the shank; turned."""
+    mesh = cube(Mesh(), size=(1.8, 2.2, 1.4), cells=(9, 6, 7))
+    nodes = np.array(mesh.nodes)
+    corners = [np.array(each) for kind, _, each in mesh.elements if kind == 4]
+    corners = [each for each in corners if nodes[each - 1, 0].mean() < 1 or nodes[each - 1, 2].mean() > 1]
+    used = np.unique(corners)
+    faces = Counter(face for each in corners for face in itertools.combinations(sorted(each), 3))
+    sides = []
+    for face, count in faces.items():
+        for name, at, owners in (("bottom", 0, 1), ("waist", 0.6, 2), ("under", 1, 1), ("top", 1.4, 1)):
+            if count == owners and np.allclose(nodes[np.array(face) - 1, 2], at):
+                sides.append((name, np.searchsorted(used, face)))
+    mesh = Mesh()
+    mesh.add(nodes[used - 1], sides, [("bolt", np.searchsorted(used, each)) for each in corners])
+    cube(mesh, size=(0.6, 2.2, 1), cells=(3, 6, 4), at=(1.2, 0, 0), prefix="sleeve ", name="sleeve")
+    nodes = np.array(mesh.nodes)
+    flat = ((0, 1, 1.2, 1.8), (0, 2.2), (0, 0.6, 1, 1.4))
+    loose = ~np.any([np.isclose(nodes[:, c], at) for c in range(3) for at in flat[c]], axis=0)
+    nodes[loose] += np.random.default_rng(5).uniform(-0.03, 0.03, (loose.sum(), 3))
+    mesh.nodes = [tuple(node) for node in nodes]
+    (folder / "a.msh").write_text(mesh.text(TURN))
+
+
+JOINT = 'body bolt E 2e4 nu 0.3\nbody sleeve E 1e4 nu 0.3\ncontact under "sleeve top"\nclamp bottom\n'
+JOINT += f'clamp "sleeve bottom"\npreload waist 2\ntraction top {ASIDE}\nweight bolt {DOWN}\n'
+
+
+@built
+def test_preload_across_cuts(tmp_path):
+    """The forces in front of a bolt's cut, its tension, shortening and their errors: the direct engine's."""
+    joint(tmp_path)
+    flags = ["-order", 1, "-vtu", 0]
+    one, _ = solved(tmp_path, JOINT, 1, *flags, solver="direct")
+    many, _ = solved(tmp_path, JOINT, 2, *flags)
+    alike(one, many, 4, 2)
+    same_errors(one["estimates"], many["estimates"])
+    ((a,), (b,)) = one["preloads"], many["preloads"]
+    assert a["error"] and a["shortenedError"]
+    for key, part in (("force", 1e-6), ("shortened", 1e-6), ("error", 1e-2), ("shortenedError", 1e-2)):
+        assert b[key] == pytest.approx(a[key], rel=part), key
 
 
 @built
@@ -197,10 +306,11 @@ def test_same_curved_case(tmp_path):
     first, last = lines.index("$Nodes") + 2, lines.index("$EndNodes")
     lines[first:last] = lines[first:last][::-1]  # nodes inside come first
     (tmp_path / "a.msh").write_text("\n".join([*lines, ""]))
-    case = ON_PLANE + "weight ball 0 0 -1\n"
+    case = ON_PLANE + "weight ball 0 0 -1\nstresses\n"
     one, _ = solved(tmp_path, case, 1, "-order", 2)
     many, _ = solved(tmp_path, case, ranks, "-order", 2)
     alike(one, many, abs(one["force"]), 1)
+    same_greatest(one["stresses"], many["stresses"])
     same_errors(one["estimates"], many["estimates"])
     same_pictures(tmp_path / "1", tmp_path / str(ranks))
 
@@ -228,7 +338,7 @@ def test_loads_of_curved_elements(load, tmp_path):
 @built
 @pytest.mark.long
 def test_whole_mesh_for_what_parts_do_not_know(tmp_path):
-    """Stresses are means over whole bodies: each process then has the mesh, and says so."""
+    """States are written by one process, which then has the mesh, and says so."""
     boxes(tmp_path)
-    solved(tmp_path, FLOATS + "stresses\n", 2, "-order", 1, "-estimate", 0, whole=True)
+    solved(tmp_path, FLOATS, 2, "-order", 1, "-estimate", 0, "-states", 1, whole=True)
     assert (tmp_path / "2" / "solution.vtu").exists()
