@@ -617,7 +617,7 @@ PLATED = "body a E 1 nu 0.3\nbody b E 1 nu 0.3\ncontact lid low friction 0.1\ncl
         ("size empty 1\n", "line 5: size empty: the geometry has nothing in the group empty; allowed: a group with"),
         (
             "move top 0 0\nleg 2\nmove top 0 -0.2\n",
-            "line 7: top: move in line 5, before the first leg, and again in it; allowed: without",
+            "line 7: move top in line 5, before the first leg, and again in it; allowed: without",
         ),
         ("move top 0 0\nmove top 0 -0.2\nleg 2\n", "line 6: top: move after move in line 5; allowed: only one"),
         (

@@ -501,7 +501,7 @@ def test_rotation_drags(tmp_path, coarse_punch):
     ("text", "words"),
     [
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
-        (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
+        (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "also behind the first leg in line 6: move pushed 0 0"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "allowed: at least 0 and below"),
         (PUNCH + LEGS + "clamp free\n", "clamp: in leg 2, but it holds in every leg"),
         (PUNCH + LEGS + "thickness 2\n", "thickness: in leg 2, but it holds in every leg"),
