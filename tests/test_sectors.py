@@ -1,4 +1,4 @@
-"""Sectors of bodies: symmetries in several planes, also across no axis, and how many times the whole has a sector's load."""
+"""Sectors of bodies: symmetries in several planes, also across no axis; how many times the whole has a load; places."""
 
 import re
 
@@ -119,10 +119,8 @@ def test_refused(tmp_path, curved):
     text = mesh.text().replace('"top"', '"sides"').replace('"right"', '"right"' if curved else '"sides"')
     case = f"{STEEL}obstacle bottom plane 0 0 0 1\nsymmetry sides\n" + ("" if curved else "contact bottom sides\n")
     said = part(tmp_path, text, case, expect=10).stdout
-    assert (
-        f'symmetry "sides" of the case file, line 3: {"curved, by 30 degrees at (" if curved else "in 2 planes, and line 4"}'
-        in said
-    )
+    why = "curved, by 30 degrees at (" if curved else "in 2 planes, and line 4"
+    assert f'symmetry "sides" of the case file, line 3: {why}' in said
 
 
 def test_coarse_curve_is_refused(tmp_path):
@@ -133,3 +131,26 @@ def test_coarse_curve_is_refused(tmp_path):
     geo += 'Physical Curve("round") = {1}; Physical Curve("foot") = {3};\n'
     run = part(tmp_path, geo, f"{STEEL}obstacle foot plane 0 0 0 1\nsymmetry round\n", expect=10)
     assert 'symmetry "round" of the case file, line 3: curved at (' in run.stdout
+
+
+PIN = """SetFactory("OpenCASCADE");
+Disk(1) = {0, 0, 0, 1}; Rectangle(2) = {-3, -2, 0, 6, 4}; Disk(3) = {0, 0, 0, RADIUS};
+BooleanDifference(4) = { Surface{2}; Delete; }{ Surface{3}; Delete; };
+"""
+
+
+@pytest.mark.parametrize(
+    ("radius", "at", "found"),
+    [("1", "near 0 1", ""), ("1", "near 0 0.9", ""), ("1.001", "near 0 1", "pin"), ("1.001", "near 0 1.001", "plate")],
+)
+def test_near_equal_circles(tmp_path, radius, at, found):
+    """A pin and a hole of the same radius are equally near to a place: refused. A thousandth between them is enough."""
+    case = "group pin surfaces 1\ngroup plate surfaces 4\nbody pin E 1 nu 0\nbody plate E 1 nu 0\n"
+    case += f"group seat {at}\ngroup foot plane 0 -2 0 1\nclamp foot\nobstacle seat plane 0 9 0 -1\n"
+    run = part(tmp_path, PIN.replace("RADIUS", radius), case, "-check", 1, expect=0 if found == "pin" else 10)
+    if found:
+        assert ("pin: no contact touches it" in run.stdout) == (found == "plate")  # the obstacle is the plate's
+    else:
+        assert re.search(
+            r"line 5: near 0 [01.9]+: the curves \d of body \d and \d of body \d are equally near", run.stdout
+        )
