@@ -94,18 +94,25 @@ def test_part_of_a_sector(tmp_path):
     assert re.search(words, run.stdout, re.M), run.stdout
 
 
-def test_planes_in_space(tmp_path):
-    """Three sides of a cube in one group, turned at random: it gives way as a bar does, in two load phases."""
+@pytest.mark.parametrize(
+    ("sides", "force", "times"), [("left back bottom", 4, 8), ("left right back bottom", 4 / (1 - 0.3**2), 4)]
+)
+def test_planes_in_space(tmp_path, sides, force, times):
+    """Sides of a cube in one group, turned at random: it gives way as a bar or a strip does, in two load phases."""
     matrix = turn_in_space(3)
     mesh = cube(Mesh(), size=(2, 2, 1), cells=(2, 2, 1)).text(matrix)
-    for name in ("left", "back", "bottom"):
+    for name in sides.split():
         mesh = mesh.replace(f'"{name}"', '"sides"')
     at, down = vector((0, 0, 1), matrix, 3), vector((0, 0, -1), matrix, 3)
-    case = f"{STEEL}symmetry sides\nleg 1\nobstacle top plane {at} {down} move {vector((0, 0, -0.05), matrix, 3)}\n"
+    case = f"{STEEL}symmetry sides\nweight block {vector((0, 0, -1e-9), matrix, 3)}\n"
+    case += f"leg 1\nobstacle top plane {at} {down} move {vector((0, 0, -0.05), matrix, 3)}\n"
     case += f"leg 1\nobstacle top move {vector((0, 0, -0.01), matrix, 3)}\n"
     run = part(tmp_path, mesh, case, "-estimate", 0, space=True)
-    assert run.contacts[0]["normalForce"] == pytest.approx(100 * 0.01 * 4, rel=1e-6)
-    assert [each["name"] for each in run.summary["supports"]] == [f"symmetry sides {k}" for k in (1, 2, 3)]
+    assert run.contacts[0]["normalForce"] == pytest.approx(force, rel=1e-6)
+    assert [each["name"] for each in run.summary["supports"]] == [
+        f"symmetry sides {k + 1}" for k in range(len(sides.split()))
+    ]
+    assert [each["times"] for each in run.summary["prescribed"] if each["name"] == "weight block"] == [times]
 
 
 @pytest.mark.parametrize("curved", [True, False])
