@@ -235,19 +235,20 @@ def test_head_over_a_hole(order, slave, tmp_path):
     assert at["pressure"].max() < 3 * np.average(at["pressure"], weights=at["weight"])
 
 
-@pytest.mark.parametrize(
-    "cells, order, most",
-    [(8, 2, 0.16), *(pytest.param(*each, marks=pytest.mark.long) for each in ((12, 1, 0.4), (18, 2, 0.06)))],
-)
-def test_error_at_a_rim(tmp_path, cells, order, most):
-    """A punch on a larger block, which is the slave: rims cut its triangles. Finer meshes of either tend to 0.1365."""
+RIMS = [(8, 2, 0.13, False), (8, 2, 0.16, True)]
+FINER = [(12, 1, 0.35, False), (18, 2, 0.05, False), (12, 2, 0.16, True)]
+
+
+@pytest.mark.parametrize("cells, order, most, compliant", short_of(RIMS, RIMS + FINER))
+def test_error_at_a_rim(tmp_path, cells, order, most, compliant):
+    """A punch on a larger block, which is the slave: rims cut its triangles. Finer meshes have a limit."""
     mesh = cube(Mesh(), (4, 4, 2), (cells, cells, cells // 2))
     cube(mesh, (1.3, 1.1, 1), (cells // 3,) * 3, (1.21, 1.37, 2), "p ", "punch")
-    case = 'body block E 1000 nu 0.3\nbody punch E 3000 nu 0.3\ncontact top "p bottom"\nclamp bottom\n'
-    case += 'move "p top" 0 0 -1e-4\n'
+    case = 'body block E 1000 nu 0.3\nbody punch E 3000 nu 0.3\nclamp bottom\nmove "p top" 0 0 -1e-4\n'
+    case += 'contact top "p bottom"' + " law power kappa 1e8 m 2 d0 -1e-9\n" * compliant
     run = part(tmp_path, mesh.text(), case, "-order", order, space=True)
     told = run.summary["estimates"]["contacts"][0]["normalForce"]
-    assert abs(told["value"] - 0.1365) < told["error"] < most * told["value"]
+    assert abs(told["value"] - (0.0993 if compliant else 0.1365)) < told["error"] < most * told["value"]
 
 
 def marks(folder):

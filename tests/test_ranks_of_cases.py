@@ -41,6 +41,12 @@ CASES = {
     ),
     "tie": (2, MOVED.replace("contact", "tie"), ["-order", 1]),
     "legs": (3, RUBS + f'leg 1\nmove "upper top" {PRESS}\nleg 2\nmove "upper top" {ASIDE}\n', ["-order", 1]),
+    # one group in two planes, along no axis
+    "planes": (
+        2,
+        RUBS + 'symmetry "upper sides"\nleg 1\npressure "upper top" 1\nleg 2\npressure "upper top" 3\n',
+        ["-order", 1],
+    ),
     "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
     "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),
 }
@@ -48,8 +54,8 @@ QUICK = {"floats"}
 RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
 
 
-def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2)):
-    """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike."""
+def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2), sides=False):
+    """Two boxes, the one on the other, turned; two sides of the upper one as one group. Nodes on no flat side are moved at random: no two of them move alike."""
     mesh = cube(Mesh(), cells=lower)
     cube(mesh, cells=upper, at=(0.013, 0.017, 1), prefix="upper ", name="upper")
     nodes = np.array(mesh.nodes)
@@ -57,7 +63,11 @@ def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2)):
     loose = ~np.any(flat, axis=0)
     nodes[loose] += np.random.default_rng(5).uniform(-0.04, 0.04, (loose.sum(), 3))
     mesh.nodes = [tuple(node) for node in nodes]
-    (folder / "a.msh").write_text(mesh.text(TURN))
+    text = mesh.text(TURN)
+    if sides:
+        for name in ("left", "front"):
+            text = text.replace(f'"upper {name}"', '"upper sides"')
+    (folder / "a.msh").write_text(text)
 
 
 def solved(folder, case, ranks, *flags, whole=False, solver="multigrid"):
@@ -138,7 +148,7 @@ def same_pictures(one, many):
 @pytest.mark.parametrize("name", RUNS)
 def test_same_case(name, tmp_path):
     """Two boxes of 170 nodes."""
-    boxes(tmp_path)
+    boxes(tmp_path, sides=name == "planes")
     ranks, case, flags = CASES[name]
     one, mesh = solved(tmp_path, case, 1, *flags)
     many, again = solved(tmp_path, case, ranks, *flags)

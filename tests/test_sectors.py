@@ -22,8 +22,8 @@ def rings(folder, angle, one=True, size=2.5):
     geo += "".join(f"Point({n + 1 + k}) = {{{x:.17g}, {y:.17g}, 0, h}};\n" for n, k, x, y in ends)
     geo += "".join(f"Circle({n}) = {{{n + 1}, 1, {n + 2}}};\n" for n, _ in radii)
     for n, name in ((10, "shaft"), (30, "hub")):
-        geo += f"Line({n + 1}) = {{{n + 1}, {n + 11}}}; Line({n + 2}) = {{{n + 12}, {n + 2}}};\n"
-        geo += f"Curve Loop({n}) = {{{n + 1}, {n + 10}, {n + 2}, -{n}}}; Plane Surface({n}) = {{{n}}};\n"
+        geo += f"Line({n + 1}) = {{{n + 1}, {n + 11}}}; Line({n + 2}) = {{{n + 2}, {n + 12}}};\n"
+        geo += f"Curve Loop({n}) = {{{n + 1}, {n + 10}, -{n + 2}, -{n}}}; Plane Surface({n}) = {{{n}}};\n"
         geo += f'Physical Surface("{name}") = {{{n}}};\n'
     cuts = {"cuts": "11, 31, 12, 32"} if one else {"low": "11, 31", "high": "12, 32"}
     for name, curves in {"inside": 10, "seat": 20, "bore": 30, "rest": 40, **cuts}.items():
