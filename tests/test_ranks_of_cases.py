@@ -55,7 +55,10 @@ RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) fo
 
 
 def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2), sides=False):
-    """Two boxes, the one on the other, turned; two sides of the upper one as one group. Nodes on no flat side are moved at random: no two of them move alike."""
+    """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike.
+
+    sides: two of the upper one are one group.
+    """
     mesh = cube(Mesh(), cells=lower)
     cube(mesh, cells=upper, at=(0.013, 0.017, 1), prefix="upper ", name="upper")
     nodes = np.array(mesh.nodes)
