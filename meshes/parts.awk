@@ -1,7 +1,7 @@
 # parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE CURVES=FILE
-#        RISES=FILE SURFACE=FILE
-#        LC_ALL=C awk -f msh.awk -f parts.awk -f cuts.awk -f same.awk < FILE.msh
-# Needs: msh.awk, cuts.awk, same.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
+#        RISES=FILE SURFACE=FILE NOTES=FILE
+#        LC_ALL=C awk -f msh.awk -f parts.awk -f cuts.awk -f same.awk -f planes.awk < FILE.msh
+# Needs: msh.awk, cuts.awk, same.awk, planes.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
 # Gives: MESH, first order, lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), nodes numbered from 1
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:
@@ -67,7 +67,7 @@ BEGIN {
     if (w[1] == "contact" || w[1] == "obstacle") touched[w[3]] = touched[w[4]] = 1
     if (w[1] == "preload") cut[w[3]] = 1
     if (w[1] == "cut") readCut(w)
-    else if (fields == 23 && w[1] != "to") usesGroups(w)
+    else if (fields == 23 && w[1] != "to") { usesGroups(w); readMirror(w, line) }
   }
   bodyKind = space ? "tetrahedron" : "triangle"
   sideKind = space ? "triangle" : "edge"
@@ -219,6 +219,7 @@ function checkSides(   s, k, where, g) {
     kept[++keptSides] = s
   }
   mergeGroups()
+  splitMirrors()
   for (g = 1; g <= groups; g++) if (!(g in has)) fail("the physical group \"" name[g] "\" has no " (dimOf[g] == dim ? bodyKind : sideKind) " of a body")
 }
 # in the plane: the rest of the boundary, which no group of the table names
@@ -361,6 +362,7 @@ function write(   i, j, k, n, m, w, line, mesh, middles, known) {
   if (ENVIRON["SURFACE"] != "") risesOfSurface()
   if (space) print risen + 0 > ENVIRON["RISES"]
   for (k = 1; k <= risen; k++) print riseAt[k] > ENVIRON["RISES"]
+  checkBulges()
   print "parts " parts "\nmiddles " known > ENVIRON["REGIONS"]
   writeMerged()
   print "cuts " cutNodes + 0 > ENVIRON["REGIONS"]

@@ -272,23 +272,45 @@ function within(numbers, how, v,   list, n, i, k, e, t, size, inside) {
   return 1
 }
 function isBetween(t, a, b, size) { return a < b ? t > a - size && t < b + size : t > b - size && t < a + size }
-function nearestTo(d, v,   n, w, k, list, m, i, e, r, best, found) {
+# how far the middles of a piece's sides are off their chords
+function bow(p,   k, a, b, t, most) {
+  for (k = 0; k < (space ? 3 : 1); k++) {
+    a = space ? 3 + k : 2
+    b = (k + 1) % 3
+    t = (X[p, a] - (X[p, k] + X[p, b]) / 2) ^ 2 + (Y[p, a] - (Y[p, k] + Y[p, b]) / 2) ^ 2 + (Z[p, a] - (Z[p, k] + Z[p, b]) / 2) ^ 2
+    if (t > most) most = t
+  }
+  return sqrt(most)
+}
+# the distance of a place from piece p, if it is less than `best`, else that
+function closest(p, v, best,   r, n, t) {
+  ball(p)
+  if (sqrt((CX[p] - v[1]) ^ 2 + (CY[p] - v[2]) ^ 2 + (CZ[p] - v[3]) ^ 2) - reach[p] > best) return best
+  if (bow(p) < 1e-6 * diagonal) { t = away(v[1], v[2], v[3], p); return t < best ? t : best }
+  n = split_(p) + (space ? 3 : 1)
+  for (r = parts[p]; r <= n; r++) best = closest(r, v, best)
+  return best
+}
+function ofBody(d, number) { return d < dim && (number in bodyOf) ? number " of body " parent(bodyOf[number]) : number }
+function shortly(t) { return sprintf("%.6g", t) }
+# what is nearest to a place; refused if another is as near, to what quadratic pieces leave of a curved surface
+function nearestTo(d, v, line,   n, w, k, list, m, i, t, best, found, own, slack, other) {
   n = split(entities[d], w, " ")
   best = 1e300
+  pieces = pieces < elements ? elements : pieces
   for (k = 1; k <= n; k++) {
     split("", list)
     m = piecesOf(d == dim ? ofBodies(w[k]) : w[k], list)
+    own[w[k]] = best + 1e-3 * diagonal
     for (i = 1; i <= m; i++) {
-      e = list[i]
-      ball(e)
-      if (sqrt((CX[e] - v[1]) ^ 2 + (CY[e] - v[2]) ^ 2 + (CZ[e] - v[3]) ^ 2) - reach[e] > best) continue
-      pieces = pieces < elements ? elements : pieces
-      for (r = split_(e) + (space ? 3 : 1); r >= parts[e]; r--) {
-        t = away(v[1], v[2], v[3], r)
-        if (t < best) { best = t; found = w[k] }
-      }
+      t = closest(list[i], v, own[w[k]])
+      if (t < own[w[k]]) { own[w[k]] = t; slack[w[k]] = 1e-6 * diagonal + (bow(list[i]) > 0 ? 1e-4 * reach[list[i]] : 0) }
     }
+    if (own[w[k]] < best) { best = own[w[k]]; found = w[k] }
   }
+  for (k = 1; k <= n; k++)
+    if (w[k] != found && own[w[k]] < best + slack[found] + slack[w[k]]) other = other " and " ofBody(d, w[k])
+  if (other != "") no(line, "near " shortly(v[1]) " " shortly(v[2]) (space ? " " shortly(v[3]) : "") ": the " many[d] " " ofBody(d, found) other " are equally near; allowed: a place nearer to one of them, " many[d] " and its number" (d < dim ? ", between BODY BODY" : ""))
   return found
 }
 # the faces of some bodies that lie on others; where none does, the nearest: by the middles of their pieces
@@ -344,7 +366,7 @@ function numbersOf(line, d, how, text,   n, w, k, v, found, all) {
   n = split(text, w, " ")
   if (how == "near") {
     for (k = 1; k <= 3; k++) v[k] = w[k + 1] + 0
-    found = nearestTo(d, v)
+    found = nearestTo(d, v, line)
     return found == "" ? "" : " " found
   }
   if (how == "box" || how == "plane") {

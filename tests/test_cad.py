@@ -7,6 +7,7 @@ import subprocess
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, part, short_of
+from test_parts import Mesh, cube
 from test_zoo import gmsh, measure, readable
 
 from postprocess import style
@@ -232,6 +233,22 @@ def test_head_over_a_hole(order, slave, tmp_path):
 
     assert mean(at, away) == pytest.approx(mean(ring.contact, ring.contact["x"]), rel=0.15)
     assert at["pressure"].max() < 3 * np.average(at["pressure"], weights=at["weight"])
+
+
+RIMS = [(8, 2, 0.13, False), (8, 2, 0.16, True)]
+FINER = [(12, 1, 0.35, False), (18, 2, 0.05, False), (12, 2, 0.16, True)]
+
+
+@pytest.mark.parametrize("cells, order, most, compliant", short_of(RIMS, RIMS + FINER))
+def test_error_at_a_rim(tmp_path, cells, order, most, compliant):
+    """A punch on a larger block, which is the slave: rims cut its triangles. Finer meshes have a limit."""
+    mesh = cube(Mesh(), (4, 4, 2), (cells, cells, cells // 2))
+    cube(mesh, (1.3, 1.1, 1), (cells // 3,) * 3, (1.21, 1.37, 2), "p ", "punch")
+    case = 'body block E 1000 nu 0.3\nbody punch E 3000 nu 0.3\nclamp bottom\nmove "p top" 0 0 -1e-4\n'
+    case += 'contact top "p bottom"' + " law power kappa 1e8 m 2 d0 -1e-9\n" * compliant
+    run = part(tmp_path, mesh.text(), case, "-order", order, space=True)
+    told = run.summary["estimates"]["contacts"][0]["normalForce"]
+    assert abs(told["value"] - (0.0993 if compliant else 0.1365)) < told["error"] < most * told["value"]
 
 
 def marks(folder):
@@ -617,7 +634,7 @@ PLATED = "body a E 1 nu 0.3\nbody b E 1 nu 0.3\ncontact lid low friction 0.1\ncl
         ("size empty 1\n", "line 5: size empty: the geometry has nothing in the group empty; allowed: a group with"),
         (
             "move top 0 0\nleg 2\nmove top 0 -0.2\n",
-            "line 7: top: move in line 5, before the first leg, and again in it; allowed: without",
+            "line 7: move top in line 5, before the first leg, and again in it; allowed: without",
         ),
         ("move top 0 0\nmove top 0 -0.2\nleg 2\n", "line 6: top: move after move in line 5; allowed: only one"),
         (

@@ -490,6 +490,16 @@ def test_legs_of_a_case(tmp_path, coarse_punch):
     assert run.summary["contacts"][0]["stickShare"] > 0.3
 
 
+def test_history_of_a_case_with_friction(tmp_path, coarse_punch):
+    """A load in steps is a load phase of as many steps."""
+    flags = {"h": ("-history", 1, "-steps", 2), "l": ()}
+    runs = {}
+    for name, words in flags.items():
+        text = PUNCH + "leg 2\n" * (name == "l") + "move pushed 0.1 -0.5\n"
+        runs[name] = case(tmp_path / name, coarse_punch, text, *words, script="edp/parts.edp").summary["contacts"][0]
+    assert runs["h"]["shearForce"] == pytest.approx(runs["l"]["shearForce"], rel=1e-9)
+
+
 def test_rotation_drags(tmp_path, coarse_punch):
     """A rotation carries the slip with it: bodies are not turned first and rubbed then."""
     run = case(tmp_path, coarse_punch, PUNCH + "rotate pushed 10 2 0.06\n")
@@ -501,7 +511,10 @@ def test_rotation_drags(tmp_path, coarse_punch):
     ("text", "words"),
     [
         (PUNCH + "leg 1.5\nmove pushed 0 -0.5\n", "no whole number of steps"),
-        (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "first stated in a leg behind the first"),
+        (PUNCH + "leg 1\nleg 2\nmove pushed 0 -0.5\n", "also behind the first leg in line 5: move pushed 0 0"),
+        (PUNCH + "leg 1\nleg 2\nrotate pushed 1 2 0.1\n", "also behind the first leg in line 5: rotate pushed 1 2 0"),
+        (PUNCH + "pressure pushed 1\nleg 2\npressure pushed 2\n", "pressure of pushed in line 5, before the first leg"),
+        (PUNCH + "leg 1\nrotate pushed 10 2 2\n", "(with friction or a leg: by -distance exact, in one leg)"),
         (PUNCH.replace("friction 0.3", "friction -1") + "move pushed 0 -1\n", "allowed: at least 0 and below"),
         (PUNCH + LEGS + "clamp free\n", "clamp: in leg 2, but it holds in every leg"),
         (PUNCH + LEGS + "thickness 2\n", "thickness: in leg 2, but it holds in every leg"),

@@ -399,7 +399,7 @@ def test_curved_symmetry(tmp_path):
     mesh = block(Mesh())
     mesh.nodes = [(x, y + 0.1 * x * x, z) for x, y, z in mesh.nodes]
     stdout = solve(tmp_path, mesh.text(), STEEL + "symmetry bottom\n" + PLANE, expect=10).stdout
-    assert "symmetry bottom: curved, or in several planes: its normal is " in stdout
+    assert 'symmetry "bottom" of the case file, line 2: curved, by ' in stdout
 
 
 SPACE = "obstacle top sphere 100 100 100 R 1\n"

@@ -43,6 +43,12 @@ CASES = {
     ),
     "tie": (2, MOVED.replace("contact", "tie"), ["-order", 1]),
     "legs": (3, RUBS + f'leg 1\nmove "upper top" {PRESS}\nleg 2\nmove "upper top" {ASIDE}\n', ["-order", 1]),
+    # one group in two planes, along no axis
+    "planes": (
+        2,
+        RUBS + 'symmetry "upper sides"\nleg 1\npressure "upper top" 1\nleg 2\npressure "upper top" 3\n',
+        ["-order", 1],
+    ),
     "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
     "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),
 }
@@ -54,10 +60,10 @@ FLAT = ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))  # axis, place
 SIDES = ((0, 0), (0, 2), (0, 0.013), (1, 0), (1, 2), (1, 2.017))
 
 
-def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2), sides=(), core=False, rough=0):
+def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2), sides=(), core=False, rough=0, joined=False):
     """Two boxes, the one on the other, turned. Nodes on no flat side are moved at random: no two of them move alike.
     sides: others that stay flat; core: another body deep inside the lower one shares its nodes; rough: how far
-    the surfaces in contact rise at random."""
+    the surfaces in contact rise at random; joined: two sides of the upper one are one group."""
     mesh = cube(Mesh(), cells=lower)
     cube(mesh, cells=upper, at=(0.013, 0.017, 1), prefix="upper ", name="upper")
     nodes = np.array(mesh.nodes)
@@ -72,7 +78,10 @@ def boxes(folder, lower=(4, 4, 3), upper=(5, 3, 2), sides=(), core=False, rough=
         off = np.abs(before[np.array(corners) - 1].mean(axis=0) - (1.375, 1, 0.5))
         if core and kind == 4 and np.all(off < (0.375, 0.2, 0.1)):
             mesh.elements[k] = (kind, mesh.group(3, "core"), corners)
-    (folder / "a.msh").write_text(mesh.text(TURN))
+    text = mesh.text(TURN)
+    for name in ("left", "front") if joined else ():
+        text = text.replace(f'"upper {name}"', '"upper sides"')
+    (folder / "a.msh").write_text(text)
 
 
 def solved(folder, case, ranks, *flags, whole=False, solver="multigrid"):
@@ -153,7 +162,7 @@ def same_pictures(one, many):
 @pytest.mark.parametrize("name", RUNS)
 def test_same_case(name, tmp_path):
     """Two boxes of 170 nodes."""
-    boxes(tmp_path)
+    boxes(tmp_path, joined=name == "planes")
     ranks, case, flags = CASES[name]
     one, mesh = solved(tmp_path, case, 1, *flags)
     many, again = solved(tmp_path, case, ranks, *flags)

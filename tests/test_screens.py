@@ -73,6 +73,10 @@ def test_units_of_a_unit(tmp_path):
     thin, ring = screen(tmp_path / "1", thick_body(1)), screen(tmp_path / "ring", thick_body(1, "axisymmetric"))
     assert "unit of thickness" not in thin + ring and "for the thickness" not in thin + ring
     assert re.search(r"^  force top +48 N/mm +of the whole 2 times as much: 96$", thin, re.M)
+    open_ = thick_body(1)
+    open_["prescribed"][0]["times"] = None
+    said = screen(tmp_path / "open", open_)
+    assert re.search(r"^  force top +48 N/mm +of the whole not known: its symmetries do not meet at 90", said, re.M)
     assert re.search(r"^  moment right +1.5 N +of the whole 2 times as much: 3$", thin, re.M)
     assert re.search(r"^  moment right +1.5 N mm +of the whole 2 times as much: 3$", ring, re.M)
     assert re.search(r"^  clamp foot carries +\(0, 48\) N$", ring, re.M)

@@ -254,8 +254,8 @@ test "$space" = 1 || case $kind in geo | step | stp | brep | iges | igs) straigh
 { cat "$folder/gmsh"; test -s "$folder/gmsh" || echo; echo "$after"; echo "$finer"; cat "$folder/left"; test -s "$folder/left" || echo; wc -l < "$folder/touch"; cat "$folder/touch"; } > "$folder/told"
 check() {
     CASE=$folder/case SPACE=$space MESH=$folder/mesh.msh REGIONS=$folder/regions MIDDLES=$folder/middles CURVES=$folder/curves \
-        RISES=$folder/rises SURFACE=$surface \
-        STRAIGHT=$straight awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" -f "$meshes/cuts.awk" -f "$meshes/same.awk" < "$file" > "$folder/why" 2> /dev/null
+        RISES=$folder/rises SURFACE=$surface NOTES=$folder/notes \
+        STRAIGHT=$straight awk -f "$meshes/msh.awk" -f "$meshes/parts.awk" -f "$meshes/cuts.awk" -f "$meshes/same.awk" -f "$meshes/planes.awk" < "$file" > "$folder/why" 2> /dev/null
     code=$?
 }
 check

@@ -10,13 +10,16 @@
 #        PICKS, for meshes/pick.awk, a line each, its words between tabs: group, line, dimension, name, and how it is picked; size,
 #        line, name, number; contact, obstacle: line, groups' names, shape and numbers.
 function once(key, what) {
+  if (legs == 1 && (key in seen) && seen[key] < legLine && word[1] ~ /^(pressure|traction|weight|force|moment)$/) twice(what, seen[key])
   if (key in seen) no(what ": stated before, in line " seen[key] "; allowed: once")
   seen[key] = FNR
 }
+function twice(what, line) {
+  no(what " in line " line ", before the first leg, and again in it; allowed: without line " line ": the first leg begins with no load and no motion")
+}
 # a boundary is held in one way
 function holds(g) {
-  if (legs == 1 && (g in heldBy) && heldBy[g] == word[1] && heldIn[g] < legLine)
-    no(nameOf[g] ": " word[1] " in line " heldIn[g] ", before the first leg, and again in it; allowed: without line " heldIn[g] ", which the first leg replaces")
+  if (legs == 1 && (g in heldBy) && heldBy[g] == word[1] && heldIn[g] < legLine) twice(word[1] " " nameOf[g], heldIn[g])
   if (g in heldBy) no(nameOf[g] ": " word[1] " after " heldBy[g] " in line " heldIn[g] "; allowed: only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group")
   heldBy[g] = word[1]
   heldIn[g] = FNR
@@ -46,10 +49,19 @@ function readLaw(v,   name, list, n, k, given, taken) {
   for (k = 1; k <= n; k++) if (!(list[k] in given)) no("law " name ": " list[k] " is missing; allowed: law " name " with " takes[name])
   return name
 }
+# the line's statement before anything of it is there
+function withZeros(   k, line, from) {
+  line = word[1]
+  for (k = 2; k <= words; k++) {
+    from = from || word[1] != "obstacle" || word[k] == "move"
+    line = line " " (from && k > 2 && spells(word[k]) && (word[1] != "rotate" || k == words) ? 0 : (word[k] ~ / / ? "\"" word[k] "\"" : word[k]))
+  }
+  return line
+}
 # in later legs: what was stated before, as a total reached in this leg; the statement that it changes
 function changed(key,   k) {
   if (legs < 2) return 0
-  if (!(key in base)) no(word[1] " " word[2] ": first stated in a leg behind the first; allowed: stated in the first leg too, with zeros for nothing yet")
+  if (!(key in base)) no(word[1] " " word[2] ": first stated in leg " legs "; allowed: also behind the first leg in line " legLine ": " withZeros())
   once(key SUBSEP legs, word[1] " of " word[2] " in leg " legs)
   return base[key] + 0
 }

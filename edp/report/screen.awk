@@ -205,7 +205,7 @@ function thick(x, word,   unit) {
   unit = whole == "" ? "" : " " whole (word == "moment" ? " " v[".units.0"] : "")
   return digits(x * v[".thickness"], 6) unit " for the thickness " v[".thickness"]
 }
-function own(   k, p, e, word, times) {
+function own(   k, p, e, word, times, j, with) {
   for (k = 0; k < count[".prescribed"]; k++)
     if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
   if (thick(1) != "") print "  forces, moments, work and heat are those of a unit of thickness; all " v[".thickness"] " carry " v[".thickness"] " times as much"
@@ -217,8 +217,12 @@ function own(   k, p, e, word, times) {
     e = error(p)
     times = thick(v[p "." word], word)
     if (v[p ".cancelled"] > 0) times = also(times, "its mirror images cancel " (v[p ".cancelled"] > 1 - 1e-6 ? "it" : "a part of it"))
-    else if (v[p ".times"] > 1)
-      times = also(times, "of the whole " v[p ".times"] " times as much: " also(digits(v[p ".times"] * v[p "." word], 6), thick(v[p ".times"] * v[p "." word], word)))
+    else if (v[p ".times"] == "null") times = also(times, "of the whole not known: its symmetries do not meet at 90, 60, 45 or another 180/n degrees")
+    else if (v[p ".times"] > 1) {
+      with = "of the whole "
+      for (j = 0; j < count[p ".images"]; j++) with = (j ? with " and " : "with its image in symmetry ") v[p ".images." j] " "
+      times = also(times, with v[p ".times"] " times as much: " also(digits(v[p ".times"] * v[p "." word], 6), thick(v[p ".times"] * v[p "." word], word)))
+    }
     if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
     if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {
       result(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : turning, also(unknown(e), times))
