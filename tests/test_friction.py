@@ -837,12 +837,13 @@ def test_path_that_ends(tmp_path):
 
 @pytest.mark.parametrize("steps", [1, pytest.param(4, marks=pytest.mark.long)])
 def test_locked_wedge_pulled_at_once(tmp_path, steps):
-    """From sliding in to a pull in one load step: the wedge is locked, as if it had been let go first, and its energies balance."""
+    """From sliding in to a pull in one load step: it is locked, as if let go first, and its energies balance."""
     legs = f"leg 2\ntraction head -50 0\nleg {steps}\ntraction head 6.5 0\n"
     run = pulled(tmp_path, 0, 0.7, text=FRAMED[: FRAMED.index("leg")] + legs)
     rows = series(run)
     assert [text for text in run.summary["warnings"] if "energies" in text] == []
-    assert rows["force"][-1] == pytest.approx(568.991, rel=1e-5) and rows["shearForce"][-1] == pytest.approx(-41.823, rel=1e-4)
+    assert rows["force"][-1] == pytest.approx(568.991, rel=1e-5)
+    assert rows["shearForce"][-1] == pytest.approx(-41.823, rel=1e-4)
     assert rows["dissipated"][-1] == pytest.approx(rows["dissipated"][1], rel=1e-3)
     assert steps > 1 or rows["newton"][-1] - rows["newton"][1] <= 3
 
@@ -861,22 +862,20 @@ def test_error_beyond_the_energies_of_a_step(tmp_path):
 def test_body_that_comes_free(tmp_path):
     """A step without a solution names the body that friction may not hold."""
     run = pulled(tmp_path, 16, 0.7, expect=20)
-    assert re.search(
-        r"\(4. % to 5. % of the leg\): wedge: \w+( .)?: friction may no longer hold it, then there is no equilibrium: less load",
-        run.summary["message"],
-    )
+    words = r"wedge: \w+( .)?: friction may no longer hold it, then there is no equilibrium: less load"
+    assert re.search(r"\(4. % to 5. % of the leg\): " + words, run.summary["message"])
     # a wall that it rests on backs off: nothing presses on the state where the step ends
     text = (
         FRAMED[: FRAMED.index("leg")]
         + """leg 2
 obstacle head plane 11 1 -1 0 move -0.05 0
-leg 2
+leg 1
 obstacle head move 2 0
 """
     )
     flags = ("-order", 1, "-vtu", 0)
     run = case(tmp_path / "wall", f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, *flags, expect=20)
-    assert "leg 2, load step 1 of 2: wedge: along x: nothing presses on it any more: end" in run.summary["message"]
+    assert "leg 2: wedge: along x: nothing presses on it any more: end" in run.summary["message"]
 
 
 def test_light_prism_falls_into_a_groove(tmp_path):
@@ -898,7 +897,8 @@ def test_arch_on_its_feet(tmp_path):
     """Its feet slip outwards under its weight; half the load of sliding leaves it where it is."""
     geo = polygon("low", 0.6, ["-3, -1", "3, -1", "3, 0", "-3, 0"], {1: "base", 3: "top"})
     geo += polygon("up", 0.3, ARCH, {1: "left", 5: "right"}, 11)
-    text = "body low E 8e4 nu 0.3\nbody up E 8e4 nu 0.3\ncontact left top friction 0.1\ncontact right top friction 0.1\n"
+    text = "body low E 8e4 nu 0.3\nbody up E 8e4 nu 0.3\n"
+    text += "contact left top friction 0.1\ncontact right top friction 0.1\n"
     run = case(tmp_path, geo, text + "clamp base\nleg 2\nweight up 0 -1\nleg 2\nweight up 0.05 -1\n")
     rows = series(run)
     assert rows["force"] == pytest.approx([0.82, 1.64, 1.64, 1.64], rel=1e-6)
