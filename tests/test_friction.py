@@ -859,6 +859,10 @@ def test_locked_wedge_pulled_at_once(tmp_path, steps):
     assert rows["shearForce"][-1] == pytest.approx(-41.823, rel=1e-4)
     assert rows["dissipated"][-1] == pytest.approx(rows["dissipated"][1], rel=1e-3)
     assert steps > 1 or rows["newton"][-1] - rows["newton"][1] <= 3
+    # what the parts of the last step dissipate is the step's
+    last = [contact["mesh"]["dissipatedLastStep"] for contact in run.summary["contacts"]]
+    assert sum(part["value"] for part in last) == pytest.approx(rows["dissipated"][-1] - rows["dissipated"][-2], rel=1e-9)
+    assert last[1]["error"] is None
 
 
 def test_error_beyond_the_energies_of_a_step(tmp_path):
