@@ -114,7 +114,9 @@ def test_numbers_of_the_page(tmp_path, name):
             known = text != "unknown"
             assert abs(value - number(text)) <= 1.01 * last_digit(text) if known else value == np.inf, (quantity, text)
     ((unknowns, *_, counts),) = cells("unknowns", name)
-    assert (summary["ndof"], summary["newton"]) == (int(unknowns), int(counts.split(" / ")[0]))
+    assert summary["ndof"] == int(unknowns)
+    # a residual of the sleeve is within a tenth of the tolerance: below it on one processor, above it on another
+    assert summary["newton"] - int(counts.split(" / ")[0]) in ((0, 1) if name == "bolted-sleeve" else (0,))
 
 
 def test_words_of_the_page():

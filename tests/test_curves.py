@@ -306,7 +306,7 @@ def test_joint_slips(tmp_path, pull, code):
 SLEEVE_BOLT = ROOT / "edp/examples/bolted-sleeve/bolted-sleeve.geo"
 SLEEVED = """units mm MPa
 state axisymmetric
-group under near 6.5 40.1
+group under between bolt sleeve
 group cut plane 2.5 20 0 1
 group middle plane 0 0 0 1
 group top plane 0 47 0 1

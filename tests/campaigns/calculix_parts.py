@@ -103,7 +103,7 @@ def own(name: str) -> tuple[str, str, str]:
 
 SLEEVE = example(
     "bolted-sleeve",
-    *((f"group    {line}\n", "") for line in ("under  near 6.5 40.1", "cut    plane 2.5 20  0 1")),
+    *((f"group    {line}\n", "") for line in ("under  between bolt sleeve", "cut    plane 2.5 20  0 1")),
     *((f"group    {line}\n", "") for line in ("middle plane 0 0  0 1", "top    plane 0 47  0 1")),
     ("40e3", "15e3\nline     shank 2.5 30  2.5 45"),
     more='Physical Curve("under") = {8}; Physical Curve("cut") = {3}; Physical Curve("middle") = {1, 12};\n'
