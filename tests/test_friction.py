@@ -30,6 +30,15 @@ DefineConstant[ size = {0.2, Name "size"} ];
     "wedge", "size", ["0, 0", "0.5, 0", "0.5 + slope, 1", "0, 1"], {1: "tip", 2: "flank", 3: "head", 4: "mirror"}
 )
 SQUARE = polygon("block", 0.34, ["0, 0", "1, 0", "1, 1", "0, 1"], {1: "base", 3: "head"})
+ARCH = [f"{x}, {y}" for x, y in ((-1, 0), (-0.6, 0), (-0.6, 0.3), (0.6, 0.3), (0.6, 0), (1, 0), (1, 1), (-1, 1))]
+ARCHED = polygon("low", 0.6, ["-3, -1", "3, -1", "3, 0", "-3, 0"], {1: "base", 3: "top"})
+ARCHED += polygon("up", 0.3, ARCH, {1: "left", 5: "right"}, 11)
+ON_FEET = """body low E 8e4 nu 0.3
+body up E 8e4 nu 0.3
+contact left top friction 0.1
+contact right top friction 0.1
+clamp base
+"""
 
 
 def stack(aside=0.0, above=1.0):
@@ -594,27 +603,41 @@ def test_error_of_the_mesh(tmp_path):
 
 
 @pytest.mark.long
-def test_interrupted_path_goes_on(tmp_path, monkeypatch):
-    """Killed on the way and begun again: the numbers of a path that was not. Two BLAS threads round anew each time."""
-    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
-    flags = {"h": 0.4, "friction": 0.3, "legs": "1 0, 1 1, 1 -1", "history": 1, "steps": 5, "vtu": 0, "estimate": 0}
-    words = [flag_text(word) for name, value in flags.items() for word in (f"-{name}", value)]
-    command = [*FREEFEM, "edp/scenes/fretting-bodies.edp", *words, "-out"]
-    code, _ = execute([*command, tmp_path / "whole"])
-    assert code == 0
-    rows = tmp_path / "cut" / "series.csv"
+def goes_on(folder, command, rows_before, steps):
+    """A path killed after so many rows and begun again: the numbers of one that was not."""
+    command = list(map(str, [*command, "-out"]))
+    code, stdout = execute([*command, folder / "whole"])
+    assert code == 0, stdout
+    rows = folder / "cut" / "series.csv"
     begun = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "start_new_session": True}
-    with subprocess.Popen(list(map(str, [*command, tmp_path / "cut"])), **begun) as process:
-        while process.poll() is None and not (rows.exists() and rows.read_text().count("\n") > 7):
+    with subprocess.Popen([*command, str(folder / "cut")], **begun) as process:
+        while process.poll() is None and not (rows.exists() and rows.read_text().count("\n") > rows_before):
             time.sleep(0.01)
         os.killpg(process.pid, signal.SIGKILL)
-    code, stdout = execute([*command, tmp_path / "cut"])
-    assert code == 0 and re.search(r"goes on after step \d+ of 15", stdout)
+    code, stdout = execute([*command, folder / "cut"])
+    assert code == 0 and re.search(rf"goes on after step \d+ of {steps}", stdout), stdout
     for name in ("series.csv", "contact.csv"):
-        one, two = table(tmp_path / "whole" / name), table(tmp_path / "cut" / name)
+        one, two = table(folder / "whole" / name), table(folder / "cut" / name)
         for column in one.dtype.names:
             if column not in ("backsolves", "threshold", "tau"):
                 assert abs(one[column] - two[column]).max() <= 1e-12 * abs(one[column]).max(), column
+
+
+def test_interrupted_path_goes_on(tmp_path, monkeypatch):
+    """Two BLAS threads would round anew each time."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
+    flags = {"h": 0.4, "friction": 0.3, "legs": "1 0, 1 1, 1 -1", "history": 1, "steps": 5, "vtu": 0, "estimate": 0}
+    words = [flag_text(word) for name, value in flags.items() for word in (f"-{name}", value)]
+    goes_on(tmp_path, [*FREEFEM, "edp/scenes/fretting-bodies.edp", *words], 7, 15)
+
+
+def test_free_body_goes_on(tmp_path, monkeypatch):
+    """A body that contact alone holds, in its second phase."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
+    (tmp_path / "a.geo").write_text(ARCHED)
+    (tmp_path / "a.case").write_text(f"{ON_FEET}leg 1\nweight up 0 -1\nleg 12\nweight up 0.05 -1\n")
+    words = ["-mesh", tmp_path / "a.geo", "-case", tmp_path / "a.case", "-vtu", 0, "-estimate", 0]
+    goes_on(tmp_path, ["sh", "edp/freefem.sh", "edp/parts.edp", *words], 3, 13)
 
 
 @pytest.mark.long
@@ -908,16 +931,9 @@ def test_light_prism_falls_into_a_groove(tmp_path):
     assert abs(forces[:, 0].sum()) == pytest.approx(7.7e-6, rel=1e-5)
 
 
-ARCH = [f"{x}, {y}" for x, y in ((-1, 0), (-0.6, 0), (-0.6, 0.3), (0.6, 0.3), (0.6, 0), (1, 0), (1, 1), (-1, 1))]
-
-
 def test_arch_on_its_feet(tmp_path):
     """Its feet slip outwards under its weight; half the load of sliding leaves it where it is."""
-    geo = polygon("low", 0.6, ["-3, -1", "3, -1", "3, 0", "-3, 0"], {1: "base", 3: "top"})
-    geo += polygon("up", 0.3, ARCH, {1: "left", 5: "right"}, 11)
-    text = "body low E 8e4 nu 0.3\nbody up E 8e4 nu 0.3\n"
-    text += "contact left top friction 0.1\ncontact right top friction 0.1\n"
-    run = case(tmp_path, geo, text + "clamp base\nleg 2\nweight up 0 -1\nleg 2\nweight up 0.05 -1\n")
+    run = case(tmp_path, ARCHED, ON_FEET + "leg 2\nweight up 0 -1\nleg 2\nweight up 0.05 -1\n")
     rows = series(run)
     assert rows["force"] == pytest.approx([0.82, 1.64, 1.64, 1.64], rel=1e-6)
     assert abs(rows["shearForce"]) == pytest.approx([0, 0, 0.041, 0.082], abs=1e-6)
