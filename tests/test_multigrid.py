@@ -6,6 +6,7 @@ Skipped where `make mpi` has not built the plugin; the refusals that need none a
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -342,6 +343,17 @@ def test_engine_chosen_by_size(tmp_path):
     code, output = on_ranks(1, script("sphere-on-block"), "-h", 0.265, *flags)
     assert code == 0 and output.count("engine: multigrid, for ") == 1, output
     assert "faster than -solver direct" in output and "their iterations" in output
+
+
+@built
+@pytest.mark.parametrize("kilobytes, expect", [(1500000, 0), (480000, 10)])
+def test_one_rank_has_less_memory(kilobytes, expect, tmp_path):
+    """Its limit of address space, if enough, changes nothing; else all ranks end, with one line."""
+    flags = ["-order", 1, "-h", 2.4, "-layers", 1, "-solver", "multigrid", "-estimate", 0, "-out", tmp_path / "out"]
+    run = shlex.join(map(flag_text, ["FreeFem++-mpi", "-nw", "-v", 0, script("sphere-on-block"), *flags]))
+    limited = f"test $OMPI_COMM_WORLD_RANK = 0 || ulimit -v {kilobytes}; exec {run}"
+    code, output = execute([*MPIEXEC, "2", "sh", "-c", limited], ROOT, environment(**AS_ROOT))
+    assert code == expect and output.count("ulimit -v: ") == (expect > 0), output
 
 
 @built
