@@ -367,6 +367,10 @@ def test_job_script(tmp_path):
     told = float(re.search(r"memory: up to ([\d.]+) GB on each of 2 processes", output)[1])
     assert summary["ranks"] == 2 and summary["converged"]
     assert told == pytest.approx(0.05 + 3.7e-6 * summary["ndof"] / 2, rel=0.05)
+    code, output = execute([*command, "-order", "7"], ROOT, environment(**AS_ROOT, SLURM_NTASKS="2"))
+    assert code == 10 and len(said(output)) == 1, output
+    code, output = execute(command, ROOT, {**environment(**AS_ROOT), "SLURM_NTASKS": ""})
+    assert code and output.strip().endswith("start this by sbatch, or set it to the number of processes"), output
 
 
 @pytest.mark.long

@@ -9,11 +9,13 @@
 #SBATCH --mem=16G
 #SBATCH --time=02:00:00
 set -e
+: "${SLURM_NTASKS:?: start this by sbatch, or set it to the number of processes}"
 export OPENBLAS_NUM_THREADS=1
 test $# -gt 0 || set -- edp/scenes/sphere-on-block.edp -h 0.05 -order 1
 make mpi
 # the mesh first, by one process: the others would wait for gmsh
-sh edp/freefem.sh "$@" -solver none | awk -v ranks="$SLURM_NTASKS" '{ print }
+said=$(sh edp/freefem.sh "$@" -solver none) || { code=$?; echo "$said"; exit "$code"; }
+echo "$said" | awk -v ranks="$SLURM_NTASKS" '{ print }
     match($0, /[0-9]+ unknowns of P[12]/) { split(substr($0, RSTART), word, " ")
         printf "memory: up to %.2g GB on each of %d processes\n", 0.05 + word[1] * (word[4] == "P1" ? 3.7e-6 : 6.3e-6) / ranks, ranks }'
 mpiexec -n "$SLURM_NTASKS" sh edp/freefem.sh "$@" -solver multigrid
