@@ -480,10 +480,14 @@ doctor: ## say what is installed, what is missing and how to get it
 # Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
 test: ## run the tests that take few seconds: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
 test-all: ## run every test there is, the long ones as well: what .ci/run runs
-test-all: MARKED := -m 'long or not long'
+test: LENGTH := not long
+test-all: LENGTH := (long or not long)
+# Processes that wait for each other are slow beside other tests: these come last, one at a time. Code 5: no test of that kind.
 test test-all: $(VENV)/dev.stamp | system
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)
-	@PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -n 3 --dist worksteal $(MARKED) $(PYTEST_ARGS) $(TESTS)
+	@tests() { kind=$$1; shift; PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -m "$(LENGTH) and $$kind" "$$@" $(PYTEST_ARGS) $(TESTS); }; \
+	most=0; many=0; tests 'not ranks' -n 3 --dist worksteal || most=$$?; tests ranks || many=$$?; \
+	case $$most,$$many in 0,0|0,5|5,0) ;; *) exit 1;; esac
 
 # What tests need beside the package: each is skipped where its tool is not there.
 tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, CalculiX, Chromium, a locale's sources

@@ -232,7 +232,7 @@ def attempt(release, tree, reference):
         pytest = f"PYTEST_ARGS='{os.environ.get('PYTEST_ARGS', '')}' TESTS='{os.environ.get('TESTS', 'tests')}'"
         _, said = execute(f"make test {pytest}")
         counted = re.findall(r"^(.*\b(?:passed|failed|error)\b.*) in [\d.]+s", said, re.M)
-        counts = counted[-1] if counted else "did not run"
+        counts = " and ".join(counted) or "did not run"
         if "failed" in counts or "error" in counts or "passed" not in counts:
             failed.append(f"make test: {counts}")
         # this machine's meshes: newer than any geometry, so that they are taken

@@ -55,7 +55,7 @@ def without(package, tmp_path, *missing):
 
 INTERFACES = {
     "fast-plugin-2": "5bd3c518a64ca7ca517ac9767824ccec",
-    "multigrid-plugin-3": "5680ba1b2f15b7359265135d5849aacc",
+    "multigrid-plugin-4": "834a23d3e7f86df2ec35d95c9a30d118",
 }
 
 

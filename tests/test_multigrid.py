@@ -19,6 +19,7 @@ import pytest
 from freefem import MULTIGRID, ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
 from test_parts import Mesh, cube, turn_in_space, vector
 
+pytestmark = pytest.mark.ranks
 built = pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
 AS_ROOT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",

@@ -14,6 +14,7 @@ from test_multigrid import AS_ROOT, MPIEXEC, built, on_ranks, said
 from postprocess.results import ResultsError
 from postprocess.vtu import bodies_file, read_grid, read_surface
 
+pytestmark = pytest.mark.ranks
 SAME = ("force", "pressureMax", "halfWidthMoment", "energy", "reactionZ", "approach")
 # bodies carry loads of their own
 LOADED = ["sphere-on-block", "-h", 2, "-layers", 1, "-symmetry", "half", "-bodyForce", 0.1]

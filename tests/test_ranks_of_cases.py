@@ -17,6 +17,7 @@ from test_ranks import in_order
 
 from postprocess.vtu import bodies_file, pieces, read_arrays, read_grid, read_surface
 
+pytestmark = pytest.mark.ranks
 TURN = turn_in_space(1)[:, [2, 0, 1]]  # longest across both boxes, so that cuts of the mesh go through both
 STACK = 'body block E 100 nu 0.3\nbody upper E 150 nu 0.3\ncontact top "upper bottom"\nclamp bottom\n'
 DOWN, ASIDE, PRESS, AT = (vector(at, TURN, 3) for at in ((0, 0, -1), (2e-3, 1e-3, -1e-2), (0, 0, -1e-2), (0, 0, 2.01)))

@@ -2,7 +2,7 @@
 // A held node has a projector P onto what it is free to do: the matrix is P K P, and a stiffness of its own along what is held, so
 // that directions which are no axes need no dofs of their own. K's entries at held nodes are kept apart: for the forces of the
 // supports, and for the load of supports that are moved. The levels are PETSc's GAMG, which is told of the rigid motions.
-// multigridHold(released, turning): the projectors; multigridMatrix(matrix, more, space): PETSc's matrix; multigridSetUp(options).
+// multigridHold(released, turning): the projectors; multigridMatrix(matrix, more, space): PETSc's matrix; multigridSetUp(options), multigridRest().
 #include "multigrid-refine.hpp"
 
 namespace
@@ -277,6 +277,14 @@ long multigridSetUp(string * const & options)
         CHECK(MatDestroy(&coarse[l]));
     }
     CHECK(PetscFree(coarse));
+    malloc_trim(0);
+    return 0;
+}
+
+long multigridRest()
+// The levels are freed; another solve wants multigridSetUp() before it.
+{
+    CHECK(KSPDestroy(&solver));
     malloc_trim(0);
     return 0;
 }

@@ -260,6 +260,7 @@ void start()
     Global.Add("multigridFloat", "(", new OneOperator1_<long, KNM<double> *>(multigridFloat));
     Global.Add("multigridDiagonal", "(", new OneOperator2_<long, KN<double> *, bool>(multigridDiagonal));
     Global.Add("multigridSetUp", "(", new OneOperator1_<long, string *>(multigridSetUp));
+    Global.Add("multigridRest", "(", new OneOperator0<long>(multigridRest));
     Global.Add("multigridWatch", "(", new OneOperator1_<long, KN<long> *>(multigridWatch));
     Global.Add("multigridSolve", "(", new OneOperator3_<long, KN<double> *, double, bool>(multigridSolve));
     Global.Add("multigridWatched", "(", new OneOperator2_<long, KN<double> *, bool>(multigridWatched));
