@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from freefem import MULTIGRID, ROOT, Run, environment, execute, flag_text, run, run_in, script, tree
+from freefem import MULTIGRID, ROOT, Run, environment, execute, flag_text, run, run_in, script, snippet, told, tree
 from test_parts import Mesh, cube, turn_in_space, vector
 
 pytestmark = pytest.mark.ranks
@@ -121,6 +121,41 @@ def test_products_are_freed(tmp_path):
         found.append((tmp_path / "out" / "contact.csv").read_text())
     assert peaks[1] < 0.95 * peaks[0], peaks  # 152 for 167 MB; the program takes 50
     assert found[0] == found[1]
+
+
+RESTED = """include "scenes/sphere-on-block.edp"
+func real held()
+{
+    ifstream f("/proc/self/status");
+    string word = "";
+    while (word != "VmRSS:") f >> word;
+    real kilobytes;
+    f >> kilobytes;
+    return kilobytes;
+}
+real[int] f(ndof), u(ndof), v(ndof);
+contactLoad(q, f);
+int before = factorisations;
+elasticSolve(f, u);
+real full = held();
+restBodies();
+real[int] freed = [full - held()];
+elasticSolve(f, v);
+v -= u;
+real[int] off = [v.linfty / u.linfty], made = [factorisations - before];
+tell("freed", freed);
+tell("off", off);
+tell("made", made);
+"""
+
+
+@built
+def test_levels_are_freed_and_made_again(tmp_path):
+    """A run that has ended has no levels; a solve makes them, restBodies() frees them, the next makes the same."""
+    (tmp_path / "build").symlink_to(MULTIGRID.parent)
+    flags = ["-order", 1, "-h", 0.5, "-solver", "multigrid", "-estimate", 0, "-vtu", 0]
+    found = told(snippet(tmp_path, RESTED, *flags))
+    assert found["freed"][0] > 3000 and found["off"][0] < 1e-12 and found["made"][0] == 2, found  # 5400 kB
 
 
 LEAN = [
