@@ -315,6 +315,17 @@ def test_kink_without_bound(go, sides, space):
         assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
 
 
+def test_clamped_rim_of_unnamed_sides(go):
+    """A bar whose sides are in no group: all of the clamped rim has no bound, the greatest stress is elsewhere."""
+    geo = 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 2, 2, 6};\nMesh.MeshSizeMax = 0.5;\n'
+    groups = "group bar near 1 1 3\ngroup foot plane 1 1 0 0 0 1\ngroup head plane 1 1 6 0 0 1\n"
+    case = "body bar E 1000 nu 0.45\nclamp foot\nobstacle head plane 1 1 6 0 0 -1 move 0 0 -0.06\nstresses\n"
+    (one,) = go(geo, groups + case, space=True).summary["stresses"]
+    assert one["singular"][2] == 0
+    assert one["at"][2] > 1
+    assert one["vonMises"] == pytest.approx(10, rel=0.1)
+
+
 @pytest.mark.long
 def test_kink_on_a_mirror(go):
     """Half of a kink, a line at 102 degrees to a mirror, has no bound; a coarse hole at 90 to it has one."""

@@ -114,11 +114,12 @@ function twofold(name, x, mesh, steps, unit, note) {  # two errors, of the mesh 
   put(sprintf("    %-24s %14s%s%s %s %s", name, shown(x, mesh > steps ? mesh : steps), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
-function contact(c,   p, q, k, F, e, x, note, across, unit, balanced) {
+function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   p = ".contacts." c
   q = ".estimates.contacts." c
-  print "  contact " v[p ".name"] (v[p ".contactPoints"] == 0 ? " touches nowhere" : "")
-  if (v[p ".contactPoints"] == 0) return
+  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] < 1e-12 * mostForce ? " touches, but carries nothing" : "")
+  print "  contact " v[p ".name"] note
+  if (note != "") return
   F = 0
   for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
   F = sqrt(F)
@@ -128,13 +129,14 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced) {
   for (k = 0; k < count[p ".across"]; k++) across = across (k ? ", " : "without its part across ") "symmetry " v[p ".across." k]
   note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) (balanced ? "" : " " percent(e, F)) : unknown(e))
   put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(note, across)))
-  if (!balanced) worse(e, F, "force of " v[p ".name"])
+  little = v[p ".normalForce"] < 1e-3 * mostForce
+  if (!balanced && !little) worse(e, F, "force of " v[p ".name"])
   e = error(q ".normalForce")
   result("  normal force", v[p ".normalForce"], e, force, unknown(e))
-  worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
+  if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
   e = error(q ".pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
-  worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
+  if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
     4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : "raise -order, or refine at the contact (size contact)")
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
@@ -209,6 +211,7 @@ function own(   k, p, e, word, times, j, with) {
   for (k = 0; k < count[".prescribed"]; k++)
     if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) driven = 1
   if (thick(1) != "") print "  forces, moments, work and heat are those of a unit of thickness; all " v[".thickness"] " carry " v[".thickness"] " times as much"
+  for (k = 0; k < count[".contacts"]; k++) if (v[".contacts." k ".normalForce"] > mostForce) mostForce = v[".contacts." k ".normalForce"]
   for (k = 0; k < count[".contacts"]; k++) { contact(k); worn(k) }
   if (v[".wear.stepsError"] ~ /^not known/) print "  error of the wear steps " v[".wear.stepsError"]
   for (k = 0; k < count[".prescribed"]; k++) {
@@ -229,15 +232,11 @@ function own(   k, p, e, word, times, j, with) {
       worse(e, v[p "." word], word " of " v[p ".name"])
     } else if (times != "") result(v[p ".name"], v[p "." word], 0, word == "force" ? force : turning, times)
   }
-  for (k = 0; k < count[".estimates.loads"]; k++) {
-    p = ".estimates.loads." k
-    e = error(p ".way")
-    if (known(p ".way.value")) result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way.value"], e, turns(p) ? "rad" : v[".units.0"], "")
-    worse(e, v[p ".way.value"], "displacement of " v[p ".name"])
-  }
-  for (k = 0; k < count[".ways"] && !estimated; k++) {
+  for (k = 0; k < count[".ways"]; k++) {
     p = ".ways." k
-    result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way"], 0, turns(p) ? "rad" : v[".units.0"], "")
+    e = error(".estimates.loads." k ".way")
+    result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way"], e, turns(p) ? "rad" : v[".units.0"], unknown(e))
+    worse(e, v[p ".way"], "displacement of " v[p ".name"])
   }
   for (k = 0; k < count[".supports"]; k++)
     put(sprintf("  %-26s %14s %s", v[".supports." k ".name"] " carries", vector(".supports." k ".force", count[".supports." k ".force"], 0), force))
