@@ -7,7 +7,7 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, data, execute, part, run_in, short_of, table
+from freefem import ROOT, data, execute, part, run_in, short_of, snippet, table, told
 from test_friction import case, series
 from test_paraview import Grid
 
@@ -336,3 +336,33 @@ def test_points_that_the_true_distance_loses(tmp_path):
     run = case(tmp_path, SLIDERS.replace("H", "0.25"), text, "-estimate", 1)
     (warning,) = (text for text in run.summary["warnings"] if "linearised" in text)
     assert re.search("[23] points in contact have nothing opposite", warning)
+
+
+def test_moment_of_a_turned_drum(tmp_path):
+    """A shoe on a drum that turns in a later load phase: its moment is friction times radius, in every step."""
+    groups = (
+        "drum surfaces 1",
+        "shoe surfaces 20",
+        "rim between drum shoe",
+        "lining between shoe drum",
+        "hub near 60 0",
+    )
+    groups += ("pivot near -105 118", "end plane 120 118 1 0")
+    text = "units mm MPa\nstate strain\n" + "".join(f"group {group}\n" for group in groups)
+    text += "size lining 6\nsize rim 6\nbody drum E 110e3 nu 0.27\nbody shoe E 210e3 nu 0.3\nclamp pivot\n"
+    text += "contact lining rim friction 0.3\nleg 2\nforce end 0 -100 free\nrotate hub 0 0 0\n"
+    text += "leg 2\nforce end 0 -100 free\nrotate hub 0 0 0.01\n"
+    done = part(tmp_path, data("friction-bodies/brake.geo"), text, *"-distance exact -order 1 -estimate 0".split())
+    (moment,) = (entry["moment"] for entry in done.summary["prescribed"] if entry["name"] == "rotate hub")
+    rows = series(done)
+    for reaction, force in zip(rows["rotate hub reaction"][-2:], rows["lining rim normal force"][-2:], strict=True):
+        assert reaction == pytest.approx(0.3 * force * 100, rel=2e-3)
+    assert moment == pytest.approx(rows["rotate hub reaction"][-1], rel=1e-9)
+
+
+def test_columns_bought_one_by_one(tmp_path):
+    """Columns put into the compliance's model one by one leave it what it is with all at once; a singular matrix."""
+    text = (ROOT / "edp/scenes/fretting-bodies.edp").read_text() + data("friction-bodies/columns.edp")
+    found = told(snippet(tmp_path, text, "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"))
+    assert found["off"][0] < 1e-12 and found["columns"][0] < 2e-9
+    assert found["inverted"][0] == 0 and found["diagonal"].tolist() == [0, 0.5, 0]
