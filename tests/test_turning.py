@@ -10,6 +10,9 @@ from freefem import ROOT, data, part
 from test_linear_gaps import PLANK, STANDING
 from test_parts import Mesh, block, cube, vector
 
+from postprocess.bodies import read_bodies
+from postprocess.results import read_run
+
 DISC = "body disc E 1e5 nu 0.3\nobstacle rim plane 0 4.99 0 -1\n"
 ROLLER = "body disc E 1e5 nu 0.3\nbody block E 2e5 nu 0.3\ncontact {}\nclamp bottom\nrotate shaft 0 0 {}\n"
 
@@ -226,6 +229,45 @@ def test_hook_in_and_out(solve, tmp_path):
     # the force turns round on the bump's top, where most is stored
     top = steps["stored energy"].argmax()
     assert steps["move base reaction"][: top + 1].max() > 0 > steps["move base reaction"][top + 1 :].min()
+
+
+SNAP = "units mm MPa\nstate stress\nbody hook E 2600 nu 0.35\nbody latch E 2600 nu 0.35\nclamp floor\n"
+SNAP += "size nose 0.1\nsize edge {}\ncontact nose edge {}\nmove root 1.8 0\n"
+
+
+@pytest.mark.parametrize("edge", [0.1, pytest.param(0.03, marks=pytest.mark.long)])
+def test_hook_on_an_edge(solve, tmp_path, edge):
+    """A hook that bends far beyond what faced it: a beam's force; each gap is the distance to the edge's round shape.
+
+    The beam: 8/12 mm^4, 25 mm long, then the stiff nose, touched 1.63 mm farther on and 2.1 mm below its axis, where
+    the ramp, by then at 33.9 degrees, has to go 0.706 mm back along its normal.
+    """
+    solve(data("turning/snap.geo"), SNAP.format(edge, ""), "-distance", "exact", "-order", 1, "-estimate", 0, "-vtu", 1)
+    bodies = read_bodies(read_run(tmp_path / "0/out"))
+    gap, pressure = -bodies.table["overlap"], bodies.table["pressure"]
+    assert (pressure * bodies.table["weight"]).sum() == pytest.approx(0.3147, rel=0.01)
+    beyond = np.maximum(np.array([28.7, -np.inf]) - bodies.points[:, :2], bodies.points[:, :2] - [31.1, -0.5])
+    distance = np.hypot(*np.maximum(beyond, 0).T) - 0.3
+    assert distance[pressure > 0] == pytest.approx(0, abs=0.005)
+    near = gap < 100  # others face nothing
+    assert near.sum() > 10 and gap[near] == pytest.approx(distance[near], abs=0.04)
+
+
+def test_cam_off_its_roller(solve):
+    """A cam that turns away from where surfaces were paired: equilibrium of circles, in a step of a few rounds."""
+    case = "units mm MPa\nstate strain\nbody cam E 210e3 nu 0.3\nbody roller E 210e3 nu 0.3\n"
+    groups = ("cam surfaces 11", "roller surfaces 12", "lobe curves 1", "shaft curves 2")
+    groups += ("tread curves 3", "bore curves 4")
+    case += "".join(f"group {group}\n" for group in groups)
+    case += "size tread 0.4\nsize lobe 0.5\nsize bore 1.5\ncontact tread lobe\nforce bore 0 -1000\n"
+    case += "rotate shaft 0 0 0.4\n"
+    summary, stdout = solve(data("turning/cam.geo"), case, "-distance", "exact", "-order", 1, "-estimate", 0)
+    lean = np.arcsin(10 * np.cos(np.pi / 6 + 0.4) / 42)
+    assert summary["contacts"][0]["normalForce"] == pytest.approx(1000 / np.cos(lean), rel=1e-3)
+    assert summary["newton"] <= 12
+    # as drawn, not where the step has turned the cam into the roller
+    assert ", initial gap 0 to " in stdout and "press fit" not in stdout
+    assert not any("before any load" in text for text in summary["warnings"])
 
 
 def slab(matrix=None):
