@@ -403,6 +403,7 @@ function apart(a, b, line,   k, n, w, m, v, i, j, p, other) {
 function joined(numbers) { sub(/^ /, "", numbers); gsub(/ /, ", ", numbers); return numbers }
 function field(text) { print "Field[" ++fields "] = " text ";" }
 function sizeOf(numbers, d, h,   to) {
+  if (d == 1 && !space) { sizeOfCurves(numbers, h); return }
   field("MathEval"); print "Field[" fields "].F = \"" h "\";"
   field("Restrict"); print "Field[" fields "].IField = " fields - 1 ";"
   to = d == 3 ? "RegionsList" : (d == 2 ? "FacesList" : "EdgesList")
@@ -412,6 +413,24 @@ function sizeOf(numbers, d, h,   to) {
   if (d == 2 && !space) print "Field[" fields "].EdgesList = {" joined(ofBodies(numbers)) "};"
   if (d == 2 && space) print "edges_() = Abs(Boundary{ Surface{" joined(numbers) "}; });\nField[" fields "].EdgesList = {edges_()};"
   if (d == 3) print "edges_() = Abs(Boundary{ Surface{" joined(ofBodies(numbers)) "}; });\nField[" fields "].EdgesList = {edges_()};"
+  chosen = chosen (chosen == "" ? "" : ", ") fields
+}
+# in the plane sizes grow away from a curve, in its bodies: beside a size of the curve alone gmsh leaves slivers, too stiff for a contact
+function sizeOfCurves(numbers, h,   n, w, k, e, m, list, long, most, bodies) {
+  n = split(numbers, w, " ")
+  for (k = 1; k <= n; k++) {
+    m = piecesOf(w[k], list)
+    long = 0
+    for (e = 1; e <= m; e++) long += sqrt((X[list[e], 1] - X[list[e], 0]) ^ 2 + (Y[list[e], 1] - Y[list[e], 0]) ^ 2)
+    if (long > most) most = long
+    bodies = bodies sidesOf[w[k]]
+  }
+  field("Distance"); print "Field[" fields "].CurvesList = {" joined(numbers) "};"
+  print "Field[" fields "].NumPointsPerCurve = " (most > 4000 * h ? 2000 : int(most / h / 2) + 20) ";"
+  field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.5*Max(0,F%d-%.9g)", h, fields - 1, h) "\";"
+  field("Restrict"); print "Field[" fields "].IField = " fields - 1 ";"
+  if (bodies != "") print "Field[" fields "].FacesList = {" joined(bodies) "};"
+  print "Field[" fields "].EdgesList = {" joined(numbers ofBodies(bodies)) "};"
   chosen = chosen (chosen == "" ? "" : ", ") fields
 }
 # ties have no size of contact beside contacts: their surfaces touch all over

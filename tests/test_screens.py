@@ -208,9 +208,12 @@ def test_numbers(tmp_path):
         (0.0063209, 6.1e-06, "0.0063209 ± 6.1e-06  (0.097 %)"),
         (3.1e-7, 2e-9, "3.1e-07 ± 2e-09    (0.65 %)"),
         (9.9996, 0.0995, "10.000 ± 0.100    (1 %)"),
-        (150.02947483143, 8.1e-10, "150.02947483143 ± 8.1e-10  (5.4e-10 %)"),
-        (7.61175e-06, 1.4e-05, "8e-06 ± 1.4e-05  (180 %)"),
-        (0.01, 20.0, "0 ± 20       (more than 1000 %)"),
+        (150.02947483143, 8.1e-10, "150.0294748 ± 1.5e-06  (1e-06 %)"),
+        (40.0, 4e-11, "40.00000000 ± 4e-07    (1e-06 %)"),
+        (0.0, 20.0, "0 ± 20"),
+        (230.4, 310.0, "230 error not known (estimate 130 %)"),
+        (7.61175e-06, 1.4e-05, "7.61e-06 error not known (estimate 180 %)"),
+        (-11838.3, 1.5e9, "-11800 error not known (estimate more than 1000 %)"),
     ):
         estimates = {"force": {"value": value, "error": error}, "pressureMax": None, "parts": {"inside": 1}}
         said = screen(tmp_path / "run", {**SUMMARY, "force": value, "estimates": estimates, "notEstimated": ""})

@@ -1,6 +1,7 @@
 # screen.awk: the results of a run on screen, from its summary.json: numbers with errors, warnings, files; with -verbose 1 details
 # Read by awk after json.awk. In the environment: FOLDER: of the results; ROWS: further rows; PLOT: the command that draws.
-# An error has two digits, its value as many decimals. A number that is rounding compared with others is shown as 0.
+# An error has two digits, its value as many decimals; an error that exceeds its value is not known. A number that is rounding compared with
+# others is shown as 0.
 function floor(x,   i) { i = int(x); return i > x ? i - 1 : i }
 function size(x) { return x < 0 ? -x : x }
 function digits(x, n) { return sprintf("%." n "g", x) + 0 "" }
@@ -24,13 +25,20 @@ function off(x, error,   d) {
   d = decimals(x, error)
   return d < 0 || error >= 100 || error < 1e-4 ? digits(error, 2) : sprintf("%." d "f", error)
 }
-function percent(part, whole,   p) {
-  p = whole == 0 ? 0 : size(100 * part / whole)
-  return whole == 0 ? "" : "(" (p >= 1000 ? "more than 1000" : digits(p, 2)) " %)"
-}
+function share(part, whole,   p) { p = size(100 * part / whole); return (p >= 1000 ? "more than 1000" : digits(p, 2)) " %" }
+function percent(part, whole) { return whole == 0 ? "" : "(" share(part, whole) ")" }
+function bounded(x, error) { return error > 0 && error < 1e-8 * size(x) ? 1e-8 * size(x) : error }  # no nearer than solutions are
+function exceeds(x, error) { return error > size(x) && x != 0 }
+function doubted(x, error) { return "error not known (estimate " share(error, x) ")" }
+function leading(x) { return shown(x, 10 ^ (exponent(size(x)) - 1)) }  # three digits of x
 function put(text) { sub(/ +$/, "", text); print text }
 function row(name, text) { put(sprintf("  %-10s%s", name, text)) }
 function result(name, x, error, unit, note) {  # error: 0 or less: none to show
+  if (exceeds(x, error)) put(sprintf("  %-26s %14s%s %s", name, leading(x), unit == "" ? "" : " " unit, also(doubted(x, error), note)))
+  else vanishing(name, x, error, unit, note)
+}
+function vanishing(name, x, error, unit, note) {  # x may be 0, and its error exceed it
+  error = bounded(x, error)
   if (unit != "") unit = " " unit
   if (error > 0) put(sprintf("  %-26s %14s ± %-8s%-" wide "s %-10s %s", name, shown(x, error), off(x, error), unit, percent(error, x), note))
   else put(sprintf("  %-26s %14s%s %s", name, sprintf("%.6g", x), unit, note))
@@ -110,8 +118,9 @@ function friction(c,   p, k, x, m, s) {
     twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", \
       v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "")
 }
-function twofold(name, x, mesh, steps, unit, note) {  # two errors, of the mesh and of the load steps
-  put(sprintf("    %-24s %14s%s%s %s %s", name, shown(x, mesh > steps ? mesh : steps), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
+function twofold(name, x, mesh, steps, unit, note,   e) {  # two errors, of the mesh and of the load steps
+  e = bounded(x, mesh > steps ? mesh : steps)
+  put(sprintf("    %-24s %14s%s%s %s %s", name, exceeds(x, e) ? digits(x, 2) : shown(x, e), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
 function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
@@ -127,7 +136,7 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   e = error(q ".force")
   across = ""
   for (k = 0; k < count[p ".across"]; k++) across = across (k ? ", " : "without its part across ") "symmetry " v[p ".across." k]
-  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? "± " digits(e, 2) (balanced ? "" : " " percent(e, F)) : unknown(e))
+  note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? (exceeds(F, e) && !balanced ? doubted(F, e) : "± " digits(e, 2) (balanced ? "" : " " percent(e, F))) : unknown(e))
   put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(note, across)))
   little = v[p ".normalForce"] < 1e-3 * mostForce
   if (!balanced && !little) worse(e, F, "force of " v[p ".name"])
@@ -179,7 +188,7 @@ function moments(   k, p, i, e, m, unit, note, some) {
     if (!some++) print "  moments" (v[p ".point"] == "" ? "" : " about " v[p ".point"] " " vector(p ".about", dimension, 0))
     note = also("on " v[p ".body"], v[p ".point"] == "" ? "about " vector(p ".about", dimension, 0) : "")
     e = error(p)
-    if (dimension == 2) { result("  " v[p ".name"], v[p ".moment.0"], e, unit, note); continue }
+    if (dimension == 2) { vanishing("  " v[p ".name"], v[p ".moment.0"], e, unit, note); continue }
     m = 0
     for (i = 0; i < 3; i++) m += v[p ".moment." i] ^ 2
     put(sprintf("    %-24s %14s %s  %s", v[p ".name"], vector(p ".moment", 3, 0), unit, also(note, e > 0 ? "size " shown(m ^ 0.5, e) " ± " off(m ^ 0.5, e) " " percent(e, m ^ 0.5) : "")))
@@ -228,7 +237,7 @@ function own(   k, p, e, word, times, j, with) {
     }
     if (known(p ".arm")) times = also(times, "to within " digits(v[p ".arm"], 2) ": few points carry, the place of the force is not known better")
     if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {
-      result(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : turning, also(unknown(e), times))
+      vanishing(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : turning, also(unknown(e), times))
       worse(e, v[p "." word], word " of " v[p ".name"])
     } else if (times != "") result(v[p ".name"], v[p "." word], 0, word == "force" ? force : turning, times)
   }
@@ -370,7 +379,7 @@ END {
   for (k = 0; k < count[".warnings"]; k++) print "warning: " v[".warnings." k]
   if (v[".converged"] == "true" && count[".warnings"] == 0) print "  no warnings"
   print ""
-  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstCure == "" ? v[".estimates.refine"] : worstCure) ": the error of the " worstName " is " digits(100 * worst, 2) " %")
+  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstCure == "" ? v[".estimates.refine"] : worstCure) ": the error of the " worstName " is " share(worst, 1))
   row("files", folder (v[".converged"] == "true" ? "" : " (the last state, for diagnosis)"))
   if (v[".converged"] == "true" && ENVIRON["PLOT"] != "") row("plot", ENVIRON["PLOT"])
   if (v[".parameters.verbose"] == 1) details()

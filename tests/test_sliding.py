@@ -1,0 +1,119 @@
+"""Finite sliding of cases in the plane: to where nothing lay opposite, with friction, on meshes whose sizes jump."""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from freefem import data, part, scene_text, snippet
+
+BLOCK = """units mm MPa
+body block E 2000 nu 0.3
+body pad E 2000 nu 0.3
+contact under arc
+clamp base
+move top {} -0.01
+"""
+
+
+@pytest.fixture(scope="module")
+def moved(tmp_path_factory):
+    """A block that slides to where no point of it faces the pad, and one that is drawn there."""
+    folder, geometry = tmp_path_factory.mktemp("pad"), data("sliding/narrow-pad.geo")
+    slid = part(folder / "slid", geometry, BLOCK.format(-1), "-distance", "exact")
+    return slid, part(folder / "drawn", geometry, BLOCK.format(0), "-distance", "exact", "-set", "d", 1)
+
+
+def test_slides_as_it_is_drawn(moved):
+    """Points that nothing faced at rest have the stiffness of the others: as few steps, the same errors."""
+    slid, drawn = (run.summary for run in moved)
+    assert slid["newton"] < 30
+    for name in ("normalForce", "pressureMax", "contactLength"):
+        here, there = (summary["estimates"]["contacts"][0][name] for summary in (slid, drawn))
+        assert here["value"] == pytest.approx(there["value"], rel=1e-4), name
+        assert here["error"] == pytest.approx(there["error"], rel=0.05), name
+
+
+def test_gaps_are_not_those_of_a_part(moved):
+    """A point of which the pad covered a part at rest has the gap of the surfaces, not the part's."""
+    slid, drawn = (run.contact for run in moved)
+    near = (slid["overlap"] > -0.02) & (slid["weight"] > 1e-6)
+    assert near.sum() > 15
+    assert slid["overlap"][near] == pytest.approx(drawn["overlap"][near], abs=2e-6)
+    assert np.abs(slid["x"][near] - drawn["x"][near] - 1).max() < 1e-9
+
+
+COLLET = """units mm MPa
+state axisymmetric
+body shaft E 210e3 nu 0.3
+body collet E 210e3 nu 0.3
+body housing E 210e3 nu 0.3
+contact collet-bore shaft-side friction 0.15
+contact collet-cone cone friction 0.1
+clamp housing-bottom
+leg 1
+traction collet-bottom 0 -40
+move shaft-foot 0 0
+leg 1
+traction collet-bottom 0 -40
+move shaft-foot 0 {}
+"""
+
+
+@pytest.mark.parametrize("way, pressure, least", [(0.005, 23.6, 10), (-0.02, 47, 15), (-0.005, 31, 6.7)])
+def test_forces_that_friction_carries(tmp_path, way, pressure, least):
+    """The error of a force along the surface moves no pressures, although normals turn by 1e-5 and it is theirs too."""
+    run = part(tmp_path, data("sliding/collet.geo"), COLLET.format(way), "-distance", "exact", "-set", "size", 3)
+    bore, cone = run.summary["estimates"]["contacts"]
+    # pressure: on elements a sixth as large; least: with the error of the normal force in it
+    assert abs(bore["pressureMax"]["value"] - pressure) < bore["pressureMax"]["error"] < 0.7 * pressure
+    assert bore["pressureMax"]["error"] > least
+    assert cone["contactLength"]["error"] < 0.2 * cone["contactLength"]["value"]
+    assert not [text for text in run.summary["warnings"] if "is estimated at" in text]
+
+
+PIECE = """Point(1) = {-10,-10,0}; Point(2) = {10,-10,0}; Point(3) = {10,0,0}; Point(4) = {0.5,0,0};
+Point(5) = {-0.5,0,0}; Point(6) = {-10,0,0};
+For k In {1:6}
+  Line(k) = {k, 1+k%6};
+EndFor
+Curve Loop(1) = {1:6}; Plane Surface(1) = {1};
+Physical Curve("base") = {1}; Physical Curve("middle") = {4}; Physical Surface("block") = {1};
+Mesh.MeshSizeMax = 2;
+"""
+ALONE = """Field[1] = MathEval; Field[1].F = "0.02";
+Field[2] = Restrict; Field[2].IField = 1; Field[2].EdgesList = {4};
+Background Field = 2; Mesh.MeshSizeFromPoints = 0;
+"""
+PRESSED = "units mm MPa\nbody block E 1e5 nu 0.3\nclamp base\nobstacle middle circle 0.3 20 R 20 force 0 -60\n"
+
+
+def test_size_of_a_curve(tmp_path):
+    """Sizes grow away from a curve with a size of its own: Hertz' pressure and length within their errors."""
+    modulus = 1e5 / (1 - 0.3**2)
+    summary = part(tmp_path, PIECE, PRESSED + "size middle 0.02\n").summary
+    found = summary["estimates"]["contacts"][0]
+    exact = sqrt(60 * modulus / (20 * pi)), 2 * sqrt(4 * 60 * 20 / (pi * modulus))
+    for name, value in zip(("pressureMax", "contactLength"), exact, strict=True):
+        assert abs(found[name]["value"] - value) < found[name]["error"] < 0.05 * value, name
+    assert summary["warnings"] == []
+
+
+def test_flat_elements_are_told(tmp_path):
+    """Of sizes that the geometry gives to a curve alone: long elements at the contact, whose errors are too small."""
+    warnings = part(tmp_path, PIECE + ALONE, PRESSED).summary["warnings"]
+    (told,) = [text for text in warnings if "times as long as high" in text]
+    assert told.startswith("elements at the contact are up to 1") and "let sizes grow by less" in told
+
+
+@pytest.mark.parametrize("scene, ratio", [("disc-on-block", 0.25), ("sphere-on-plane", 0.5)])
+def test_stiffness_goes_with_the_weight(tmp_path, scene, ratio):
+    """A point with a quarter of its weight: twice its stiffness in space, four times in the plane."""
+    text = """include "solve/solve.idp"
+real[int] whole = bodyStiffness;
+weight *= 0.25;
+stiffenByWeights();
+stiffenByWeights();
+cout << "ratio " << whole[points / 2] / bodyStiffness[points / 2] << endl;
+"""
+    printed = snippet(tmp_path, scene_text(scene) + text, "-h", 0.5, "-vtu", 0)
+    assert float(printed.split("ratio ")[1].split()[0]) == pytest.approx(ratio, rel=1e-5)
