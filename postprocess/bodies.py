@@ -49,6 +49,21 @@ class Chain:
         steps = np.hypot(*np.diff(self.place, axis=0).T)
         return steps < 10 * np.median(steps)
 
+    def reached(self, least: float) -> np.ndarray:
+        """Which points (n,) carry more than `least`, or are beside such: there the pressure's line begins and ends."""
+        carries = np.abs(self.pressure) > least
+        reached = carries.copy()
+        reached[1:] |= carries[:-1] & self.joined
+        reached[:-1] |= carries[1:] & self.joined
+        return reached
+
+    @property
+    def towards(self) -> str:
+        """The coordinate with which the arc length of an open piece grows, x or y; nothing for a closed one."""
+        along, across = np.abs(self.place[-1] - self.place[0])
+        closed = np.array_equal(self.place[0], self.place[-1])
+        return "" if closed or self.origin != "middle" else "x" if along > 0.99 * across else "y"
+
     @property
     def zero(self) -> np.ndarray:
         """The place where the arc length is 0."""
@@ -206,9 +221,15 @@ def chains(bodies: Bodies) -> list[Chain]:
             rows, along = np.append(rows, rows[0]), np.append(along, along[0] + length)
             origin = "middle"
         elif "along" in table and not np.array_equal(table["along"], table["x"]):
-            origin = "axis" if bodies.about_axis else "middle"
+            x, first = table["x"][rows], np.argmin(np.abs(along))
+            # a bore or a cone does not begin at the axis
+            origin = "axis" if bodies.about_axis and x[first] <= 1e-6 * np.abs(x).max() else "middle"
             if origin == "middle":
                 along -= loads @ along / loads.sum() if loads.sum() > 0 else along.mean()
+                # upwards or to the right: contacts are drawn over each other
+                ends = bodies.surface.points[rows[[np.argmin(along), np.argmax(along)]]]
+                across, up = ends[1, :2] - ends[0, :2]
+                along *= -1 if (across if abs(across) > 0.99 * abs(up) else up) < 0 else 1
         place, normal = bodies.points[rows, :2], bodies.normals[rows, :2]
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
         rubs = (table["shear"][rows], table["slide"][rows]) if "shear" in table else ()
@@ -218,10 +239,11 @@ def chains(bodies: Bodies) -> list[Chain]:
 
 
 def contacts_by_force(bodies: Bodies) -> list[int]:
-    """The contacts where something presses or pulls, the strongest first."""
+    """The contacts where something presses or pulls, the strongest first; equal ones in the case file's order."""
     loads = np.abs(bodies.table["weight"] * bodies.table["pressure"]) * bodies.touching()
     forces = np.bincount(bodies.table["contact"], loads, len(bodies.names))
-    return [int(contact) for contact in np.argsort(-forces, kind="stable") if forces[contact] > 0]
+    ranked = np.round(forces / (forces.max() or 1.0), 3)
+    return [int(contact) for contact in np.argsort(-ranked, kind="stable") if forces[contact] > 0]
 
 
 def whole_window(bodies: Bodies) -> np.ndarray:
@@ -241,10 +263,17 @@ def whole_window(bodies: Bodies) -> np.ndarray:
 
 def zone_window(bodies: Bodies, contact: int) -> np.ndarray:
     """The corners of a box around one contact, four by three."""
-    touched = bodies.points[bodies.touching(contact), :2]
+    touched = reached_places(bodies, contact)
     middle, half = 0.5 * (touched.min(axis=0) + touched.max(axis=0)), 0.5 * np.ptp(touched, axis=0).max()
     half = max(1.6 * half, 6 * np.sqrt(2 * plane_areas(bodies).min()))
     return np.array([middle - half * np.array([1, 0.75]), middle + half * np.array([1, 0.75])])
+
+
+def reached_places(bodies: Bodies, contact: int | None = None) -> np.ndarray:
+    """The places (n, 2) over which the pressure of one contact, or of all, stands, and those beside, where it ends."""
+    least = TOUCHING * bodies.greatest
+    found = [chain for chain in chains(bodies) if contact in (None, chain.contact)]
+    return np.concatenate([chain.place[chain.reached(least)] for chain in found])
 
 
 def plane_areas(bodies: Bodies) -> np.ndarray:
@@ -294,10 +323,12 @@ def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units
     """Beside one panel, below several; its end is an arrow where the greatest lies above, which is said."""
     most = bodies.grid.stress.max() if what == "von Mises" else bodies.greatest
     above = colours.norm.vmax < most * (1 - 1e-9)
-    words = f", up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
+    words = f"up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
     upright = len(axes) == 1 and np.ptp(axes[0].get_ylim()) > 0.4 * np.ptp(axes[0].get_xlim())
-    between = "\n" if upright and above else " "  # a short bar's label would stand out above the page
-    look = {"extend": "max" if above else "neither", "label": f"{what}{words}{between}[{units.stress}]"}
+    label = f"{what} [{units.stress}]"
+    if above:  # in two lines beside a panel: a short bar's label would stand out above it
+        label = f"{label}\n{words}" if upright else f"{what}, {words} [{units.stress}]"
+    look = {"extend": "max" if above else "neither", "label": label}
     if upright:
         axes[0].set_anchor("W")
         look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}
@@ -340,7 +371,8 @@ def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, u
     """
     touched = bodies.touching(contact)
     greatest = np.abs(bodies.table["pressure"][touched]).max()
-    scale = min(0.16 * np.ptp(box, axis=0).min(), 0.5 * np.ptp(bodies.points[touched, :2], axis=0).max()) / greatest
+    long = np.ptp(reached_places(bodies, contact), axis=0).max()
+    scale = min(0.16 * np.ptp(box, axis=0).min(), 0.5 * long) / greatest
     for chain in chains(bodies):
         if chain.rigid:
             size = np.ptp(chain.place, axis=0).max()
@@ -356,7 +388,7 @@ def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, u
         axes.add_collection(PolyCollection(walls, facecolor=style.VERMILION, alpha=0.3, linewidth=0, zorder=4))
         crest = np.stack([top[:-1], top[1:]], axis=1)[carries]
         axes.add_collection(LineCollection(crest, color=style.VERMILION, linewidth=0.9, zorder=5))
-        if chain.origin == "middle":
+        if chain.origin == "middle" and chain.reached(TOUCHING * bodies.greatest).any():
             axes.plot(*chain.zero, marker="o", markersize=2.5, color=style.BLACK, zorder=6)
     told = style.round_below(greatest)
     begin = box[0] + 0.05 * np.ptp(box, axis=0)
@@ -389,30 +421,38 @@ def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]
     return [(from_[a], to[b], int(slide[a])) for a, b in zip(starts, ends, strict=True) if slide[a] > 0]
 
 
-def plot_shear(axes, chain: Chain, look: dict) -> None:
-    """The shear of a contact, in the colour of its pressure, and behind it where it sticks and slips."""
-    axes.plot(chain.along, chain.shear, **(look | SHEAR))
-    for start, end, slide in zones(chain.along, chain.slide):
-        axes.axvspan(start, end, color=ZONES[slide], linewidth=0, zorder=0)
+def colour_zones(axes, found: list[Chain]) -> None:
+    """Where it sticks and slips: behind the curves of a single piece; of several in a strip each below the curves."""
+    height = 1.0 if len(found) == 1 else min(0.06, 0.4 / len(found))
+    if len(found) > 1:
+        low, high = axes.get_ylim()
+        axes.set_ylim(low - (high - low) * 1.3 * height * len(found), high)
+    for number, chain in enumerate(found):
+        bottom = 1.3 * height * (len(found) - 1 - number)
+        for start, end, slide in zones(chain.along, chain.slide):
+            axes.axvspan(start, end, bottom, bottom + height, color=ZONES[slide], linewidth=0, zorder=0)
+        if len(found) > 1:
+            look = style.curve(chain.contact) | {"markersize": 2.5, "linestyle": "none", "clip_on": False}
+            axes.plot(0.0, bottom + 0.5 * height, transform=axes.transAxes, **look)
 
 
-def name_zones(axes, **look) -> None:
-    """A legend: the curves, if there are any with names, and the colours of what sticks and slips."""
+def name_zones(axes, where, **look) -> None:
+    """A legend of the axes, in them or in the figure: curves with names, and the colours of what sticks and slips."""
     handles, names = axes.get_legend_handles_labels()
     handles += [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
-    axes.legend(handles, [*names, "sticks", "slips"], fontsize=7, **look)
+    where.legend(handles, [*names, "sticks", "slips"], fontsize=7, **look)
 
 
 def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
     """The pressure over the arc length, a curve a contact, as far as they touch; the origin is stated.
 
-    With friction the shear stands beside it, and behind both is coloured what sticks and slips.
+    With friction the shear stands beside it, and what sticks and slips is coloured.
     """
     rubs = "shear" in bodies.table
     seen, shown, pulls, origins = set(), [], False, set()
     found = [chain for chain in chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
     for chain in found:
-        touched = np.abs(chain.pressure) > TOUCHING * bodies.greatest
+        reached = chain.reached(TOUCHING * bodies.greatest)
         first = chain.contact not in seen
         seen.add(chain.contact)
         origins.add(chain.origin)
@@ -420,31 +460,43 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False
         name = style.folded(f"{chain.name} pressure".strip(), 24) if rubs else style.folded(chain.name, 44)
         axes.plot(chain.along, chain.pressure, label=(first and style.plain(name)) or None, **look)
         if rubs:
-            plot_shear(axes, chain, look)
-            pulls = pulls or chain.shear[touched].min() < 0
-        shown += [chain.along[touched].min(), chain.along[touched].max()]
-        pulls = pulls or chain.pressure[touched].min() < 0
-    margin = 0.15 * (max(shown) - min(shown)) or 1.0
+            axes.plot(chain.along, chain.shear, **(look | SHEAR))
+            pulls = pulls or chain.shear[reached].min() < -TOUCHING * bodies.greatest
+        shown += [chain.along[reached].min(), chain.along[reached].max()]
+        pulls = pulls or chain.pressure[reached].min() < -TOUCHING * bodies.greatest
+    margin = 0.1 * (max(shown) - min(shown)) or 1.0
     axes.set_xlim(min(shown) - margin, max(shown) + margin)
     if pulls:
         axes.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
     else:
         axes.set_ylim(0, None)
+    if rubs:
+        colour_zones(axes, found)
+    axes.ticklabel_format(useOffset=False)
     begins = {"axis": " from the axis", "middle": " from the middle of the pressure"}
     origin = next(iter(origins)) if len(origins) == 1 else "middle"
-    words = f"arc length{begins[origin]} [{units.length}]" if origin else f"$x$ [{units.length}]"
-    axes.set_xlabel(style.folded(words, 27 if narrow else 60))
+    ways = {chain.towards for chain in found}
+    way = {"x": ", to the right", "y": ", upwards"}.get(next(iter(ways)), "") if len(ways) == 1 and not narrow else ""
+    words = f"arc length{begins[origin]}{way} [{units.length}]" if origin else f"$x$ [{units.length}]"
+    axes.set_xlabel(style.folded(words, 27 if narrow else 50))
     axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
     if rubs:
         colour = style.curve(min(seen))["color"] if len(seen) == 1 else style.BLACK
         axes.plot([], [], label="shear", linewidth=0.9, color=colour, **SHEAR)
         above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
-        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 1 + (len(seen) == 1)}
-        name_zones(axes, **(under if narrow else above))
-        # on a slide there is room below a narrow panel, which is not to be taken from the other ones
-        axes.get_legend().set_in_layout(not narrow)
+        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 2}
+        if narrow and len(seen) > 1:
+            name_zones(axes, axes.figure, loc="outside lower right", ncols=3)
+        else:
+            name_zones(axes, axes, **(under if narrow else above))
+            # on a slide there is room below a narrow panel, which is not to be taken from the other ones
+            axes.get_legend().set_in_layout(not narrow)
         axes.set_anchor("N" if narrow else "C")
     elif axes.get_legend_handles_labels()[0]:
-        axes.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, -0.6)} if narrow else {"loc": "lower center"}))
+        below, above = (
+            {"loc": "upper center", "bbox_to_anchor": (0.5, -0.6)},
+            {"loc": "lower right", "bbox_to_anchor": (1, 1)},
+        )
+        axes.legend(**(below if narrow else above))
     if narrow:
         axes.set_box_aspect(0.8)

@@ -42,9 +42,13 @@ def onto(normal: np.ndarray) -> tuple[float, float]:
 
 
 def pressing(bodies: Bodies, contact: int) -> tuple[np.ndarray, np.ndarray]:
-    """The points' forces in one contact (p,), without signs, and their mean normal."""
+    """The points' forces in one contact (p,), without signs, and their resultant: where the contact looks to."""
     loads = bodies.table["weight"] * np.abs(bodies.table["pressure"]) * bodies.touching(contact)
-    return loads, loads @ bodies.normals
+    normal = loads @ bodies.normals
+    if np.linalg.norm(normal) < 1e-3 * loads.sum():  # all around a shaft: no noise decides on the side that is seen
+        towards = loads @ bodies.normals**2
+        normal = loads.sum() * np.eye(3)[np.argmax(towards > 0.999 * towards.max())]
+    return loads, normal
 
 
 # ---------------------------------------------------------------- from outside
@@ -201,26 +205,66 @@ def rendered(axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque
 # ---------------------------------------------------------------- sections and surfaces
 
 
-def facing(normal: np.ndarray) -> tuple[np.ndarray, list[str]]:
-    """The view along a normal, from outside, and what its axes are called: coordinates where they nearly are such."""
+def facing(normal: np.ndarray) -> np.ndarray:
+    """Two axes in a surface with this normal, and the normal, as rows.
+
+    Each points along the coordinate that it is nearest to: a map has x to the right or z upwards, on whichever side of
+    its body the surface lies.
+    """
     normal = normal / np.linalg.norm(normal)
     if np.abs(normal).max() > 0.995:
         normal = np.round(normal)
     first = np.eye(3)[0 if abs(normal[0]) < 0.9 else 1]
     right = first - (first @ normal) * normal
-    view = np.array([right / np.linalg.norm(right), np.zeros(3), normal])
-    view[1] = np.cross(normal, view[0])
-    words = [next((f"${name}$" for k, name in enumerate("xyz") if row[k] > 1 - 1e-9), "across") for row in view[:2]]
-    return view, words
+    right /= np.linalg.norm(right)
+    view = np.array([right, np.cross(normal, right), normal])
+    for row, order in zip(view, (1, -1, -1), strict=True):
+        # of two that are equal but for rounding the first one to the right, the last one upwards
+        nearest = row[::order][(np.abs(row) > np.abs(row).max() - 1e-6)[::order].argmax()]
+        row *= np.sign(nearest)
+    return view
+
+
+def axis_name(view: np.ndarray, k: int) -> str:
+    """A coordinate, or the letter of a direction."""
+    return f"${'xyz'[view[k].argmax()] if view[k].max() > 1 - 1e-9 else 'stn'[k]}$"
+
+
+def axis_words(view: np.ndarray, *shown: int) -> str:
+    """Of the letters on a map's axes the directions along which they are distances from the origin."""
+    words = []
+    for k in shown:
+        parts = ",\u00a0".join(f"{round(part, 2) + 0.0:g}" for part in view[k]).replace("-", "\u2212")
+        words += [f"; {axis_name(view, k)} along ({parts})"] if axis_name(view, k)[1] in "stn" else []
+    return "".join(words)
+
+
+def map_words(bodies: Bodies, contact: int) -> str:
+    """What its map does not show of a contact: directions of the axes, and the force of the other side."""
+    loads, normal = pressing(bodies, contact)
+    share = loads[~near_side(bodies, contact)].sum() / loads.sum()
+    far = f"; {100 * share:.0f} % of its force is on the other side" if share >= 0.005 else ""
+    return axis_words(facing(normal), 0, 1) + far
+
+
+def near_side(bodies: Bodies, contact: int) -> np.ndarray:
+    """Which points (p,) lie on the side of a body from which a contact's map is seen."""
+    return bodies.normals @ pressing(bodies, contact)[1] > 0
 
 
 def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
-    """The pressure on one contact's surface, seen along the mean of the normals where it presses."""
+    """The pressure on one contact's surface, seen along the mean of the normals where it presses.
+
+    Only the side that is seen is drawn: the far side of a shaft lies behind it.
+    """
     surface, count = bodies.surface, len(bodies.points)
     touched = bodies.touching(contact)
     loads, normal = pressing(bodies, contact)
-    view, words = facing(normal)
+    view = facing(normal)
     cells = surface.cells[surface.contact == contact]
+    # further nodes, of which no normals are known, stand between contact points
+    ways = np.where((cells < count)[..., None], bodies.normals[np.minimum(cells, count - 1)], 0)
+    cells = cells[ways.sum(axis=1) @ normal > 0]
     seen = (surface.points + bodies.scale * surface.move) @ view.T
     centre = loads @ seen[:count] / loads.sum()
     half = 1.25 * np.abs(seen[:count][touched] - centre)[:, :2].max(axis=0).max()
@@ -235,9 +279,13 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
         (axes.set_ylim, centre[1], seen[cells, 1].min(), seen[cells, 1].max()),
     ):
         limits(max(middle - half, low), min(middle + half, high))
-    axes.set_xlabel(f"{words[0]} [{units.length}]")
-    axes.set_ylabel(f"{words[1]} [{units.length}]")
+    name_axes(axes, view, 0, 1, units)
     return colours
+
+
+def name_axes(axes, view: np.ndarray, across: int, upwards: int, units: style.Units) -> None:
+    axes.set_xlabel(f"{axis_name(view, across)} [{units.length}]")
+    axes.set_ylabel(f"{axis_name(view, upwards)} [{units.length}]")
 
 
 def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
@@ -246,12 +294,13 @@ def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
     beside: the panel with the contact's pressure, of which this one shows the same part.
     """
     table, touched = bodies.table, bodies.touching(contact)
-    view, _ = facing(pressing(bodies, contact)[1])
-    mine = table["contact"] == contact
+    view = facing(pressing(bodies, contact)[1])
+    shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[:, :2]
+    greatest = np.linalg.norm(shear[touched], axis=1).max()
+    near = near_side(bodies, contact)
+    mine, touched = near & (table["contact"] == contact), near & touched
     place, seen = (bodies.points[mine] @ view.T)[:, :2], (bodies.points[touched] @ view.T)[:, :2]
-    state = np.where(touched, table["slide"], 0)[mine].astype(int)
-    shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[touched, :2]
-    greatest = np.linalg.norm(shear, axis=1).max()
+    state, shear = np.where(touched, table["slide"], 0)[mine].astype(int), shear[touched]
     limits = beside.get_xlim(), beside.get_ylim()
     # each place is of the state of the point that is next to it
     right, up = (low + (high - low) * (np.arange(160) + 0.5) / 160 for low, high in limits)
@@ -274,7 +323,7 @@ def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
     """The section through the middle of what presses in one contact that holds its normal, with the outlines."""
     grid, count = bodies.grid, len(bodies.points)
     loads, normal = pressing(bodies, contact)
-    flat, words = facing(normal)
+    flat = facing(normal)
     # rows: along the surface, across the section, along the normal; cut() takes the second coordinate for the level
     frame = np.array([flat[0], -flat[1], flat[2]])
     turned = replace(grid, points=grid.points @ frame.T, move=bodies.scale * grid.move @ frame.T)
@@ -302,18 +351,17 @@ def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
     ):
         limits(max(at - reach, values.min()), min(at + reach, values.max()))
     axes.set_aspect("equal")
-    upright = next((f"${name}$" for k, name in enumerate("xyz") if abs(flat[2][k]) > 1 - 1e-9), "along the normal")
-    axes.set_xlabel(f"{words[0]} [{units.length}]")
-    axes.set_ylabel(f"{upright} [{units.length}]")
+    name_axes(axes, flat, 0, 2, units)
     return colours
 
 
-def level_words(bodies: Bodies, contact: int) -> str:
-    """Where the section through a contact's middle lies, where that is a coordinate."""
+def section_words(bodies: Bodies, contact: int, units: style.Units) -> str:
+    """Where the section through a contact's middle lies, where that is a coordinate; directions of its axes."""
     loads, normal = pressing(bodies, contact)
-    across = facing(normal)[0][1]
+    view = facing(normal)
     middle = loads @ bodies.surface.points[: len(loads)] / loads.sum()
-    k = int(np.abs(across).argmax())
-    if abs(across[k]) < 1 - 1e-9:
-        return ""
-    return f" ${'xyz'[k]}$ = {place_words(bodies, middle[k : k + 1])[1:-1]}"
+    k = int(view[1].argmax())
+    if view[1][k] < 1 - 1e-9:
+        return axis_words(view, 0, 2)
+    unit = "" if units.length == style.Units.length else f"\u00a0{units.length}"
+    return f" at ${'xyz'[k]}$ = {place_words(bodies, middle[k : k + 1])[1:-1]}{unit}" + axis_words(view, 0, 2)

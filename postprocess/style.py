@@ -1,15 +1,18 @@
 """One look for all figures: fonts, colours, widths, and the words for methods, runs and units."""
 
 import contextlib
+import re
 import textwrap
 from dataclasses import dataclass
+from itertools import pairwise
 from string import ascii_lowercase
 
 import matplotlib as mpl
 import matplotlib.style
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator, NullFormatter
 from matplotlib.tri import Triangulation
 
 from postprocess.results import ResultsError, Run, is_number
@@ -125,10 +128,80 @@ def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
 
 
 def settled(figure: Figure) -> Figure:
-    """A figure whose bars beside panels of a fixed shape have their room: one round of the layout does not see them."""
+    """A figure whose bars beside panels of a fixed shape have their room: one round of the layout does not see them.
+
+    Ticks stay as they are after the first rounds: those of a panel that grows would take more room than was left.
+    """
     for _ in range(4):
         figure.get_layout_engine().execute(figure)
+    titles = {axes: axes.get_title(loc="left") for axes in figure.axes}
+    for _ in range(3):
+        set_ticks(figure)
+        name_powers(figure)
+        fold_titles(figure, titles)
+        figure.get_layout_engine().execute(figure)
     return figure
+
+
+def every_axes(figure: Figure) -> list:
+    """Panels and bars, with those that stand beside a panel."""
+    return [each for axes in figure.axes for each in (axes, *axes.child_axes) if each.axison]
+
+
+def name_powers(figure: Figure) -> None:
+    """A power of ten that all ticks share stands in the axis' label, before the unit: beside it there is no room."""
+    for axes in every_axes(figure):
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.get_majorticklabels()
+            shared = re.search(r"(?:e|10\^\{)([\u2212-]?\d+)", axis.get_major_formatter().get_offset())
+            words = axis.get_label_text()
+            if shared and "[" in words and "[$10^" not in words:
+                axis.set_label_text(words.replace("[", f"[$10^{{{shared[1]}}}$ "))
+                axis.get_offset_text().set_visible(False)
+
+
+def set_ticks(figure: Figure) -> None:
+    """Of the ticks of all linear axes as many, or every second one, as their labels leave room for."""
+    for axes in every_axes(figure):
+        axes.apply_aspect()
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() != "linear":
+                continue
+            low, high = sorted(axis.get_view_interval())
+            near = 1e-9 * (high - low)
+            ticks = [tick for tick in axis.get_majorticklocs() if low - near <= tick <= high + near]
+            axis.set_major_locator(FixedLocator(ticks))
+            while len(ticks) > 1 and collide(axis):
+                # with the one at zero, where there is one
+                zero = next((k for k, tick in enumerate(ticks) if abs(tick) < near), 0)
+                ticks = ticks[zero % 2 :: 2]
+                axis.set_major_locator(FixedLocator(ticks))
+
+
+def collide(axis) -> bool:
+    """Does a tick's label touch the next one?"""
+    boxes = [label.get_window_extent() for label in axis.get_majorticklabels() if label.get_text()]
+    side = 0 if axis.axis_name == "x" else 1
+    ends = sorted((box.min[side], box.max[side]) for box in boxes)
+    return any(a[1] + 2 * axis.figure.dpi / 100 > b[0] for a, b in pairwise(ends))
+
+
+def fold_titles(figure: Figure, titles: dict) -> None:
+    """Titles at the left of panels in more lines, where they would leave the figure or reach the panel beside."""
+    for axes in figure.axes:
+        place, text, before = axes.get_position(), titles[axes], axes.get_title(loc="left")
+        rows = [other.get_position() for other in figure.axes if not hasattr(other, "_colorbar")]
+        ends = [row.x0 for row in rows if row.x0 > place.x0 + 0.02 and row.y0 < place.y1 and place.y0 < row.y1]
+        most = figure.bbox.width * min([1.0, *ends]) - figure.dpi / 40
+        own = [bar.get_tightbbox() for bar in axes.child_axes]
+        most = min([most, *(bar.x0 for bar in own if bar.y1 > axes.bbox.y1 + figure.dpi / 12)])
+        drawn = [each for each in axes.findobj(Text) if before and each.get_text() == before]
+        for each in drawn:
+            each.set_text(text)
+        width = max(map(len, text.split("\n")))
+        while drawn and width > 16 and drawn[0].get_window_extent().x1 > most:
+            width -= 1
+            drawn[0].set_text(folded(text.replace("\n", " "), width))
 
 
 def folded(text: str, width: int) -> str:

@@ -124,7 +124,7 @@ def command(run: Run) -> str:
     words = ["FreeFem++", "-nw", "-v", "0", script(summary["scene"], summary["method"])]
     for name in summary["given"]:
         if name != "out":
-            words += [f"-{name}", flag_text(parameters[name])]
+            words += [*f"-{name}".split(" "), flag_text(parameters[name])]  # -set NAME of a number of the geometry
     return shlex.join([*words, "-out", place(run.path)])
 
 

@@ -1,5 +1,6 @@
 """Load curves of cases with friction, load phases and bolts: columns of series.csv, energies, curve, hysteresis."""
 
+import argparse
 from math import atan, exp, pi, radians, sqrt, tan
 
 import numpy as np
@@ -8,9 +9,12 @@ from freefem import ROOT, data, part, short_of
 from test_friction import case, series
 from test_parts import Mesh, block
 
+from postprocess import style
 from postprocess.__main__ import main
+from postprocess.commands import hysteresis
 from postprocess.results import read_run
 from postprocess.series import curves, driving, read_series
+from postprocess.words import Units
 
 PUNCH = data("curves/punch.geo")
 ONE = (
@@ -58,6 +62,11 @@ def test_columns_of_a_path(tmp_path, capsys):
     assert main(["hysteresis", str(run.folder)]) == 0 and main(["curve", str(run.folder)]) == 0
     assert "move head x: greatest 1." in capsys.readouterr().out
     assert main(["hysteresis", str(run.folder), "--along", "move"]) == 2
+    asked = argparse.Namespace(along=None, slide=False, slip=False, contact=0)
+    units = Units(run.summary, ("mm", "MPa"))
+    axes = hysteresis.draw(read_run(run.folder), style.Units("mm", "MPa"), asked, units).axes
+    assert axes[0].get_title(loc="right").startswith(f"energy [{units.energy}]: ") and units.energy
+    assert axes[1].get_title(loc="left") == f"(b) {run.summary['contacts'][0]['name']}"
     assert "move: no load or motion; allowed: move head x, move head y" in capsys.readouterr().err
 
 

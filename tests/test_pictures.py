@@ -5,17 +5,20 @@ import re
 import shutil
 import sys
 import types
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from freefem import FREEFEM, ROOT, execute, run_in, script, short_of
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from text_boxes import faults
 
 from postprocess import bodies, space, style
 from postprocess.__main__ import main
 from postprocess.commands import check, state, stress
 from postprocess.results import read_run
-from postprocess.vtu import MOVE, read_arrays, read_names
+from postprocess.vtu import MOVE, Grid, Surface, read_arrays, read_names
 
 RUNS = {
     "plane": ("disc-on-block", "-h", 2),
@@ -215,3 +218,213 @@ def test_paraview_state(case, monkeypatch, capsys):
     assert read_names(case / "solution.vtu")["units"] == read_run(case).summary["units"]
     grid, named = bodies.read_bodies(read_run(case)).grid, {int(label) for label in labels[::2]}
     assert set(grid.body.tolist()) <= named and set(grid.label.tolist()) - named == {max(named) + 1}
+
+
+# ---------------------------------------------------------------- surfaces made here: a shaft, lines in the plane
+
+
+def shaft(pressed, turn=0.0):
+    """A shaft along y of radius 1 whose whole side is the slave; the pressure pressed(angle from the top, y)."""
+    ends, rounds = np.linspace(0, 4, 17), np.radians(np.arange(0, 360, 5))
+    y, angle = (each.ravel() for each in np.meshgrid(ends, rounds))
+    out = np.column_stack([np.sin(angle + turn), 0 * angle, np.cos(angle + turn)])
+    number = np.arange(len(y)).reshape(len(rounds), len(ends))
+    a, b = number, np.roll(number, -1, axis=0)
+    cells = np.concatenate([[a[:, :-1], a[:, 1:], b[:, :-1]], [b[:, :-1], a[:, 1:], b[:, 1:]]], axis=1)
+    cells = cells.reshape(3, -1).T
+    pressure = pressed(np.minimum(angle, 2 * np.pi - angle), y)
+    table = {"pressure": pressure, "weight": np.full(len(y), 0.1), "contact": np.zeros(len(y), int)}
+    table |= dict(zip(("normalX", "normalY", "normalZ"), out.T, strict=True))
+    surface = Surface(out + [0, 1, 0] * y[:, None], 0 * out, cells, np.zeros(len(cells), int), pressure, 0 * pressure)
+    run = types.SimpleNamespace(summary={}, path=None)
+    return bodies.Bodies(run, None, surface, table, ["side plate"], [False], 1.0)
+
+
+@pytest.mark.parametrize("turn", [0, 135, 180, 250])
+def test_the_far_side_of_a_shaft_is_not_drawn_on_its_contact(turn):
+    """The map of a band of pressure shall show it from end to end, wherever on the shaft the band is."""
+    drawn = shaft(lambda angle, y: np.maximum(0, 1 - (angle / 0.3) ** 2), np.radians(turn))
+    axes = Figure(figsize=(2, 2), dpi=100).add_axes((0, 0, 1, 1))
+    space.map_pressure(axes, drawn, 0, style.Units())
+    canvas = FigureCanvasAgg(axes.figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[..., :3]
+    view = space.facing(space.pressing(drawn, 0)[1])
+    middle = view @ [np.sin(np.radians(turn)), 0, np.cos(np.radians(turn))]
+    for y in np.linspace(0.2, 3.8, 30):
+        right, up = axes.transData.transform((middle + y * view[:, 1])[:2]).round().astype(int)
+        red, green, _ = pixels[len(pixels) - 1 - up, right].astype(int)
+        assert red < 200 and green < 60, (y, pixels[len(pixels) - 1 - up, right])
+    words = space.map_words(drawn, 0)
+    assert ("along" in words) is (turn in (135, 250)) and "other side" not in words
+
+
+def test_names_of_a_map_s_axes():
+    """Axes of a map are coordinates or letters of directions, which are said; to the right and upwards they grow."""
+    for normal, names in (((0, 0, -1), "xyz"), ((0, 1, 0), "xzy"), ((-1, 0, 0), "yzx"), ((-0.7, 0, -0.7), "syn")):
+        view = space.facing(np.array(normal, float))
+        assert "".join(space.axis_name(view, k)[1] for k in range(3)) == names
+        np.testing.assert_allclose(view @ view.T, np.eye(3), atol=1e-12)
+        assert all(row[np.abs(row).argmax()] > 0 for row in view) or names == "syn"
+    assert (
+        space.axis_words(view, 0, 1, 2)
+        == "; $s$ along (0.71,\u00a00,\u00a0\u22120.71); $n$ along (0.71,\u00a00,\u00a00.71)"
+    )
+
+
+def test_pressure_all_around_a_shaft():
+    """Half of the force of a ring is on the side that its map does not show, which is said; no noise turns the map."""
+    noise = np.random.default_rng(1)
+    for _ in range(4):
+        drawn = shaft(lambda angle, y: 1 + 1e-9 * noise.random(len(y)))
+        assert np.array_equal(np.argmax(np.abs(space.facing(space.pressing(drawn, 0)[1])), axis=1), [1, 2, 0])
+        assert re.search("(4[4-9]|5[0-6]) % of its force is on the other side", space.map_words(drawn, 0))
+
+
+def lines(*made, axisymmetric=False, **more):
+    """Contacts on straight surfaces, each (from, to, (pressures)): points at equal distances."""
+    parts = []
+    for number, (begin, end, pressure) in enumerate(made):
+        place = np.linspace(begin, end, len(pressure))
+        along = np.hypot(*(place - place[0]).T)
+        across = np.array([[0, -1], [1, 0]]) @ (np.subtract(end, begin) / along[-1])
+        parts.append((place, along, np.array(pressure, float), np.full(len(along), number), across + 0 * place))
+    place, along, pressure, contact, normal = (np.concatenate(each) for each in zip(*parts, strict=True))
+    table = {"x": place[:, 0], "along": along, "pressure": pressure, "weight": 0 * along + 1, "contact": contact}
+    table |= {"chain": contact, "overlap": 0 * along, "normalX": normal[:, 0], "normalY": normal[:, 1]}
+    table |= {"normalZ": 0 * along, **more}
+    deep = np.column_stack([place, 0 * along])
+    surface = Surface(deep, 0 * deep, None, None, pressure, 0 * along)
+    state = {"state": "axisymmetric"} if axisymmetric else {}
+    run = types.SimpleNamespace(summary={**state, "parameters": {}, "contacts": [{}] * len(made)}, path=None)
+    fine = Grid(
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1e-4, 0]]), np.zeros((3, 3)), np.array([[0, 1, 2]]), None, np.zeros(3)
+    )
+    return bodies.Bodies(
+        run, fine, surface, table, [f"slave{k} master" for k in range(len(made))], [False] * len(made), 1.0
+    )
+
+
+def test_arc_lengths_grow_upwards_or_to_the_right():
+    """Contacts drawn over each other shall run the same way, and begin at the axis only if they reach it."""
+    found = bodies.chains(
+        lines(((10, 0), (10, 40), (0, 1, 2, 1, 0)), ((19, 40), (14, 0), (0, 1, 0)), axisymmetric=True)
+    )
+    assert [chain.origin for chain in found] == ["middle", "middle"]
+    assert all(np.polyfit(chain.along, chain.place[:, 1], 1)[0] > 0 for chain in found)
+    np.testing.assert_allclose([chain.zero for chain in found], [[10, 20], [16.5, 20]])
+    (flat,) = bodies.chains(lines(((3, 1), (-3, 0), (0, 1, 0))))
+    assert np.polyfit(flat.along, flat.place[:, 0], 1)[0] > 0 and (flat.towards, found[0].towards) == ("x", "y")
+    (touching,) = bodies.chains(lines(((0, 0), (4, 3), (2, 1, 0)), axisymmetric=True))
+    assert touching.origin == "axis"
+
+
+@pytest.mark.parametrize("pressure", [(0, 0, 0, 3, 0, 0, 0, 0), (0, 0, 1, 3, 5, 0, 0, 0)])
+@pytest.mark.parametrize("end", [(1, 9), (9, 1)])
+def test_no_pressure_is_cut_off(pressure, end):
+    """Picture and curve of a contact shall show where the pressure begins and ends, of steep and coarse ones too."""
+    drawn = lines(((0, 0), end, pressure))
+    box = bodies.zone_window(drawn, 0)
+    reached = np.flatnonzero(pressure)[[0, -1]] + [-1, 1]
+    ends = np.array(end) * reached[:, None] / (len(pressure) - 1)
+    assert (ends > box[0]).all() and (ends < box[1]).all()
+    axes = Figure().add_subplot()
+    bodies.plot_pressure(axes, drawn, style.Units())
+    (line,) = (each for each in axes.lines if len(each.get_xdata()) > 2)
+    for edge in axes.get_xlim():
+        assert np.interp(edge, *line.get_data()) == 0
+    bodies.stand_pressure(axes, drawn, box, 0, style.Units())
+    crest = np.ptp(axes.collections[1].get_segments(), axis=(0, 1)).max()
+    assert crest > 0.1 * np.ptp(box, axis=0).max()
+
+
+def test_places_far_from_the_origin():
+    """Ticks shall be whole numbers, not differences from one beside the axis."""
+    drawn = lines(((4321, 0), (4321.01, 0), (0, 1, 0)), along=np.array([4321, 4321.005, 4321.01]))
+    axes = Figure().add_subplot()
+    bodies.plot_pressure(axes, drawn, style.Units())
+    axes.figure.draw_without_rendering()
+    assert axes.get_xlabel().startswith("$x$") and axes.xaxis.get_offset_text().get_text() == ""
+
+
+def test_points_are_marked_where_something_touches():
+    """The origin of an arc length has a dot only where its contact carries pressure."""
+    drawn = lines(((0, 0), (9, 0), (0, 1, 0)), ((0, 5), (9, 6), (0, 0, 0)))
+    axes = Figure().add_subplot()
+    bodies.stand_pressure(axes, drawn, np.array([[0, 0], [9, 9]]), None, style.Units())
+    assert len([line for line in axes.lines if line.get_marker() == "o"]) == 1
+
+
+def test_zones_of_two_contacts_are_apart():
+    """What sticks and slips of several contacts shall stand in a strip each, below the curves."""
+    slides = {"slide": np.array([2, 1, 1, 2, 0, 2, 2, 1]), "shear": np.array([0, 1, 1, 0, 0, -1, -1, 0.0])}
+    drawn = lines(((0, 0), (0, 3), (0, 4, 4, 0)), ((9, 0), (9, 3), (0, 4, 4, 0)), **slides)
+    axes = Figure().add_subplot()
+    bodies.plot_pressure(axes, drawn, style.Units())
+    strips = [patch.get_window_extent() for patch in axes.patches if patch.get_alpha() is None]
+    heights = sorted({(round(box.y0), round(box.y1)) for box in strips})
+    assert len(strips) == 5 and len(heights) == 2 and heights[0][1] < heights[1][0]
+    assert axes.transData.transform((0, -1))[1] > heights[1][1]
+
+
+def test_equal_contacts_keep_their_order():
+    """Of contacts that carry the same but for rounding the first of the case file is drawn first."""
+    for share in (1 - 1e-7, 1 + 1e-7):
+        assert bodies.contacts_by_force(lines(((0, 0), (9, 0), (0, 1, 0)), ((0, 5), (9, 5), (0, share, 0)))) == [0, 1]
+
+
+@pytest.mark.parametrize("command", [state, stress])
+@pytest.mark.parametrize("name", ["the-{}-with-a-long-name {}-of-another-body", "MOUNTING-{} HAMMOCK-WITH-{}-MMMMMM"])
+def test_long_names(case, command, name):
+    """Titles of contacts with long names shall stay on the page, beside each other and beside a bar."""
+    with style.look():
+        found = bodies.read_bodies(read_run(case))
+        names = [name.format(*old.split()) for old in found.names]
+        assert faults(command.draw(replace(found, names=names), style.Units("mm", "MPa"), None, False)) == []
+
+
+@pytest.mark.parametrize(("length", "stress_", "aside"), [(1e-3, 1e6, 0), (1, 1, -43210)])
+@pytest.mark.parametrize("slide", [False, True])
+def test_ticks_of_other_units_and_places(case, length, stress_, aside, slide):
+    """Metres and pascals, and bodies far from the origin: whole numbers at ticks, powers of ten in the labels."""
+    with style.look():
+        found = bodies.read_bodies(read_run(case))
+        grid, surface = found.grid, found.surface
+        grid = replace(grid, points=length * grid.points + aside, move=length * grid.move, stress=stress_ * grid.stress)
+        surface = replace(surface, points=length * surface.points + aside, move=length * surface.move)
+        table = found.table | {"pressure": stress_ * found.table["pressure"], "along": length * found.table["along"]}
+        table |= {name: length * found.table[name] + aside for name in "xy"} | {"overlap": length * table["overlap"]}
+        contacts = found.run.summary["contacts"]
+        closed = [{**each, "closed": {key: length * long for key, long in each["closed"].items()}} for each in contacts]
+        run = types.SimpleNamespace(summary=found.run.summary | {"contacts": closed, "stresses": []}, path=None)
+        drawn = replace(found, run=run, grid=grid, surface=surface, table=table)
+        figure = stress.draw(drawn, style.Units("m", "Pa") if length < 1 else style.Units("mm", "MPa"), None, slide)
+        assert faults(figure) == []
+        every = style.every_axes(figure)
+    shown = [axis.get_offset_text() for axes in every for axis in (axes.xaxis, axes.yaxis)]
+    assert not any(text.get_text() and text.get_visible() for text in shown)
+    labels = " ".join(text for axes in every for text in (axes.get_xlabel(), axes.get_ylabel()))
+    assert ("[$10^{" in labels) is (length < 1)
+
+
+def test_slave_below_its_master(case):
+    """Where slave and master touch as drawn, the check shall show both: the thinner line of the master lies on top."""
+    with style.look():
+        axes = check.draw(case / "check", space.sight(*space.VIEW)).axes[0]
+    widths = {float(each.get_linewidths()[0]): each.get_zorder() for each in axes.collections[1:]}
+    assert {0.9, 1.4, 2.4} <= set(widths) and widths[0.9] > widths[1.4] > widths[2.4]
+
+
+def test_faults_are_seen():
+    """A legend on a curve or on other axes is a fault, as is a text on another one or outside."""
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    left.plot([0, 1], [0, 1], label="a curve")
+    left.legend(loc="center")
+    right.set_axis_off()
+    assert any("lies on the curve" in fault for fault in faults(figure))
+    right.set_axis_on()
+    left.legend(loc="center left", bbox_to_anchor=(0.95, 0.5))
+    assert any("lies on other axes" in fault for fault in faults(figure))
+    left.legend(loc="upper left")
+    assert faults(figure) == []

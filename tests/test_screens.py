@@ -10,6 +10,10 @@ from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script
 from pages import scripts, told
 from test_examples import example
 
+from postprocess.__main__ import main
+from postprocess.results import read_run
+from postprocess.words import command
+
 EXAMPLES = ROOT / "edp/examples"
 PIN = EXAMPLES / "pin-in-hole/pin-in-hole"
 
@@ -355,3 +359,73 @@ def test_error_of_a_moment_in_space(tmp_path):
     assert re.search(
         r"^    pad disc +\(30, -40, 0\) N mm +on pad, about \(0, 0, 0\), size 50.0 ± 2.0 \(4 %\)$", said, re.M
     ), said
+
+
+def test_lines_of_many_iterations():
+    """Of many iterations the first, each twentieth and the last ones have a line; with -verbose 1 all have."""
+    flags = "-h", 2, "-order", 2, "-method", "newton", "-kappa", 1e20
+    brief, whole = run("disc-on-block", *flags), run("disc-on-block", *flags, "-verbose", 1)
+    count = brief.summary["newton"]
+    printed = list(map(int, re.findall(r"^ +(\d+) +\S+ +\d+ +[\d.]+$", brief.stdout, re.M)))
+    assert count > 30 and len(whole.history["newton"]) == count
+    assert printed == [*range(1, 21), *range(count - 4, count + 1)]
+    assert re.findall(r"^ +1 +1 +(\d+) ", whole.stdout, re.M) == list(map(str, range(1, count + 1)))
+    longer = run("disc-on-block", *flags, "-tol", 1e-30)
+    printed = list(map(int, re.findall(r"^ +(\d+) +\S+ +\d+ +[\d.]+$", longer.stdout, re.M)))
+    assert longer.summary["newton"] == 42 and printed == [*range(1, 21), 40, 41, 42]
+    stopped = run("disc-on-block", *flags, "-maxNewton", 29, expect=20).stdout
+    assert re.search(r"^ +29 +\S+ +\d+ +\S+\nNOT CONVERGED", stopped, re.M)
+
+
+def test_a_number_of_the_geometry_among_the_flags(tmp_path):
+    """A number of -set shall stand in summary.json, among the flags and in the command of a run as it was given."""
+    pair = EXAMPLES / "gear-pair/gear-pair"
+    words = (
+        "-mesh",
+        f"{pair}.geo",
+        "-case",
+        f"{pair}.case",
+        "-set",
+        "module",
+        2,
+        "-estimate",
+        0,
+        "-vtu",
+        0,
+        "-verbose",
+        1,
+    )
+    done = run_in(ROOT, "edp/parts.edp", *words, out=tmp_path / "run")
+    assert done.summary["parameters"]["set module"] == "2" and "set" not in done.summary["parameters"]
+    assert "set module" in done.summary["given"] and "set" not in done.summary["given"]
+    flags = done.stdout.partition("\nFlags\n")[2]
+    assert "  -set module 2 " in flags and flags.count("-set") == flags.count("-mesh") == 1
+    assert " -set module 2 -" in command(read_run(done.folder))
+
+
+def test_all_loads_move(tmp_path):
+    """Several loads move, one load moves."""
+    told = {**thick_body(1), "ways": [{"name": "all loads", "way": 0.25}, {"name": "force top", "way": 0.5}]}
+    said = screen(tmp_path / "run", told)
+    assert re.search(r"^  all loads move +0.25 mm$", said, re.M) and re.search(
+        r"^  force top moves +0.5 mm$", said, re.M
+    )
+
+
+def test_show_and_compare_a_case(tmp_path, capsys):
+    """Tables of a case shall have the numbers of its screen with units, no empty ones, and no lists as in the file."""
+    done, folder = example("pin-in-hole", tmp_path, "", "-estimate", 1, size=0.6), str(tmp_path / "run")
+    assert main(["show", folder]) == 0
+    said = capsys.readouterr().out
+    contact, units = done.summary["contacts"][0], done.summary["units"]
+    assert re.search(rf"{contact['name']}: normal force +{contact['normalForce']:.8g} ± \S+ N(/mm)?$", said, re.M)
+    assert re.search(
+        rf"{contact['name']}: greatest pressure +{contact['pressureMax']:.8g} ± \S+ {units[1]}$", said, re.M
+    )
+    assert re.search(r" carries +\(\S+, \S+\) N(/mm)?$", said, re.M)
+    assert not re.search("contactMoment|^ +force +-|masterForce|modules|estimates|name ", said, re.M)
+    assert max(map(len, said.splitlines())) < 160
+    assert main(["compare", folder, folder]) == 0
+    said = capsys.readouterr().out
+    assert re.search(rf"^{contact['name']}: normal force \[N(/mm)?\] .* 0$", said, re.M)
+    assert not re.search("^(force|approach|halfWidth) ", said, re.M)

@@ -180,6 +180,7 @@ function stresses(   k, p, e, unit) {
   }
 }
 function turns(p) { return v[p ".name"] ~ /^moment / }
+function moves(p) { return v[p ".name"] (turns(p) ? " turns" : (v[p ".name"] == "all loads" ? " move" : " moves")) }
 function moments(   k, p, i, e, m, unit, note, some) {
   unit = turning
   for (k = 0; k < count[".moments"]; k++) {
@@ -244,7 +245,7 @@ function own(   k, p, e, word, times, j, with) {
   for (k = 0; k < count[".ways"]; k++) {
     p = ".ways." k
     e = error(".estimates.loads." k ".way")
-    result(v[p ".name"] (turns(p) ? " turns" : " moves"), v[p ".way"], e, turns(p) ? "rad" : v[".units.0"], unknown(e))
+    result(moves(p), v[p ".way"], e, turns(p) ? "rad" : v[".units.0"], unknown(e))
     worse(e, v[p ".way"], "displacement of " v[p ".name"])
   }
   for (k = 0; k < count[".supports"]; k++)

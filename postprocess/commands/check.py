@@ -67,14 +67,17 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     colours = {int(group): COLOURS[k % len(COLOURS)] for k, group in enumerate(np.unique(groups[groups > 0]))}
     paint = draw_plane if plane else draw_solid
     for panel in (axes, *close):
-        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view)
+        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view, roles(said))
         draw_points(panel, points, np.eye(3) if plane else view, size, panel in close or not plane)
     for panel in close:
         near = np.argmin(np.where(points["paired"] > 0, np.abs(points["gap"]), np.inf))
         reach = 8 * size + 2 * abs(points["gap"][near])
         panel.set_xlim(points["x"][near] - reach, points["x"][near] + reach)
         panel.set_ylim(points["y"][near] - 0.6 * reach, points["y"][near] + 0.6 * reach)
-    entries = [Line2D([], [], color=colour, linewidth=2) for colour in colours.values()]
+    width = roles(said) if plane else {}
+    entries = [
+        Line2D([], [], color=colours[group], linewidth=width.get(group, 1.4 if plane else 2)) for group in colours
+    ]
     entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
     words = [style.plain(role(said, group)) for group in colours]
     figure.legend(entries, [*words, "contact points and normals"], loc="outside lower left", ncols=1)
@@ -110,15 +113,28 @@ def role(said: dict, group: int) -> str:
     return f"{name}: {', '.join(dict.fromkeys(words))}" if words else name
 
 
-def draw_plane(axes, at, cells, parts, sides, groups, colours, _view) -> float:
-    """Elements in their bodies' colours, the groups' edges on them; the size of an element at the groups."""
+def roles(said: dict) -> dict[int, float]:
+    """The widths of the lines of slaves and of groups that are masters alone."""
+    numbers = {str(name): number for number, name in enumerate(said["groups"], 1)}
+    pairs = [str(contact["name"]).split(" ", 1) for contact in said["contacts"]]
+    found = {numbers[pair[-1]]: 0.9 for pair in pairs if pair[-1] in numbers}
+    return found | {numbers[pair[0]]: 2.4 for pair in pairs if pair[0] in numbers}
+
+
+def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) -> float:
+    """Elements in their bodies' colours, the groups' edges on them; the size of an element at the groups.
+
+    Where surfaces touch as drawn, the thin line of a master lies on the wide one of its slave.
+    """
     place = at[:, :2]
     for number, part in enumerate(np.unique(parts)):
         fill = drawn.FILLS[number % len(drawn.FILLS)]
         look = {"facecolor": fill, "edgecolor": "#9A9A9A", "linewidth": 0.12}
         axes.add_collection(PolyCollection(place[cells[parts == part]], **look))
     for group, colour in colours.items():
-        axes.add_collection(LineCollection(place[sides[groups == group]], color=colour, linewidth=1.4))
+        width = widths.get(group, 1.4)
+        look = {"color": colour, "linewidth": width, "zorder": 4 - width / 2}
+        axes.add_collection(LineCollection(place[sides[groups == group]], **look))
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_xlabel("$x$")
@@ -127,7 +143,7 @@ def draw_plane(axes, at, cells, parts, sides, groups, colours, _view) -> float:
     return float(np.median(np.hypot(*edges.T)))
 
 
-def draw_solid(axes, at, cells, _parts, sides, groups, colours, view) -> float:
+def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -> float:
     """The boundary from outside, far parts first, named groups in their colours; the size of an element there."""
     every = np.concatenate([np.delete(cells, corner, axis=1) for corner in range(CORNERS[10])])
     key, first, times = np.unique(np.sort(every, axis=1), axis=0, return_index=True, return_counts=True)

@@ -10,6 +10,7 @@ import argparse
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
 from postprocess.output import write_own
@@ -65,16 +66,17 @@ def drawn(chosen: Run, units: Units) -> Figure:
     carried = [name for name in table if name.endswith(" normal force") or name.startswith("preload ")]
     energies = [name for name in ENERGIES if name in table]
     panels = 3 if energies else 2
+    width = 52 if panels == 2 else 32
     figure = Figure(figsize=(style.PAGE, (0.42 if panels == 2 else 0.34) * style.PAGE), layout="constrained")
     axes = figure.subplots(1, panels)
     for index, each in enumerate(pushed):
-        axes[0].plot(each.way, each.force, label=style.plain(each.name), **style.curve(index))
+        axes[0].plot(each.way, each.force, label=named(each.name, width), **style.curve(index))
     phased = legs(table)[-1] > 1
     place = table["step"] if phased or "fraction" not in table else table["fraction"]
     tight = any(name.startswith("preload ") for name in carried)  # bolts carry before the first step
     for index, name in enumerate(carried):
         x, y = (place, table[name]) if tight else (np.append(0, place), np.append(0, table[name]))
-        axes[1].plot(x, y, label=style.plain(name), **style.curve(index + len(pushed)))
+        axes[1].plot(x, y, label=named(name, width), **style.curve(index + len(pushed)))
     for index, name in enumerate(energies):
         axes[2].plot(np.append(0, place), np.append(0, table[name]), label=ENERGIES[name], **style.curve(index))
     turns = pushed and all(each.turns for each in pushed)
@@ -83,6 +85,7 @@ def drawn(chosen: Run, units: Units) -> Figure:
     axes[1].set_ylabel(in_unit("force carried", units.force))
     for each in axes[1:]:
         each.set_xlabel("load step" if place is table["step"] else "share of the load")
+        each.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=place is table["step"]))
     if energies:
         axes[2].set_ylabel(in_unit("energy", units.energy))
     for each in axes:
@@ -90,11 +93,21 @@ def drawn(chosen: Run, units: Units) -> Figure:
         each.autoscale_view()
         each.axhline(0, color=style.GREY, linewidth=0.5, zorder=0)
         each.axvline(0, color=style.GREY, linewidth=0.5, zorder=0)
-        if each.get_legend_handles_labels()[0]:
-            each.legend()
     for each in axes[1:]:
         each.set_xlim(left=0)
         ends = np.flatnonzero(np.diff(legs(table))) if phased else []
         for end in ends:
             each.axvline(table["step"][end], color=style.GREY, linewidth=0.5, linestyle=":", zorder=0)
-    return figure
+    name_curves(figure, axes)
+    return style.settled(figure)
+
+
+def named(words: str, width: int) -> str:
+    return style.plain(style.folded(words, width))
+
+
+def name_curves(figure: Figure, axes) -> None:
+    """The names of each panel's curves above it; the page grows with the longest list, for the panels to stay."""
+    found = [each.legend(loc="lower left", bbox_to_anchor=(0, 1)) for each in axes if each.lines]
+    most = max(sum(1 + text.get_text().count("\n") for text in legend.get_texts()) for legend in found)
+    figure.set_figheight(figure.get_figheight() + 0.15 * most)

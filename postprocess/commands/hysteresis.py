@@ -13,10 +13,11 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from postprocess import bodies as drawn
 from postprocess import style
 from postprocess.bodies import ZONES, units_of, zones
 from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, column_names, read_run, read_table
+from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
 from postprocess.series import Curve, curves, driving, read_series
 from postprocess.words import Units
 
@@ -94,17 +95,26 @@ def draw(chosen: Run, units: style.Units, asked: argparse.Namespace, own: Units)
     turns = curve is not None and curve.turns
     force = own.moment if turns else own.force
     said = ("moment" if turns else "reaction") if curve else "shear force"
-    plot_loop(above, table, f"{words} [{'rad' if turns else units.length}]", f"{said} [{force}]" if force else said)
+    across = f"{words} [{'rad' if turns else units.length}]"
+    plot_loop(above, table, across, f"{said} [{force}]" if force else said, own.energy)
     if (chosen.path / "slides.csv").exists():
         plot_zones(below, chosen, asked.contact, len(table["step"]), units)
     else:
         plot_shares(below, table)
-    for index, axes in enumerate((above, below)):
-        axes.set_title(style.panel(index), loc="left", fontsize=8)
+    drawn.title(above, 0)
+    drawn.title(below, 1, named(chosen, asked.contact), 28)
     return figure
 
 
-def plot_loop(axes, table: dict, words: str, said: str) -> None:
+def named(chosen: Run, contact: int) -> str:
+    """The contact of (b), of a case in the plane; in space its shares are those of all."""
+    stated = chosen.summary.get("contacts") or []
+    if not (chosen.path / "slides.csv").exists() or contact >= len(stated):
+        return ""
+    return style.plain(brief(str(stated[contact].get("name", ""))))
+
+
+def plot_loop(axes, table: dict, words: str, said: str, unit: str) -> None:
     drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
     closed = last_loop(drag, shear)
     energy = f"dissipated {lost[-1]:.3g}"
@@ -127,7 +137,7 @@ def plot_loop(axes, table: dict, words: str, said: str) -> None:
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
     axes.set_xlabel(style.folded(words, 36), loc="left", multialignment="left")  # the power of ten is at the right end
     axes.set_ylabel(said)
-    axes.set_title(f"energy: {energy}", loc="right", fontsize=8)
+    axes.set_title(f"energy{f' [{unit}]' if unit else ''}: {energy}", loc="right", fontsize=8)
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
 
 

@@ -107,7 +107,7 @@ def state(bodies: Bodies, units: style.Units, view: tuple | None) -> str:
     if bodies.grid.space:
         # what is nearer to the eye than the middle of the contact is taken away
         eye = space.sight(*(view or space.onto(normal)))
-        flat = space.facing(normal)[0]
+        flat = space.facing(normal)
         across = flat[1] * (1 if flat[1] @ eye[2] > 0 else -1)
         solid["cut"] = [numbers(middle), numbers(across)]
         top = drawn.stress_range(bodies)

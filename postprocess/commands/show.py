@@ -1,11 +1,13 @@
 """print a run's summary as a table
 
-DIR is a run's result folder. A dash stands for a value that the run does not define.
+DIR is a run's result folder. A dash stands for a value that the run does not define. Of a case the results are those
+of each contact, load, support and body, with units; further lists are in summary.json.
 """
 
 import argparse
 
-from postprocess.results import read_run
+from postprocess import of_case
+from postprocess.results import is_number, read_run
 
 GROUPS = {
     "run": "scene method converged message warnings".split(),
@@ -28,10 +30,17 @@ def run(arguments: argparse.Namespace) -> None:
 
 def table(summary: dict) -> list[str]:
     """The lines of the table: names left, values from one common column on, a blank line between groups."""
-    told = {key: with_error(summary, key) for key in summary}
-    groups = {title: {key: told[key] for key in keys if key in summary} for title, keys in GROUPS.items()}
+    case = of_case.is_case(summary)
+    told = {key: with_error(summary, key) for key in summary if not case or key not in of_case.WHOLE}
+    groups = {title: {key: told[key] for key in keys if key in told} for title, keys in GROUPS.items()}
     listed = {key for keys in GROUPS.values() for key in keys} | {"seconds", "parameters"}
-    groups["further"] = {key: value for key, value in summary.items() if key not in listed}
+    if case:
+        run = {"run": groups.pop("run")}
+        groups = (
+            run | {"results": {words: number(*found) for words, found in of_case.results(summary).items()}} | groups
+        )
+    further = {key: summary[key] for key in told if key not in listed}
+    groups["further"] = {key: value for key, value in further.items() if not case or not nested(value)}
     groups["seconds"] = summary["seconds"]
     groups["parameters"] = summary["parameters"]
     groups = {title: group for title, group in groups.items() if group}
@@ -54,6 +63,18 @@ def with_error(summary: dict, name: str) -> object:
     told = (summary.get("estimates") or {}).get(name)
     known = isinstance(told, dict) and told.get("error")
     return f"{cell(summary[name])} ± {told['error']:.2g}" if known else summary[name]
+
+
+def number(value: object, error: object, unit: str) -> str:
+    """A number, or the parts of a force, with its error and its unit."""
+    text = cell(value) if is_number(value) else f"({', '.join(map(cell, value))})"
+    text += f" ± {error:.2g}" if is_number(error) and error > 0 else ""
+    return f"{text} {unit}".rstrip()
+
+
+def nested(value: object) -> bool:
+    """Objects, and lists of them, which would stand in a line as in the file; and the names of what a run has read."""
+    return isinstance(value, dict) or (isinstance(value, list) and (len(value) > 6 or any(map(nested, value))))
 
 
 def cell(value: object) -> str:

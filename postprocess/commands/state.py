@@ -18,7 +18,7 @@ from postprocess import space, style
 from postprocess.bodies import Bodies, write_picture
 from postprocess.results import ResultsError
 
-MOST = 6  # contacts that are drawn from near; half as many where their shears are drawn too
+MOST = 6  # contacts that are drawn from near; half as many where their shears are drawn too; on a slide two
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +61,7 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
 
     With `stress` the bodies are coloured by von Mises' stress.
     """
-    contacts, more = carrying(bodies)
+    contacts, more = carrying(bodies, 2 if slide else MOST)
     true = drawn.at_true_scale(bodies)
     whole = drawn.whole_window(bodies)
     zones = [(contact, drawn.zone_window(true, contact)) for contact in contacts]
@@ -87,6 +87,7 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
         axes.set_ylim(*box[:, 1])
         axes.set_aspect("equal")
         axes.locator_params(nbins=5 if contact is None else 4)
+        axes.ticklabel_format(useOffset=False)
         axes.set_xlabel(f"$x$ [{units.length}]")
         axes.set_ylabel(f"$y$ [{units.length}]")
         if stress and (contact is None or each == 1):
@@ -103,7 +104,8 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
         size = np.ptp(box, axis=0)
         panels[body].add_patch(Rectangle(box[0], *size, fill=False, linewidth=0.6, zorder=6))
         look = {"textcoords": "offset points", "fontsize": 7, "zorder": 7, "bbox": style.HALO}
-        panels[body].annotate(f"({letter})", box[1], (3, 3), **look)
+        under = box[1, 1] > whole[1, 1] - 0.1 * np.ptp(whole[:, 1])  # the panel's title is close
+        panels[body].annotate(f"({letter})", np.minimum(box[1], whole[1]), (3, -6 if under else 3), **look)
     drawn.plot_pressure(panels[curve], bodies, units, slide and tall)
     drawn.title(panels[curve], len(boxes))
     return style.settled(figure)
@@ -116,7 +118,7 @@ def eye(bodies: Bodies, contact: int, view: tuple | None) -> np.ndarray:
 def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
     """The pressure on each contact's surface, with friction its shear; then the bodies with these from outside."""
     rubs = "slide" in bodies.table
-    contacts, more = carrying(bodies, MOST // 2 if rubs else MOST)
+    contacts, more = carrying(bodies, 2 if slide else MOST // 2 if rubs else MOST)
     shown = [(contact, sheared) for contact in contacts for sheared in ((False, True) if rubs else (False,))]
     letters = "abcdefghi"[: len(shown) + 1]
     maps, body = letters[:-1], letters[-1]
@@ -130,13 +132,15 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
             unit = "" if units.stress == style.Units.stress else f" {units.stress}"
             words = f"{words} shear, up to ${style.number(float(f'{greatest:.3g}'))}${unit}".lstrip()
         else:
+            words += space.map_words(bodies, contact)
             colours = space.map_pressure(panels[letter], bodies, contact, units)
         if rubs:
             panels[letter].locator_params(nbins=4)
+        panels[letter].set_anchor("W")
         drawn.title(panels[letter], index, words, 56 if each == 1 and not slide else 28)
     if rubs:
         below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4}
-        drawn.name_zones(panels[maps[-1]], ncols=2, handlelength=1.2, **below)
+        drawn.name_zones(panels[maps[-1]], panels[maps[-1]], ncols=2, handlelength=1.2, **below)
     space.draw_parts(panels[body], bodies, eye(bodies, contacts[0], view), False)
     drawn.title(panels[body], len(maps), drawn.motion(bodies, units) + more, 44 if slide else 56)
     drawn.colour_bar(figure, colours, [panels[letter] for letter in maps], bodies, units, "pressure")

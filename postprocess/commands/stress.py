@@ -32,7 +32,7 @@ def draw(bodies: Bodies, units: style.Units, view: tuple | None = None, slide: b
 
 def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
     """Of each contact the section through its middle and the pressure on its surface; the bodies from outside."""
-    contacts, more = state.carrying(bodies, 4)
+    contacts, more = state.carrying(bodies, 1 if slide else 4)
     true = drawn.at_true_scale(bodies)
     count = len(contacts)
     letters = "abcdefghi"[: 2 * count + 1]
@@ -47,9 +47,11 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
     for index, contact in enumerate(contacts):
         name = style.plain(bodies.names[contact])
         colours = space.draw_section(panels[sections[index]], true, contact, units)
-        drawn.title(panels[sections[index]], 2 * index, f"{name}: section{space.level_words(true, contact)}", width)
+        drawn.title(
+            panels[sections[index]], 2 * index, f"{name}: section{space.section_words(true, contact, units)}", width
+        )
         pressed = space.map_pressure(panels[maps[index]], true, contact, units)
-        drawn.title(panels[maps[index]], 2 * index + 1, f"{name}: pressure", width)
+        drawn.title(panels[maps[index]], 2 * index + 1, f"{name}: pressure{space.map_words(true, contact)}", width)
     whole = space.draw_parts(panels[body], bodies, state.eye(bodies, contacts[0], view), True)
     drawn.title(panels[body], 2 * count, drawn.motion(bodies, units) + more, 44 if slide else 56)
     of_stress, of_pressure = [panels[each] for each in sections], [panels[each] for each in maps]
