@@ -93,7 +93,7 @@ function boundaryOf(a, b, list,   n, m, w, k, i, d, own, all, known) {
   }
   return piecesOf(all, list)
 }
-function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, k, p, q, s, n, w, d, e, least, best, again, kept, A2, cand, cand2, mine, deep, some, gap, seen, rounds) {
+function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, k, p, q, s, n, w, d, e, least, best, again, kept, A2, cand, cand2, mine, deep, gap, seen, rounds) {
   na = piecesOf(a, A)
   nb = shape == "" ? piecesOf(b, B) : 0
   if (!na || shape == "" && !nb) return 0
@@ -104,8 +104,8 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
   for (j = 1; j <= nb; j++) { ball(B[j]); mine = mine " " B[j] }
   for (i = 1; i <= na; i++) { ball(A[i]); cand[i] = mine }
   for (rounds = 0; rounds < 40; rounds++) {
-    least = some ? 0 : 1e300
-    for (i = 1; i <= na && !some; i++) {
+    least = 1e300
+    for (i = 1; i <= na; i++) {
       p = A[i]
       e = doubt(rootOf(p))
       if (shape != "") { d = toShape(s, X[p, 2], Y[p, 2], 0) + e; if (d < least) least = d; continue }
@@ -137,7 +137,6 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
       if (!k) {
         if (!(p in deep)) deep[p] = nm ? surrounded(X[p, 2], Y[p, 2], M, nm) : 0
         if (!deep[p]) continue
-        some = 1
       }
       A2[++kept] = p
       cand2[kept] = mine
@@ -163,7 +162,7 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
     }
   }
   # at last the distances themselves, and the pieces whose error is too large for them
-  least = some ? 0 : 1e300
+  least = 1e300
   for (i = 1; i <= kept; i++) {
     p = A2[i]
     gap[i] = shape == "" ? 1e300 : toShape(s, X[p, 2], Y[p, 2], 0)

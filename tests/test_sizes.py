@@ -123,6 +123,72 @@ def test_what_overlaps_is_in_contact(tmp_path):
     assert inside.sum() > 60 and lengths[inside].max() < 0.15 < 1 < lengths.max()
 
 
+def asked(places, *calls):
+    """What functions of meshes/near.awk return, of pieces 1, 2, ... of one curve: ends and middle (n, 3, 2)."""
+    lines = [
+        f"face[{e + 1}] = 1; X[{e + 1}, {k}] = {x!r}; Y[{e + 1}, {k}] = {y!r}; list[{e + 1}] = {e + 1}"
+        for e, piece in enumerate(places.tolist())
+        for k, (x, y) in enumerate(piece)
+    ]
+    lines += [f"elements = {len(places)}", *(f'printf "%.15g\\n", {call}' for call in calls), "failed = 1; exit"]
+    files = [word for name in ("pick", "near", "cad", "kinds", "touch") for word in ("-f", ROOT / f"meshes/{name}.awk")]
+    program = "BEGIN {\n" + "\n".join(lines) + "\n}\n"
+    done = subprocess.run(
+        ["awk", *files, "-f", "/dev/stdin"], input=program, stdout=subprocess.PIPE, text=True, env={"LC_ALL": "C"}
+    )
+    return np.array(done.stdout.split(), float)
+
+
+def bent(piece, count=2001):
+    """Places of a quadratic piece (count, 2)."""
+    t = np.linspace(0, 1, count)[:, None]
+    return piece[0] * (1 - t) * (1 - 2 * t) + piece[1] * t * (2 * t - 1) + 4 * piece[2] * t * (1 - t)
+
+
+@pytest.mark.parametrize("changing", [0, 0.3])
+def test_doubt_about_an_outline(changing):
+    """The error of quadratic pieces of a curve, whose curvature changes or not, is below its estimate, and not far."""
+    turn = np.linspace(0, 1.6, 80001)
+    bend = 5 * np.exp(changing * turn)
+    steps = 0.5 * (bend[1:, None] * np.array([np.cos(turn), np.sin(turn)]).T[1:])
+    steps += 0.5 * (bend[:-1, None] * np.array([np.cos(turn), np.sin(turn)]).T[:-1])
+    curve = np.vstack([[0, 0], np.cumsum(steps * turn[1], axis=0)])
+    ends = np.arange(0, 80001, 20000)
+    places = np.array([[curve[a], curve[b], curve[(a + b) // 2]] for a, b in pairwise(ends)])
+    for alone in (False, True):
+        taken = places[1:2] if alone else places
+        estimate = asked(taken, f"doubt({1 if alone else 2})")[0]
+        dense = curve[ends[1] : ends[2] : 4]
+        off = [np.linalg.norm(dense - place, axis=1).min() for place in bent(places[1], 101)]
+        assert max(off) < estimate < (400 if alone else 12) * max(off), alone
+
+
+def test_places_and_pieces():
+    """The distance from a quadratic piece, and whether pieces surround a place, against many points of the pieces."""
+    rng = np.random.default_rng(5)
+    corners = 4 * np.array([[np.cos(k), np.sin(k)] for k in np.arange(7) * 2 * np.pi / 7])
+    after = np.roll(corners, -1, axis=0)
+    places = np.stack([corners, after, 0.5 * (corners + after) + rng.uniform(-0.9, 0.9, (7, 2))], axis=1)
+    outline = np.vstack([bent(piece)[:-1] for piece in places])
+    spots = rng.uniform(-5, 5, (60, 2))
+    calls = [f"toCurve({x!r}, {y!r}, {k % 7 + 1})" for k, (x, y) in enumerate(spots.tolist())]
+    calls += [f"surrounded({x!r}, {y!r}, list, 7)" for x, y in spots.tolist()]
+    found = asked(places, *calls)
+    for k, spot in enumerate(spots):
+        dense = bent(places[k % 7])
+        away = np.linalg.norm(dense - spot, axis=1)
+        # near a piece, where it counts, the nearest place; from afar a piece may have two
+        if away.min() < 1:
+            assert found[k] == pytest.approx(away.min(), abs=1e-5)
+        rise, go = outline[:, 1] > spot[1], np.roll(outline, -1, axis=0)
+        cross = rise != (go[:, 1] > spot[1])
+        at = outline[:, 0] + (spot[1] - outline[:, 1]) / (go[:, 1] - outline[:, 1] + 1e-300) * (
+            go[:, 0] - outline[:, 0]
+        )
+        assert found[60 + k] == (cross & (at > spot[0])).sum() % 2
+    assert 15 < found[60:].sum() < 45
+
+
 # ---------------------------------------------------------------- gaps
 
 RING = """
@@ -205,7 +271,9 @@ def test_contact_beside_its_fine_elements(tmp_path):
     assert x == pytest.approx(1.5, abs=0.3) and y == pytest.approx(0, abs=0.1)
     assert here > 5 * there and there == pytest.approx(0.01, rel=0.3) and 0.8 < away < 1.5
     # whatever else the run advises, it is that
-    assert run.summary["contacts"][0]["refine"] in warning and "size contact" not in run.stdout.split("Results")[1]
+    cure = run.summary["contacts"][0]["refine"]
+    assert cure in warning and cure in run.summary["estimates"]["refine"]
+    assert "size contact" not in run.stdout.split("Results")[1]
 
 
 def test_contact_on_its_fine_elements(tmp_path):
