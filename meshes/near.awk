@@ -23,7 +23,6 @@ function doubt(e,   c, k, n, t, change, most, alone) {
     alone = 0
     t = curvature(n)
     if ((t - k) ^ 2 > change ^ 2) change = t < k ? k - t : t - k
-    if (t * t > most * most) most = t < 0 ? -t : t
   }
   if (alone) change = most
   return doubt_[e] = 0.03 * change * c ^ 2 + most ^ 3 * c ^ 4 / 128
