@@ -27,13 +27,13 @@ function doubt(e,   c, k, n, t, change, most, alone) {
   if (alone) change = most
   return doubt_[e] = 0.03 * change * c ^ 2 + most ^ 3 * c ^ 4 / 128
 }
-function rootOf(p) { return p in root ? root[p] : p }
-function halves(p,   q) { q = split_(p); root[q] = root[q + 1] = rootOf(p); ball(q); ball(q + 1); return q }
-# pieces smaller than this tell nothing, as long as the outline itself is coarse
-function grainOf(p, q, grain, allowed,   t) {
-  t = rootOf(p)
-  if (doubt(t) + (q == "" ? 0 : doubt(rootOf(q))) <= allowed) return grain
-  return reach[t] / 16 > grain ? reach[t] / 16 : grain
+# of each piece: off[p] the doubt about the piece of the outline that it is a part of, limit[p]: smaller than this it tells nothing while
+# that is large
+function ready(p) { if (p in off) return; ball(p); root[p] = p; off[p] = doubt(p); limit[p] = reach[p] / 16 }
+function halves(p,   q, k) {
+  q = split_(p)
+  for (k = q; k < q + 2; k++) { ball(k); root[k] = root[p]; off[k] = off[p]; limit[k] = limit[p] }
+  return q
 }
 # from a place to the quadratic piece p
 function toCurve(px, py, p,   ax, ay, bx, by, t, k, rx, ry, sx, sy, f, g) {
@@ -100,18 +100,18 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
   nm = shape == "" ? boundaryOf(a, b, M) : 0
   pieces = pieces < elements ? elements : pieces
   mine = ""
-  for (j = 1; j <= nb; j++) { ball(B[j]); mine = mine " " B[j] }
-  for (i = 1; i <= na; i++) { ball(A[i]); cand[i] = mine }
+  for (j = 1; j <= nb; j++) { ready(B[j]); mine = mine " " B[j] }
+  for (i = 1; i <= na; i++) { ready(A[i]); cand[i] = mine }
   for (rounds = 0; rounds < 40; rounds++) {
     least = 1e300
     for (i = 1; i <= na; i++) {
       p = A[i]
-      e = doubt(rootOf(p))
+      e = off[p]
       if (shape != "") { d = toShape(s, X[p, 2], Y[p, 2], 0) + e; if (d < least) least = d; continue }
       n = split(cand[i], w, " ")
       for (k = 1; k <= n; k++) {
         q = w[k]
-        d = sqrt((X[p, 2] - X[q, 2]) ^ 2 + (Y[p, 2] - Y[q, 2]) ^ 2) + e + doubt(rootOf(q))
+        d = sqrt((X[p, 2] - X[q, 2]) ^ 2 + (Y[p, 2] - Y[q, 2]) ^ 2) + e + off[q]
         if (d < least) least = d
       }
     }
@@ -119,18 +119,18 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
     split("", A2); split("", cand2); split("", seen)
     for (i = 1; i <= na; i++) {
       p = A[i]
-      e = doubt(rootOf(p))
+      e = off[p]
       mine = ""
       k = 0
       if (shape != "") k = toShape(s, CX[p], CY[p], 0) - reach[p] - e <= least + margin
       n = split(cand[i], w, " ")
       for (j = 1; j <= n; j++) {
         q = w[j]
-        d = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2) - reach[p] - reach[q] - e - doubt(rootOf(q))
+        d = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2) - reach[p] - reach[q] - e - off[q]
         if (d > least + margin) continue
         mine = mine " " q
         k = 1
-        if (reach[q] > grainOf(q, p, grain, margin)) again = 1
+        if (reach[q] > (off[p] + off[q] > margin && limit[q] > grain ? limit[q] : grain)) again = 1
       }
       # of what is not near the other surface, all is in its body or nothing
       if (!k) {
@@ -139,7 +139,7 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
       }
       A2[++kept] = p
       cand2[kept] = mine
-      if (reach[p] > grainOf(p, "", grain, margin)) again = 1
+      if (reach[p] > (off[p] > margin && limit[p] > grain ? limit[p] : grain)) again = 1
     }
     if (!again || kept > 20000) break
     split("", A); split("", cand)
@@ -150,9 +150,9 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
       mine = ""
       for (k = 1; k <= n; k++) {
         q = w[k]
-        if (reach[q] > grainOf(q, p, grain, margin)) { q = halves(q); mine = mine " " q " " q + 1 } else mine = mine " " q
+        if (reach[q] > (off[p] + off[q] > margin && limit[q] > grain ? limit[q] : grain)) { q = halves(q); mine = mine " " q " " q + 1 } else mine = mine " " q
       }
-      if (reach[p] > grainOf(p, "", grain, margin)) {
+      if (reach[p] > (off[p] > margin && limit[p] > grain ? limit[p] : grain)) {
         q = halves(p)
         if (p in deep) deep[q] = deep[q + 1] = deep[p]
         A[++na] = q; cand[na] = mine
@@ -169,11 +169,12 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
     n = split(cand2[i], w, " ")
     for (k = 1; k <= n; k++) {
       q = w[k]
+      if (off[p] + off[q] > margin) { unsure(q, margin); best = 1 }
+      if (sqrt((X[p, 2] - CX[q]) ^ 2 + (Y[p, 2] - CY[q]) ^ 2) - reach[q] >= gap[i]) continue
       d = toCurve(X[p, 2], Y[p, 2], q)
       if (d < gap[i]) gap[i] = d
-      if (doubt(rootOf(p)) + doubt(rootOf(q)) > margin) { unsure(q, margin); best = 1 }
     }
-    if (best || (n || shape != "") && doubt(rootOf(p)) > margin) unsure(p, margin)
+    if (best || (n || shape != "") && off[p] > margin) unsure(p, margin)
     if (gap[i] < least) least = gap[i]
   }
   widest = n = 0
@@ -187,11 +188,10 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
   return n
 }
 # the outline is to be finer at piece p: its error falls with the third power of its size
-function unsure(p, margin,   e, t) {
-  e = rootOf(p)
-  if (doubt(e) < 0.4 * margin) return
-  t = (0.3 * margin / doubt(e)) ^ (1 / 3)
-  t = chordOf(e) * (t < 0.1 ? 0.1 : (t > 0.5 ? 0.5 : t))
+function unsure(p, margin,   t) {
+  if (off[p] < 0.4 * margin) return
+  t = (0.3 * margin / off[p]) ^ (1 / 3)
+  t = chordOf(root[p]) * (t < 0.1 ? 0.1 : (t > 0.5 ? 0.5 : t))
   if (!finest || t < finest) finest = t
   unsure_[p] = 1
 }
