@@ -425,7 +425,7 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
     for (i = 1; i <= n; i++) {
       p = zone[i]
       if (widest > wide) wide = widest
-      key = int(CX[p] / h / 2) " " int(CY[p] / h / 2) " " int(CZ[p] / h / 2)
+      key = space ? int(CX[p] / h / 2) " " int(CY[p] / h / 2) " " int(CZ[p] / h / 2) : cellOf(CX[p], 2 * h) " " cellOf(CY[p], 2 * h)
       if (key in used_) continue
       used_[key] = 1
       points++

@@ -91,30 +91,51 @@ def test_where_curves_are_nearest(tmp_path, seed):
 
 
 def egg(count, turn):
-    """Points of a convex curve whose curvature varies as sin^2, the origin its lowest point, with radius 5 there."""
-    angle = np.linspace(-np.pi, np.pi, count, endpoint=False)
-    rho = 5 + 3 * np.sin(2 * angle) + 1.5 * np.sin(angle) ** 2
-    fine = np.linspace(-np.pi, np.pi, 40001)
-    bend = 5 + 3 * np.sin(2 * fine) + 1.5 * np.sin(fine) ** 2
-    step = np.diff(fine) * 0.5
-    x = np.r_[0, np.cumsum(step * ((bend * np.cos(fine))[1:] + (bend * np.cos(fine))[:-1]))]
-    y = np.r_[0, np.cumsum(step * ((bend * np.sin(fine))[1:] + (bend * np.sin(fine))[:-1]))]
-    place = np.array([np.interp(angle, fine, x), np.interp(angle, fine, y)]).T - [x[20000], y[20000]]
-    assert rho.min() > 0 and abs(place[0] - [x[-1] - x[20000], y[-1] - y[20000]]).max() < 1e-6
-    return place @ turned(turn).T
+    """Points, as far from each other along it, of a curve with a varying curvature; the origin is its lowest point."""
+    angle = np.linspace(-np.pi, np.pi, 40001)
+    radius = 5 + 3 * np.sin(2 * angle) + 1.5 * np.sin(angle) ** 2
+    parts = np.array([radius * np.cos(angle), radius * np.sin(angle), radius]).T
+    x, y, along = np.vstack([np.zeros(3), np.cumsum(parts[1:] + parts[:-1], axis=0) * np.pi / 40000]).T
+    assert np.hypot(x[-1], y[-1]) < 1e-6
+    spots = (np.arange(count) + 0.3) / count * along[-1]
+    places = [np.interp(spots, along, x - x[20000]), np.interp(spots, along, y - y[20000])]
+    return np.transpose(places) @ turned(turn).T
+
+
+def height(folder, geo, way):
+    """Places along and across `way` of the part of a curve below the middle of its height, from a very fine mesh."""
+    (folder / "fine.geo").write_text(geo)
+    sizes = "-clmin", "0.002", "-clmax", "0.002"
+    done = subprocess.run(["gmsh", "-1", *sizes, "-format", "msh22", folder / "fine.geo", "-o", folder / "fine.msh"])
+    rows = [row.split() for row in (folder / "fine.msh").read_text().splitlines()]
+    first = rows.index(["$Nodes"]) + 2
+    at = np.array([row[1:3] for row in rows[first : first + int(rows[first - 1][0])]], float)
+    across, along = at @ [-way[1], way[0]], at @ way
+    low = along < 0.2 * np.ptp(along) + along.min()
+    order = np.argsort(across[low])
+    assert done.returncode == 0
+    return across[low][order], along[low][order]
 
 
 @pytest.mark.parametrize("other", ["Spline", "Line"])
 def test_where_splines_are_nearest(tmp_path, other):
-    """Their curvature varies along the contact, and no point of them is where they touch (64 is a multiple of 4)."""
-    turn = 0.7
+    """Curvature varies along the contact, and from point to point of a spline; a line's outline is exact."""
+    h, turn = 0.02, 0.7
     way = turned(turn) @ [0.0, 1.0]
-    lower = egg(64, turn + np.pi)
-    if other == "Line":  # whose outline is exact
-        lower = np.array([[30, 0], [-20, 0], [-20, -9], [30, -9]]) @ turned(turn).T
-    geo = closed(1, lower, other) + closed(2, egg(64, turn), "Spline")
-    found = sides(tmp_path, geo, f"size contact 0.02\n{BODIES}pressure a 1\n")
-    check_place(*found, 0 * way, way, 0.02, 2.5 if other == "Spline" else 5)
+    upper = closed(2, egg(64, turn), "Spline")
+    lower = np.array([[30, 0], [-20, 0], [-20, -9], [30, -9]]) @ turned(turn).T
+    lower = closed(1, lower if other == "Line" else egg(64, turn + np.pi), other)
+    grid = np.linspace(-1, 1, 4001)
+    gap = np.interp(grid, *height(tmp_path, upper, way))
+    if other == "Spline":
+        across, along = height(tmp_path, lower, -way)
+        gap += np.interp(grid, -across[::-1], along[::-1])
+    zone = grid[gap < gap.min() + 0.05 * h]
+    middles, lengths = sides(tmp_path, lower + upper, f"size contact {h}\n{BODIES}pressure a 1\n")
+    across = middles @ [-way[1], way[0]]
+    fine = np.sort(across[lengths < 1.3 * h])
+    assert lengths[(across > zone[0]) & (across < zone[-1]) & (abs(middles @ way) < 0.1)].max() < 1.3 * h
+    assert 2 * h < zone[0] - fine[0] < 10 * h and 2 * h < fine[-1] - zone[-1] < 10 * h, (zone / h, fine / h)
 
 
 def test_what_overlaps_is_in_contact(tmp_path):
