@@ -1,12 +1,13 @@
 # pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
 #        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE KEPT=FILE PARENTS=FILE LEFT=FILE FACES=FILE LC_ALL=C
-#        TABLE=FILE TOUCH=FILE awk -f pick.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
+#        TABLE=FILE TOUCH=FILE CLOSER=FILE awk -f pick.awk -f near.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
 #        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
 #        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
 # Gives: on standard output a .geo file to be read after the geometry: its groups and sizes, exit code 0;  APART, if bodies that
 #        "between" names share faces: a .geo file that gives each its own; if bodies are cut or joined, one that does this, and
-#        KEPT, what was picked before (cad.awk); exit code 4: the outline is to be made again with it;  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
+#        KEPT, what was picked before (cad.awk); exit code 4: the outline is to be made again with it;  CLOSER, and exit code 5:
+#        the outline is to be made again, closer to the curves (near.awk);  LEFT: the bodies that are left out;  FACES: triangles (in the plane segments) of the outline with the numbers of
 #        their faces and bodies, for a picture;  or one line that says what is wrong, exit code 1.
 # What is decided here is which numbers are meant; shapes are gmsh's: its outline is as near to them as quadratic elements are.
 # "near" and "between" compare places of these, "box" and "plane" all nodes of a face.
@@ -438,17 +439,19 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
   for (k = 1; k <= contacts; k++) {
     if (k in tied && ties < contacts) continue
     split(contact[k], w, "\t")
-    n = nearest(members[dim - 1, w[1]], members[dim - 1, w[2]], 2 * h, 0.05 * h, k in obstacle ? w[2] : "")
+    i = members[dim - 1, w[1]]; p = members[dim - 1, w[2]]; key = k in obstacle ? w[2] : ""
+    n = space ? nearest(i, p, 2 * h, 0.05 * h, key) : nearestCurves(i, p, 2 * h, 0.05 * h, key)
     for (i = 1; i <= n; i++) {
       p = zone[i]
       if (widest > wide) wide = widest
-      key = int(CX[p] / h / 2) " " int(CY[p] / h / 2) " " int(CZ[p] / h / 2)
+      key = space ? int(CX[p] / h / 2) " " int(CY[p] / h / 2) " " int(CZ[p] / h / 2) : cellOf(CX[p], 2 * h) " " cellOf(CY[p], 2 * h)
       if (key in used_) continue
       used_[key] = 1
       points++
       print "Point(zone_ + " points ") = {" sprintf("%.9g, %.9g, %.9g", CX[p], CY[p], CZ[p]) "};"
     }
   }
+  if (askCloser()) exit 5
   if (!points) return
   field("Distance"); print "Field[" fields "].PointsList = {zone_ + 1 : zone_ + " points "};"
   field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.25*Max(0,F%d-%.9g)", h, fields - 1, 4 * h + (wide > 4 * h ? wide : 0)) "\";"

@@ -32,22 +32,27 @@ work=$work-$run
 gmsh=
 trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; rm -rf "$work"; exit 130' HUP INT TERM
 mkdir "$work" 2> /dev/null || exit 4
-gmsh "$@" -v 4 "$geo" ${AFTER:+"$AFTER"} -o "$work/gmsh.msh" > "$work/log" 2>&1 &
-gmsh=$!
-(
-    exec 3>&1 > /dev/null 2>&1
-    seconds=0
-    while sleep 1 3>&-; do
-        test -n "$(started "$run")" || break
-        seconds=$((seconds + 1))
-        test $seconds != 5 || test "$expected" = - || echo "gmsh meshes ${geo##*/}${expected:+: about $expected elements expected} ..." >&3
-    done
-    kill "$gmsh"
-) &
-watch=$!
-wait "$gmsh" 2> /dev/null
-kill "$watch" 2> /dev/null
-gmsh=
+# gmsh moves points by a part of the whole for its first triangles: on a fine curve it may leave one between three points of the curve
+for part in "" 1e-11; do
+    gmsh "$@" ${part:+-setnumber Mesh.RandomFactor $part} -v 4 "$geo" ${AFTER:+"$AFTER"} -o "$work/gmsh.msh" > "$work/log" 2>&1 &
+    gmsh=$!
+    (
+        exec 3>&1 > /dev/null 2>&1
+        seconds=0
+        while sleep 1 3>&-; do
+            test -n "$(started "$run")" || break
+            seconds=$((seconds + 1))
+            test $seconds != 5 || test "$expected$part" != "$expected" || test "$expected" = - \
+                || echo "gmsh meshes ${geo##*/}${expected:+: about $expected elements expected} ..." >&3
+        done
+        kill "$gmsh"
+    ) &
+    watch=$!
+    wait "$gmsh" 2> /dev/null
+    kill "$watch" 2> /dev/null
+    gmsh=
+    awk 'sub(/.*worst gamma = /, "") { flat = $1 < 1e-8 } END { exit !flat }' "$work/log" || break
+done
 if grep -q '^2.2 0 8' "$work/gmsh.msh" 2> /dev/null && grep -q PhysicalNames "$work/gmsh.msh" && ! grep -q ^Error "$work/log" \
     && {
         head -n 3 "$work/gmsh.msh"

@@ -144,13 +144,16 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     || grep -qE "^[[:blank:]]*(group|size|join$(test "$kind" != geo || echo "|cut"))[[:blank:]]" "$path" 2> /dev/null; }; then
     picked=$folder/picked.geo
     : > "$folder/apart.geo"
+    closer=$folder/closer.geo
+    : > "$closer"
+    asks=$closer
     way="-2 -order 2"
     meshed=0
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
     case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save meshed=1; fi ;; esac
     outline() {
         rm -f "$folder/outline.msh"
-        gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" \
+        gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" "$closer" \
             -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
         ! test -s "$folder/apart.geo" || ! grep -q '^Error' "$folder/log" || no "-case $case_: bodies of it cannot be cut, joined or taken apart: $(complaint "$folder/log"); allowed: a STEP or BREP file, or a .geo file with SetFactory(\"OpenCASCADE\")" 3
         stopped "$folder/log"
@@ -164,8 +167,8 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     test "$as" != check || table=$folder/table
     pick() {
         PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo KEPT=$folder/kept PARENTS=$folder/pieces \
-            LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch \
-            awk -f "$meshes/pick.awk" -f "$meshes/cad.awk" -f "$meshes/kinds.awk" -f "$meshes/touch.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
+            LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch CLOSER=$asks \
+            awk -f "$meshes/pick.awk" -f "$meshes/near.awk" -f "$meshes/cad.awk" -f "$meshes/kinds.awk" -f "$meshes/touch.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
     command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
     listBodies() {
@@ -195,6 +198,13 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     code=$?
     for turn in 1 2; do
         test $code = 4 || break
+        outline
+        pick "$folder/picks"
+        code=$?
+    done
+    for turn in 1 2 3 4 5 6; do
+        test $code = 5 || break
+        test $turn != 6 || asks=
         outline
         pick "$folder/picks"
         code=$?

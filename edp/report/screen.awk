@@ -146,7 +146,7 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   e = error(q ".pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
   if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
-    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : "raise -order, or refine at the contact (size contact)")
+    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : known(p ".refine") ? v[p ".refine"] : "raise -order, or refine at the contact (size contact)")
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")

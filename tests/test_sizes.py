@@ -1,0 +1,330 @@
+"""`size contact` is where contacts are, whatever their curves; what a run says of gaps and of places that slide away.
+
+Two ellipses with random axes and turns touch at the places whose normals are opposite: no other code is needed to know
+where. Splines are held against the same, for a line between them, normal to both, is the shortest.
+"""
+
+import os
+import re
+import subprocess
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from freefem import ROOT, environment, part
+
+BODIES = "body A E 200e3 nu 0.3\nbody B E 200e3 nu 0.3\ncontact a b\n"
+PRESSED = BODIES + "clamp b-base\nmove a-base 0 {}\n"
+
+
+def turned(angle):
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+
+def closed(number, places, kind):
+    """A body of one closed curve as a .geo file: of an ellipse centre, ends of the axes; of a spline its points."""
+    first = 100 * number
+    lines = [f"Point({first + k}) = {{{x:.15g}, {y:.15g}, 0}};" for k, (x, y) in enumerate(places)]
+    if kind == "Ellipse":
+        arcs = [(first + 1 + k, first, first + 1, first + 1 + (k + 1) % 4) for k in range(4)]
+    else:
+        ends = [first + k * len(places) // 4 for k in range(4)] + [first + len(places)]
+        arcs = [[*range(a, b), b if b < first + len(places) else first] for a, b in pairwise(ends)]
+    lines += [f"{kind}({first + k}) = {{{', '.join(map(str, arc))}}};" for k, arc in enumerate(arcs)]
+    curves = f"{{{first}:{first + 3}}}"
+    lines += [f"Curve Loop({number}) = {curves}; Plane Surface({number}) = {{{number}}};"]
+    names = "?ab"[number]
+    lines += [f'Physical Curve("{names}") = {curves}; Physical Surface("{names.upper()}") = {{{number}}};']
+    return "\n".join(lines) + "\n"
+
+
+def ellipse(rng, way):
+    """Centre and ends of the axes of an ellipse whose farthest point along `way` is the origin; its radius there."""
+    long = np.exp(rng.uniform(0, 3))
+    axes = np.array([long, long * rng.uniform(0.15, 0.95)])
+    turn = turned(rng.uniform(0, 2 * np.pi))
+    along = turn.T @ way
+    unit = axes * along / np.linalg.norm(axes * along)
+    radius = np.linalg.norm(axes * unit[::-1]) ** 3 / axes.prod()
+    return np.array([[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1]]) * axes @ turn.T - turn @ (axes * unit), radius
+
+
+def sides(folder, geo, case):
+    """Middles (n, 2) and lengths (n) of the boundary's sides of the mesh that the reader makes."""
+    (folder / "a.geo").write_text(geo)
+    (folder / "a.case").write_text(case)
+    words = [str(os.getpid()), folder / "a.geo", folder / "read", folder / "a.case", "0", "solve", ""]
+    done = subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], env={**os.environ, "LC_ALL": "C"})
+    assert done.returncode == 0, (folder / "read/why").read_text()
+    rows = [row.split() for row in (folder / "read/mesh.msh").read_text().splitlines()]
+    subprocess.run(["rm", "-r", folder / "read"], check=True)
+    first = rows.index(["$Nodes"]) + 2
+    at = 1e-6 * np.array([row[1:3] for row in rows[first : first + int(rows[first - 1][0])]], float)
+    ends = np.array([row[-2:] for row in rows[rows.index(["$Elements"]) + 2 : -1] if row[1] == "1"], int) - 1
+    return at[ends].mean(axis=1), np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1)
+
+
+def check_place(middles, lengths, true, way, h, radius, gap=0.0):
+    """The fine sides lie around `true`, as many on one hand as on the other, over what is as near as 0.05 h."""
+    along = (middles - true) @ np.array([-way[1], way[0]])
+    near = np.linalg.norm(middles - true, axis=1) < 2.5 * h + abs(gap)
+    assert near.sum() >= 8 and lengths[near].max() < 1.4 * h, (near.sum(), lengths[near] / h)
+    fine = lengths < 1.3 * h
+    zone = np.sqrt(2 * radius * (0.05 * h + max(-gap, 0)))
+    low, high = along[fine].min(), along[fine].max()
+    assert abs(low + high) < 0.3 * zone + 2 * h, (low / h, high / h, zone / h)
+    assert 0.6 * zone < 0.5 * (high - low) < 1.5 * zone + 7 * h, (low / h, high / h, zone / h)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3, *(pytest.param(k, marks=pytest.mark.long) for k in range(4, 24))])
+def test_where_curves_are_nearest(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    angle = rng.uniform(0, 2 * np.pi)
+    way = np.array([np.cos(angle), np.sin(angle)])
+    (low, first), (high, second) = ellipse(rng, way), ellipse(rng, -way)
+    radius = 1 / (1 / first + 1 / second)
+    h = radius * 10 ** rng.uniform(-2.7, -1.3)
+    gap = rng.choice([0, -1e-3, 0.3]) * h
+    geo = closed(1, low, "Ellipse") + closed(2, high + gap * way, "Ellipse")
+    found = sides(tmp_path, geo, f"size contact {h:.6g}\n{BODIES}pressure a 1\n")
+    check_place(*found, gap / 2 * way, way, h, radius, gap)
+
+
+def egg(count, turn):
+    """Points, as far from each other along it, of a curve with a varying curvature; the origin is its lowest point."""
+    angle = np.linspace(-np.pi, np.pi, 40001)
+    radius = 5 + 3 * np.sin(2 * angle) + 1.5 * np.sin(angle) ** 2
+    parts = np.array([radius * np.cos(angle), radius * np.sin(angle), radius]).T
+    x, y, along = np.vstack([np.zeros(3), np.cumsum(parts[1:] + parts[:-1], axis=0) * np.pi / 40000]).T
+    assert np.hypot(x[-1], y[-1]) < 1e-6
+    spots = (np.arange(count) + 0.3) / count * along[-1]
+    places = [np.interp(spots, along, x - x[20000]), np.interp(spots, along, y - y[20000])]
+    return np.transpose(places) @ turned(turn).T
+
+
+def height(folder, geo, way):
+    """Places along and across `way` of the part of a curve below the middle of its height, from a very fine mesh."""
+    (folder / "fine.geo").write_text(geo)
+    sizes = "-clmin", "0.002", "-clmax", "0.002"
+    done = subprocess.run(["gmsh", "-1", *sizes, "-format", "msh22", folder / "fine.geo", "-o", folder / "fine.msh"])
+    rows = [row.split() for row in (folder / "fine.msh").read_text().splitlines()]
+    first = rows.index(["$Nodes"]) + 2
+    at = np.array([row[1:3] for row in rows[first : first + int(rows[first - 1][0])]], float)
+    across, along = at @ [-way[1], way[0]], at @ way
+    low = along < 0.2 * np.ptp(along) + along.min()
+    order = np.argsort(across[low])
+    assert done.returncode == 0
+    return across[low][order], along[low][order]
+
+
+@pytest.mark.parametrize("other", ["Spline", "Line"])
+def test_where_splines_are_nearest(tmp_path, other):
+    """Curvature varies along the contact, and from point to point of a spline; a line's outline is exact."""
+    h, turn = 0.02, 0.7
+    way = turned(turn) @ [0.0, 1.0]
+    upper = closed(2, egg(64, turn), "Spline")
+    lower = np.array([[30, 0], [-20, 0], [-20, -9], [30, -9]]) @ turned(turn).T
+    lower = closed(1, lower if other == "Line" else egg(64, turn + np.pi), other)
+    grid = np.linspace(-1, 1, 4001)
+    gap = np.interp(grid, *height(tmp_path, upper, way))
+    if other == "Spline":
+        across, along = height(tmp_path, lower, -way)
+        gap += np.interp(grid, -across[::-1], along[::-1])
+    zone = grid[gap < gap.min() + 0.05 * h]
+    middles, lengths = sides(tmp_path, lower + upper, f"size contact {h}\n{BODIES}pressure a 1\n")
+    across = middles @ [-way[1], way[0]]
+    fine = np.sort(across[lengths < 1.3 * h])
+    assert lengths[(across > zone[0]) & (across < zone[-1]) & (abs(middles @ way) < 0.1)].max() < 1.3 * h
+    assert 2 * h < zone[0] - fine[0] < 10 * h and 2 * h < fine[-1] - zone[-1] < 10 * h, (zone / h, fine / h)
+
+
+def test_what_overlaps_is_in_contact(tmp_path):
+    """Of bodies that overlap all is fine that lies in the other body, not only where their curves cross."""
+    geo = closed(1, [(0, 0), (10, 0), (0, 10), (-10, 0), (0, -10)], "Ellipse")
+    geo += closed(2, [(0, 19), (10, 19), (0, 29), (-10, 19), (0, 9)], "Ellipse")
+    middles, lengths = sides(tmp_path, geo, f"size contact 0.1\n{BODIES}pressure a 1\n")
+    inside = (abs(np.linalg.norm(middles, axis=1) - 10) < 1e-3) & (np.linalg.norm(middles - [0, 19], axis=1) < 9.95)
+    assert inside.sum() > 60 and lengths[inside].max() < 0.15 < 1 < lengths.max()
+
+
+def asked(places, *calls):
+    """What functions of meshes/near.awk return, of pieces 1, 2, ... of one curve: ends and middle (n, 3, 2)."""
+    lines = [
+        f"face[{e + 1}] = 1; X[{e + 1}, {k}] = {x!r}; Y[{e + 1}, {k}] = {y!r}; list[{e + 1}] = {e + 1}"
+        for e, piece in enumerate(places.tolist())
+        for k, (x, y) in enumerate(piece)
+    ]
+    lines += [f"elements = {len(places)}", *(f'printf "%.15g\\n", {call}' for call in calls), "failed = 1; exit"]
+    files = [word for name in ("pick", "near", "cad", "kinds", "touch") for word in ("-f", ROOT / f"meshes/{name}.awk")]
+    program = "BEGIN {\n" + "\n".join(lines) + "\n}\n"
+    done = subprocess.run(
+        ["awk", *files, "-f", "/dev/stdin"], input=program, stdout=subprocess.PIPE, text=True, env={"LC_ALL": "C"}
+    )
+    return np.array(done.stdout.split(), float)
+
+
+def bent(piece, count=2001):
+    """Places of a quadratic piece (count, 2)."""
+    t = np.linspace(0, 1, count)[:, None]
+    return piece[0] * (1 - t) * (1 - 2 * t) + piece[1] * t * (2 * t - 1) + 4 * piece[2] * t * (1 - t)
+
+
+@pytest.mark.parametrize("changing", [0, 0.3])
+def test_doubt_about_an_outline(changing):
+    """The error of quadratic pieces of a curve, whose curvature changes or not, is below its estimate, and not far."""
+    turn = np.linspace(0, 1.6, 80001)
+    bend = 5 * np.exp(changing * turn)
+    steps = 0.5 * (bend[1:, None] * np.array([np.cos(turn), np.sin(turn)]).T[1:])
+    steps += 0.5 * (bend[:-1, None] * np.array([np.cos(turn), np.sin(turn)]).T[:-1])
+    curve = np.vstack([[0, 0], np.cumsum(steps * turn[1], axis=0)])
+    ends = np.arange(0, 80001, 20000)
+    places = np.array([[curve[a], curve[b], curve[(a + b) // 2]] for a, b in pairwise(ends)])
+    for alone in (False, True):
+        taken = places[1:2] if alone else places
+        estimate = asked(taken, f"doubt({1 if alone else 2})")[0]
+        dense = curve[ends[1] : ends[2] : 4]
+        off = [np.linalg.norm(dense - place, axis=1).min() for place in bent(places[1], 101)]
+        assert max(off) < estimate < (400 if alone else 12) * max(off), alone
+
+
+def test_places_and_pieces():
+    """The distance from a quadratic piece, and whether pieces surround a place, against many points of the pieces."""
+    rng = np.random.default_rng(5)
+    corners = 4 * np.array([[np.cos(k), np.sin(k)] for k in np.arange(7) * 2 * np.pi / 7])
+    after = np.roll(corners, -1, axis=0)
+    places = np.stack([corners, after, 0.5 * (corners + after) + rng.uniform(-0.9, 0.9, (7, 2))], axis=1)
+    outline = np.vstack([bent(piece)[:-1] for piece in places])
+    spots = rng.uniform(-5, 5, (60, 2))
+    calls = [f"toCurve({x!r}, {y!r}, {k % 7 + 1})" for k, (x, y) in enumerate(spots.tolist())]
+    calls += [f"surrounded({x!r}, {y!r}, list, 7)" for x, y in spots.tolist()]
+    found = asked(places, *calls)
+    for k, spot in enumerate(spots):
+        dense = bent(places[k % 7])
+        away = np.linalg.norm(dense - spot, axis=1)
+        # near a piece, where it counts, the nearest place; from afar a piece may have two
+        if away.min() < 1:
+            assert found[k] == pytest.approx(away.min(), abs=1e-5)
+        rise, go = outline[:, 1] > spot[1], np.roll(outline, -1, axis=0)
+        cross = rise != (go[:, 1] > spot[1])
+        at = outline[:, 0] + (spot[1] - outline[:, 1]) / (go[:, 1] - outline[:, 1] + 1e-300) * (
+            go[:, 0] - outline[:, 0]
+        )
+        assert found[60 + k] == (cross & (at > spot[0])).sum() % 2
+    assert 15 < found[60:].sum() < 45
+
+
+# ---------------------------------------------------------------- gaps
+
+RING = """
+DefineConstant[ f = {{1, Name "all sizes"}} ];
+Point(1) = {{0, 0, 0}}; Point(9) = {{0, {shift}, 0}};
+Macro Ring
+  For k In {{1:4}}
+    Point(at + k) = {{r * Cos(k * Pi / 2), r * Sin(k * Pi / 2) + up, 0}};
+  EndFor
+  For k In {{1:4}}
+    Circle(at + k) = {{at + k, up == 0 ? 1 : 9, at + k % 4 + 1}};
+  EndFor
+  Curve Loop(at) = {{at + 1 : at + 4}};
+Return
+up = 0; at = 10; r = 14; Call Ring;
+at = 20; r = 10; Call Ring;
+up = {shift}; at = 30; r = {radius}; Call Ring;
+at = 40; r = 6; Call Ring;
+Plane Surface(1) = {{10, 20}}; Plane Surface(2) = {{30, 40}};
+Physical Curve("b-base") = {{11:14}}; Physical Curve("b") = {{21:24}};
+Physical Curve("a") = {{31:34}}; Physical Curve("a-base") = {{41:44}};
+Physical Surface("B") = {{1}}; Physical Surface("A") = {{2}};
+Mesh.MeshSizeMax = 1.5;
+"""
+
+
+@pytest.mark.parametrize(
+    "radius, shift, said",
+    [
+        (9.995, 0, r"initial gap 0\.005$"),
+        (9.5, -0.4996, r"initial gap 0\.0004 to (1|0\.99\d)$"),  # a clearance is no 0 beside large gaps
+        (9.5, -0.5, r"initial gap 0 to (1|0\.99\d)$"),
+        (9.5, -0.50001, r"initial gap 0 to (1|0\.99\d)$"),  # rounding of the drawing
+        (9.5, -0.52, r"initial gap -0\.02 to (1|0\.99\d|1\.0\d); the surfaces overlap as drawn at [1-9]\d? points$"),
+        (10.002, 0, r"initial gap -0\.002; the surfaces overlap as drawn: a press fit$"),
+    ],
+)
+def test_gaps_in_words(tmp_path, radius, shift, said):
+    run = part(tmp_path, RING.format(radius=radius, shift=shift), PRESSED.format(-1e-3), "-check", 1)
+    (line,) = re.findall(r"^  contact .*$", run.stdout, re.M)
+    assert re.search(said, line), line
+
+
+# ---------------------------------------------------------------- the strip, places that slide away
+
+DISC = """
+Point(1) = {0, 10, 0}; Point(2) = {-10, 10, 0}; Point(3) = {0, 0, 0}; Point(4) = {10, 10, 0};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Line(3) = {4, 2};
+Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Point(5) = {-12, 0, 0}; Point(6) = {-12, -8, 0}; Point(7) = {12, -8, 0}; Point(8) = {12, 0, 0};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Curve Loop(2) = {5:8}; Plane Surface(2) = {2};
+Physical Curve("round") = {1, 2}; Physical Curve("a-base") = {3};
+Physical Curve("flat") = {8}; Physical Curve("b-base") = {6};
+Physical Surface("A") = {1}; Physical Surface("B") = {2};
+"""
+DISC_BODIES = "size A 2\nsize B 2\nbody A E 200e3 nu 0.3\nbody B E 200e3 nu 0.3\nclamp b-base\ncontact "
+
+
+def test_strip_of_any_sizes(tmp_path):
+    """Elements beside a smooth surface may be ten thousand times smaller than others there."""
+    case = f"size contact 0.0004\n{DISC_BODIES}round flat\nmove a-base 0 -1e-5\n"
+    run = part(tmp_path, DISC, case, "-check", 1)
+    assert int(re.search(r"(\d+) curved elements", run.stdout)[1]) > 1000
+
+
+SLID = f"size contact {{}}\n{DISC_BODIES}flat round\nmove a-base {{}} -0.005\n"
+
+
+def test_contact_beside_its_fine_elements(tmp_path):
+    """A disc moved along a block touches where elements are coarse: lower sizes where it was drawn would not help."""
+    run = part(tmp_path, DISC, SLID.format(0.02, 1.5), "-distance", "exact")
+    (warning,) = [text for text in run.summary["warnings"] if "points across" in text]
+    told = re.search(
+        r"use -accuracy or size flat \(points are (\S+) apart where it touches, at \((\S+), (\S+)\), "
+        r"and (\S+) apart (\S+) away from there\)",
+        warning,
+    )
+    here, x, y, there, away = map(float, told.groups())
+    assert x == pytest.approx(1.5, abs=0.3) and y == pytest.approx(0, abs=0.1)
+    assert here > 5 * there and there == pytest.approx(0.01, rel=0.3) and 0.8 < away < 1.5
+    # whatever else the run advises, it is that
+    cure = run.summary["contacts"][0]["refine"]
+    assert cure in warning and cure in run.summary["estimates"]["refine"]
+    assert "size contact" not in run.stdout.split("Results")[1]
+
+
+def test_contact_on_its_fine_elements(tmp_path):
+    """Too few points where it was drawn: smaller sizes there."""
+    run = part(tmp_path, DISC, SLID.format(0.2, 0), "-distance", "exact")
+    (warning,) = [text for text in run.summary["warnings"] if "points across" in text]
+    assert "size contact" in warning and "away" not in warning and run.summary["contacts"][0]["refine"] is None
+
+
+GMSH = """#!/bin/sh
+echo "$*" >> "{log}"
+for last; do :; done
+echo 'Info    : Running [Gmsh 4.8.4, 1 node]'
+case $* in *RandomFactor*) ;; *) echo 'Warning : distortion = -0.0003; worst gamma = {gamma}' ;; esac
+printf '%s\\n' '$MeshFormat' '2.2 0 8' '$EndMeshFormat' '$PhysicalNames' '$EndPhysicalNames' '$EndElements' > "$last"
+"""
+
+
+@pytest.mark.parametrize("gamma, times", [("1.8e-12", 2), ("0.3", 1)])
+def test_meshed_again(tmp_path, gamma, times):
+    """gmsh meshes once more, with a smaller random part, if it has left a triangle without area."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/gmsh").write_text(GMSH.format(log=tmp_path / "log", gamma=gamma))
+    (tmp_path / "bin/gmsh").chmod(0o755)
+    (tmp_path / "a.geo").write_text("")
+    words = [str(os.getpid()), tmp_path / "made/a.msh", tmp_path / "a.geo", "-", "-2"]
+    env = environment(PATH=f"{tmp_path / 'bin'}:{os.environ['PATH']}")
+    assert subprocess.run(["sh", ROOT / "edp/bodies/mesh.sh", *map(str, words)], env=env).returncode == 0
+    calls = (tmp_path / "log").read_text().splitlines()
+    assert len(calls) == times and ("RandomFactor 1e-11" in calls[-1]) == (times == 2)
