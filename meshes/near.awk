@@ -23,17 +23,18 @@ function doubt(e,   c, k, n, t, change, most, alone) {
     alone = 0
     t = curvature(n)
     if ((t - k) ^ 2 > change ^ 2) change = t < k ? k - t : t - k
+    if (t * t > most * most) most = t < 0 ? -t : t
   }
   if (alone) change = most
   return doubt_[e] = 0.03 * change * c ^ 2 + most ^ 3 * c ^ 4 / 128
 }
-# of each piece: off[p] the doubt about the piece of the outline that it is a part of, limit[p]: smaller than this it tells nothing while
-# that is large
-function ready(p) { if (p in off) return; ball(p); root[p] = p; off[p] = doubt(p); limit[p] = reach[p] / 16 }
-function halves(p,   q, k) {
-  q = split_(p)
-  for (k = q; k < q + 2; k++) { ball(k); root[k] = root[p]; off[k] = off[p]; limit[k] = limit[p] }
-  return q
+function rootOf(p) { return p in root ? root[p] : p }
+function halves(p,   q) { q = split_(p); root[q] = root[q + 1] = rootOf(p); ball(q); ball(q + 1); return q }
+# pieces smaller than this tell nothing, as long as the outline itself is coarse
+function grainOf(p, q, grain, allowed,   t) {
+  t = rootOf(p)
+  if (doubt(t) + (q == "" ? 0 : doubt(rootOf(q))) <= allowed) return grain
+  return reach[t] / 16 > grain ? reach[t] / 16 : grain
 }
 # from a place to the quadratic piece p
 function toCurve(px, py, p,   ax, ay, bx, by, t, k, rx, ry, sx, sy, f, g) {
@@ -92,7 +93,7 @@ function boundaryOf(a, b, list,   n, m, w, k, i, d, own, all, known) {
   }
   return piecesOf(all, list)
 }
-function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, k, p, q, s, n, w, d, e, least, best, again, kept, A2, cand, cand2, mine, deep, gap, seen, rounds) {
+function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, k, p, q, s, n, w, d, e, least, best, again, kept, A2, cand, cand2, mine, deep, some, gap, seen, rounds) {
   na = piecesOf(a, A)
   nb = shape == "" ? piecesOf(b, B) : 0
   if (!na || shape == "" && !nb) return 0
@@ -100,18 +101,18 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
   nm = shape == "" ? boundaryOf(a, b, M) : 0
   pieces = pieces < elements ? elements : pieces
   mine = ""
-  for (j = 1; j <= nb; j++) { ready(B[j]); mine = mine " " B[j] }
-  for (i = 1; i <= na; i++) { ready(A[i]); cand[i] = mine }
+  for (j = 1; j <= nb; j++) { ball(B[j]); mine = mine " " B[j] }
+  for (i = 1; i <= na; i++) { ball(A[i]); cand[i] = mine }
   for (rounds = 0; rounds < 40; rounds++) {
-    least = 1e300
-    for (i = 1; i <= na; i++) {
+    least = some ? 0 : 1e300
+    for (i = 1; i <= na && !some; i++) {
       p = A[i]
-      e = off[p]
+      e = doubt(rootOf(p))
       if (shape != "") { d = toShape(s, X[p, 2], Y[p, 2], 0) + e; if (d < least) least = d; continue }
       n = split(cand[i], w, " ")
       for (k = 1; k <= n; k++) {
         q = w[k]
-        d = sqrt((X[p, 2] - X[q, 2]) ^ 2 + (Y[p, 2] - Y[q, 2]) ^ 2) + e + off[q]
+        d = sqrt((X[p, 2] - X[q, 2]) ^ 2 + (Y[p, 2] - Y[q, 2]) ^ 2) + e + doubt(rootOf(q))
         if (d < least) least = d
       }
     }
@@ -119,27 +120,28 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
     split("", A2); split("", cand2); split("", seen)
     for (i = 1; i <= na; i++) {
       p = A[i]
-      e = off[p]
+      e = doubt(rootOf(p))
       mine = ""
       k = 0
       if (shape != "") k = toShape(s, CX[p], CY[p], 0) - reach[p] - e <= least + margin
       n = split(cand[i], w, " ")
       for (j = 1; j <= n; j++) {
         q = w[j]
-        d = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2) - reach[p] - reach[q] - e - off[q]
+        d = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2) - reach[p] - reach[q] - e - doubt(rootOf(q))
         if (d > least + margin) continue
         mine = mine " " q
         k = 1
-        if (reach[q] > (off[p] + off[q] > margin && limit[q] > grain ? limit[q] : grain)) again = 1
+        if (reach[q] > grainOf(q, p, grain, margin)) again = 1
       }
       # of what is not near the other surface, all is in its body or nothing
       if (!k) {
         if (!(p in deep)) deep[p] = nm ? surrounded(X[p, 2], Y[p, 2], M, nm) : 0
         if (!deep[p]) continue
+        some = 1
       }
       A2[++kept] = p
       cand2[kept] = mine
-      if (reach[p] > (off[p] > margin && limit[p] > grain ? limit[p] : grain)) again = 1
+      if (reach[p] > grainOf(p, "", grain, margin)) again = 1
     }
     if (!again || kept > 20000) break
     split("", A); split("", cand)
@@ -150,9 +152,9 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
       mine = ""
       for (k = 1; k <= n; k++) {
         q = w[k]
-        if (reach[q] > (off[p] + off[q] > margin && limit[q] > grain ? limit[q] : grain)) { q = halves(q); mine = mine " " q " " q + 1 } else mine = mine " " q
+        if (reach[q] > grainOf(q, p, grain, margin)) { q = halves(q); mine = mine " " q " " q + 1 } else mine = mine " " q
       }
-      if (reach[p] > (off[p] > margin && limit[p] > grain ? limit[p] : grain)) {
+      if (reach[p] > grainOf(p, "", grain, margin)) {
         q = halves(p)
         if (p in deep) deep[q] = deep[q + 1] = deep[p]
         A[++na] = q; cand[na] = mine
@@ -161,7 +163,7 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
     }
   }
   # at last the distances themselves, and the pieces whose error is too large for them
-  least = 1e300
+  least = some ? 0 : 1e300
   for (i = 1; i <= kept; i++) {
     p = A2[i]
     gap[i] = shape == "" ? 1e300 : toShape(s, X[p, 2], Y[p, 2], 0)
@@ -169,12 +171,11 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
     n = split(cand2[i], w, " ")
     for (k = 1; k <= n; k++) {
       q = w[k]
-      if (off[p] + off[q] > margin) { unsure(q, margin); best = 1 }
-      if (sqrt((X[p, 2] - CX[q]) ^ 2 + (Y[p, 2] - CY[q]) ^ 2) - reach[q] >= gap[i]) continue
       d = toCurve(X[p, 2], Y[p, 2], q)
       if (d < gap[i]) gap[i] = d
+      if (doubt(rootOf(p)) + doubt(rootOf(q)) > margin) { unsure(q, margin); best = 1 }
     }
-    if (best || (n || shape != "") && off[p] > margin) unsure(p, margin)
+    if (best || (n || shape != "") && doubt(rootOf(p)) > margin) unsure(p, margin)
     if (gap[i] < least) least = gap[i]
   }
   widest = n = 0
@@ -188,10 +189,11 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
   return n
 }
 # the outline is to be finer at piece p: its error falls with the third power of its size
-function unsure(p, margin,   t) {
-  if (off[p] < 0.4 * margin) return
-  t = (0.3 * margin / off[p]) ^ (1 / 3)
-  t = chordOf(root[p]) * (t < 0.1 ? 0.1 : (t > 0.5 ? 0.5 : t))
+function unsure(p, margin,   e, t) {
+  e = rootOf(p)
+  if (doubt(e) < 0.4 * margin) return
+  t = (0.3 * margin / doubt(e)) ^ (1 / 3)
+  t = chordOf(e) * (t < 0.1 ? 0.1 : (t > 0.5 ? 0.5 : t))
   if (!finest || t < finest) finest = t
   unsure_[p] = 1
 }

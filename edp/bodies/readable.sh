@@ -205,6 +205,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     for turn in 1 2 3 4 5 6; do
         test $code = 5 || break
         test $turn != 6 || asks=
+        way="-1 ${way#-2}"               # curves are enough: gmsh's triangles between them may take without end
         outline
         pick "$folder/picks"
         code=$?
