@@ -166,9 +166,9 @@ def test_flanges_that_bend(tmp_path):
         assert force["bolt-upper"] == pytest.approx(force["bolt-lower"], rel=1e-6)
     first, other = (run.summary["preloads"][0]["force"] for run in runs.values())
     assert first == pytest.approx(other, rel=1e-6)
-    # under the first shortening the start is left, and both go the same way; later ones depend on gmsh's mesh
+    # the start is left where it opens all, which rounding may decide: the first shortening takes no longer with it
     kernel, none = (run.history[: np.argmax(run.history["residual"] < 1e-6) + 1] for run in runs.values())
-    assert len(kernel) > 3 and list(kernel["force"]) == pytest.approx(list(none["force"]), rel=1e-6)
+    assert 3 < len(kernel) <= len(none) and kernel["force"][-1] == pytest.approx(none["force"][-1], rel=1e-6)
 
 
 HEAD_IN_SPACE = (

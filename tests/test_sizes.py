@@ -302,7 +302,7 @@ def test_contact_beside_its_fine_elements(tmp_path):
 
 def test_contact_on_its_fine_elements(tmp_path):
     """Too few points where it was drawn: smaller sizes there."""
-    run = part(tmp_path, DISC, SLID.format(0.2, 0), "-distance", "exact")
+    run = part(tmp_path, DISC, SLID.format(0.5, 0), "-distance", "exact")
     (warning,) = [text for text in run.summary["warnings"] if "points across" in text]
     assert "size contact" in warning and "away" not in warning and run.summary["contacts"][0]["refine"] is None
 
