@@ -40,7 +40,8 @@ def hidden_curves(figure):
         inside = Bbox.intersection(box, axes.bbox)
         for line in axes.lines:
             path = line.get_path().transformed(line.get_transform())
-            drawn = line.get_zorder() > 0 and len(path.vertices) > 1 and line.get_linestyle() != "None"
+            named = not line.get_label().startswith("_")  # others are grids and marks
+            drawn = named and line.get_zorder() > 0 and len(path.vertices) > 1 and line.get_linestyle() != "None"
             if inside is not None and drawn and path.intersects_bbox(inside, filled=False):
                 yield f"the legend of {names!r} lies on the curve {line.get_label()!r}"
         for other in every:

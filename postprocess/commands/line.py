@@ -79,5 +79,5 @@ def drawn(path, units: style.Units) -> Figure:
     right.set_ylabel(f"displacement [{units.length}]")
     for axes in (left, right):
         axes.set_xlabel(f"distance along the line [{units.length}]")
-        axes.legend()
+        axes.legend(loc="lower left", bbox_to_anchor=(0, 1))
     return figure

@@ -75,7 +75,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for axes in own:
         axes.set_ylim(1.4 * low, None)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    grid[2, -1].legend(loc="center", fontsize=8, handlelength=1.5, labelspacing=0.2, bbox_to_anchor=(0.5, 0.42))
+    free = {"loc": "best"} if own else {"loc": "center", "bbox_to_anchor": (0.5, 0.42)}
+    grid[2, -1].legend(fontsize=8, handlelength=1.5, labelspacing=0.2, **free)
     grid[2, 0].annotate(
         "$d_0$", (close[0], low), xytext=(3, 2), textcoords="offset points", fontsize=8, color=style.GREY
     )
