@@ -93,7 +93,7 @@ function boundaryOf(a, b, list,   n, m, w, k, i, d, own, all, known) {
   }
   return piecesOf(all, list)
 }
-function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, k, p, q, s, n, w, d, e, least, best, again, kept, A2, cand, cand2, mine, deep, some, gap, seen, rounds) {
+function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, k, p, q, s, n, w, d, e, least, best, again, kept, A2, cand, cand2, mine, deep, some, gap, rounds) {
   na = piecesOf(a, A)
   nb = shape == "" ? piecesOf(b, B) : 0
   if (!na || shape == "" && !nb) return 0
@@ -117,7 +117,7 @@ function nearestCurves(a, b, grain, margin, shape,   A, B, M, na, nb, nm, i, j, 
       }
     }
     again = kept = 0
-    split("", A2); split("", cand2); split("", seen)
+    split("", A2); split("", cand2)
     for (i = 1; i <= na; i++) {
       p = A[i]
       e = doubt(rootOf(p))

@@ -2,7 +2,8 @@
 // A held node has a projector P onto what it is free to do: the matrix is P K P, and a stiffness of its own along what is held, so
 // that directions which are no axes need no dofs of their own. K's entries at held nodes are kept apart: for the forces of the
 // supports, and for the load of supports that are moved. The levels are PETSc's GAMG, which is told of the rigid motions.
-// multigridHold(released, turning): the projectors; multigridMatrix(matrix, more, space): PETSc's matrix; multigridSetUp(options), multigridRest().
+// multigridHold(released, turning): the projectors; multigridMatrix(matrix, more, space): PETSc's matrix; multigridSetUp(options): its
+// levels; multigridRest(): none any more.
 #include "multigrid-refine.hpp"
 
 namespace
