@@ -328,7 +328,7 @@ def ranks_cases(_root: Path) -> list[campaign.Case]:
         title = f"{name}, {ranks}{', lean' * lean}"
         found.append(campaign.Case(title, script, texts, 3600, 1, 60, program))
 
-    shared = {"solver": "multigrid", "tol": 1e-8, "estimate": 0}
+    shared = {"solver": "multigrid", "tol": 1e-9, "estimate": 0}
     for name, (geometry, case_file) in RANKED_PARTS.items():
         own = f"{name.split()[0]}.case"
         example = Path("edp/examples") / geometry
