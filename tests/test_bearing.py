@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from freefem import part, snippet
+from freefem import part, snippet, told
 
 ROLLERS = 8
 GEO = """
@@ -55,6 +55,19 @@ BODIES = "units mm MPa\nsize contact 0.025\nclamp outside\nforce bore 0 -500\n" 
 )
 CASE = BODIES + "".join(f"contact r{n + 1} {race}-race\n" for n in range(ROLLERS) for race in ("inner", "outer"))
 ONE_BY_ONE = 'macro beforeSolution() dampedMost = 0; //\ninclude "parts.edp"\n'
+# does what holds idle rollers carry nothing, if it carries these shares of all forces?
+SHARES = (0, 1e-8, 1e-4)
+HELD = """
+real[int] nothing(shares.n);
+for (int k = 0; k < shares.n; k++)
+{
+    unknownMotion = 1;
+    real[int] held = unknownHold * unknownMotion;
+    unknownMotion *= shares[k] * max(q.l1, unknownTarget.linfty) / held.linfty;
+    nothing[k] = holdsNothing(q);
+}
+tell("nothing", nothing);
+"""
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +87,8 @@ def test_one_point_at_a_time(bearing, tmp_path):
     (tmp_path / "a.geo").write_text(GEO)
     (tmp_path / "a.case").write_text(CASE.replace("contact 0.025", "contact 0.07"))
     flags = ["-mesh", "a.geo", "-case", "a.case", "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"]
-    snippet(tmp_path, ONE_BY_ONE, *flags)
+    idle = told(snippet(tmp_path, ONE_BY_ONE + f"real[int] shares = {list(SHARES)};" + HELD, *flags))
+    assert idle["nothing"].tolist() == [1, 1, 0]
     one = json.loads((tmp_path / "out/summary.json").read_text())
     assert one["converged"] and one["residual"] < 1e-6 and one["newton"] < 25
     forces = [contact["normalForce"] for contact in one["contacts"]]
