@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from freefem import part, snippet, told
+from freefem import part, scene_text, snippet, told
 
 ROLLERS = 8
 GEO = """
@@ -95,6 +95,34 @@ def test_one_point_at_a_time(bearing, tmp_path):
     linear = [contact["normalForce"] for contact in bearing.summary["contacts"]]
     assert forces == pytest.approx(linear, abs=2)
     assert sum(contact["force"][1] for contact in one["contacts"][::2]) == pytest.approx(-500, rel=1e-6)
+
+
+@pytest.mark.parametrize("before, expect", [(1, [0.5, 0, 1, 1, 1]), (-0.5, [-1, -3, 1, 0, 1])])
+def test_one_point_opens(before, expect, tmp_path):
+    """Of two points that would pull, the first on the way there opens, where it carries nothing; the other stays.
+
+    From a solution that pulls itself there is no way: both open.
+    """
+    text = f"""include "solve/solve.idp"
+real before = {before};
+keepSolution();
+phatBefore = 1;
+phat = 1;
+shat = 0;
+shatBefore = 0;
+state = wall;
+int[int] solved = state;
+int one = points / 2, other = one + 1;
+phatBefore[one] = before;
+phat[one] = -1;
+phat[other] = -3;
+state[one] = state[other] = open;
+changeOne(solved);
+real[int] found = [phat[one], phat[other], phat[0], real(state[one] == wall), real(state[other] == open)];
+tell("found", found);
+"""
+    found = told(snippet(tmp_path, scene_text("disc-on-block") + text, "-order", 1, "-h", 1, "-vtu", 0))
+    assert found["found"] == pytest.approx(expect, abs=1e-12)
 
 
 def test_what_carries_has_errors(bearing):

@@ -105,6 +105,23 @@ def test_flat_elements_are_told(tmp_path):
     assert told.startswith("elements at the contact are up to 1") and "let sizes grow by less" in told
 
 
+@pytest.mark.parametrize("height, told", [(5.5, 0), (6.5, 1)])
+def test_how_flat_is_too_flat(height, told, tmp_path):
+    """Elements more than six times as long as high are told of."""
+    text = f"""
+Point(1) = {{-4,0,0}}; Point(2) = {{4,0,0}}; Point(3) = {{4,{height},0}}; Point(4) = {{-4,{height},0}};
+For k In {{1:4}}
+  Line(k) = {{k, 1+k%4}};
+EndFor
+Curve Loop(1) = {{1:4}}; Plane Surface(1) = {{1}};
+Transfinite Curve {{1, 3}} = 81; Transfinite Curve {{2, 4}} = 11; Transfinite Surface {{1}};
+Physical Curve("base") = {{1}}; Physical Curve("middle") = {{3}}; Physical Surface("block") = {{1}};
+"""
+    pressed = PRESSED.replace("0.3 20", f"0.3 {height + 20}").replace("-60", "-600")
+    warnings = part(tmp_path, text, pressed, "-order", 1).summary["warnings"]
+    assert sum("times as long as high" in text for text in warnings) == told
+
+
 @pytest.mark.parametrize("scene, ratio", [("disc-on-block", 0.25), ("sphere-on-plane", 0.5)])
 def test_stiffness_goes_with_the_weight(tmp_path, scene, ratio):
     """A point with a quarter of its weight: twice its stiffness in space, four times in the plane."""
