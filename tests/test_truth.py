@@ -299,17 +299,20 @@ SIDES = {"lines": "Line(3) = {3, 4}; Line(4) = {4, 5};", "arcs": "Circle(3) = {3
 PULLED = "body plate E 1000 nu 0.3\nobstacle right plane AWAY\nclamp left\nstresses\n"
 
 
-@pytest.mark.parametrize("sides, space", short_of([("lines", False), ("arcs", True)], product(SIDES, (False, True))))
+@pytest.mark.parametrize(
+    "sides, space", short_of([("lines", False), *product(SIDES, [True])], product(SIDES, (False, True)))
+)
 def test_kink_without_bound(go, sides, space):
     """A re-entrant corner of 204 degrees has no bound; a smooth curve of the same depth, of few sides, has one."""
     rise = 0.7 if space else np.tan(np.radians(12))
     depth = 2 - 2 * rise
-    geo = KINKED.replace("SIZE", "0.5" if space else "0.4").replace("TAN", f"{rise}").replace("SIDES", SIDES[sides])
+    geo = KINKED.replace("SIZE", "0.35" if space else "0.4").replace("TAN", f"{rise}").replace("SIDES", SIDES[sides])
     case = PULLED.replace("AWAY", "10 0 0 -1 0 0" if space else "10 0 -1 0")
     case += "symmetry front\ntraction right 1 0 0\n" if space else "traction right 1 0\n"
     (one,) = go(geo + (SOLID if space else NAMED), case, space=space).summary["stresses"]
     if sides == "lines":
         assert one["singular"][:2] == pytest.approx([2, depth], abs=0.3)
+        assert np.hypot(one["at"][0] - 2, one["at"][1] - depth) > 0.8
     else:
         assert one["singular"] is None
         assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
