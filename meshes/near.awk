@@ -51,7 +51,8 @@ function doubt(e,   c, k, n, t, change, most, alone) {
 }
 # of each piece: root[p] the piece of the outline that it is a part of, doubt_[p] the doubt about that
 function ready(p) { if (!(p in root)) { root[p] = p; doubt_[p] = doubt(p) } }
-# a piece that is too large is replaced by its parts: their numbers; parts smaller than a sixteenth tell nothing while the doubt is large
+# a piece that is too large is replaced by its parts: their numbers; parts smaller than a sixteenth, in space a quarter, tell nothing
+# while the doubt is large
 function finer(p, grain, margin,   q, k, all) {
   if (reach[p] <= grain || doubt_[p] > margin && reach[p] <= reach[root[p]] / (space ? 4 : 16)) return ""
   q = split_(p)
