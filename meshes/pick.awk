@@ -119,16 +119,17 @@ function split_(p,   q) {
   face[q] = face[q + 1] = face[q + 2] = face[q + 3] = face[p]
   return q
 }
-# a ball around a piece: centre, radius
-function ball(p,   k, n, r, dx, dy, dz) {
+# a ball around a piece: centre, its middle on the surface; radius
+function ball(p,   k, r) {
   if (p in reach) return
-  n = space ? 3 : 2
-  for (k = 0; k < n; k++) { CX[p] += X[p, k] / n; CY[p] += Y[p, k] / n; CZ[p] += Z[p, k] / n }
+  middleOf(X, CX, p); middleOf(Y, CY, p); middleOf(Z, CZ, p)
   for (k = 0; k < (space ? 6 : 3); k++) {
-    dx = X[p, k] - CX[p]; dy = Y[p, k] - CY[p]; dz = Z[p, k] - CZ[p]
-    r = sqrt(dx * dx + dy * dy + dz * dz)
+    r = sqrt((X[p, k] - CX[p]) ^ 2 + (Y[p, k] - CY[p]) ^ 2 + (Z[p, k] - CZ[p]) ^ 2)
     if (r > reach[p]) reach[p] = r
   }
+}
+function middleOf(V, C, p) {
+  C[p] = space ? (4 * (V[p, 3] + V[p, 4] + V[p, 5]) - V[p, 0] - V[p, 1] - V[p, 2]) / 9 : V[p, 2]
 }
 # from a place to the flat piece between the corners of p
 function away(px, py, pz, p,   ax, ay, az, bx, by, bz, qx, qy, qz, aa, ab, bb, qa, qb, det, u, v, t, best, d, k) {
@@ -176,80 +177,6 @@ function toShape(s, px, py, pz,   qx, qy, qz, n, t) {
   t = sqrt(qx * qx + qy * qy + qz * qz) - s[8]
   return t < 0 ? -t : t
 }
-# where two sets of faces are nearest: pieces of the first, no larger than grain, whose distance is at most margin above the least.
-# zone[1 ...] of them, the count; widest: the radius of the largest;  shape: an obstacle, in place of the second set
-function nearest(a, b, grain, margin, shape,   A, B, na, nb, i, j, p, q, s, k, n, w, m, least, lb, d, wide, again, A2, cand, cand2, kept, seen, mine, gap) {
-  na = piecesOf(a, A)
-  nb = shape == "" ? piecesOf(b, B) : 0
-  if (!na || shape == "" && !nb) return 0
-  split(shape, s, " ")
-  for (i = 1; i <= na; i++) { ball(A[i]); cand[i] = "" }
-  for (j = 1; j <= nb; j++) ball(B[j])
-  pieces = pieces < elements ? elements : pieces
-  # every piece of A has its candidates of B
-  if (shape == "") { cand[0] = ""; for (j = 1; j <= nb; j++) cand[0] = cand[0] " " B[j]; for (i = 1; i <= na; i++) cand[i] = cand[0] }
-  for (rounds = 0; rounds < 40; rounds++) {
-    least = 1e300
-    for (i = 1; i <= na; i++) {
-      p = A[i]
-      if (shape != "") { d = toShape(s, CX[p], CY[p], CZ[p]); if (d < least) least = d; continue }
-      n = split(cand[i], w, " ")
-      for (k = 1; k <= n; k++) {
-        q = w[k]
-        d = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2 + (CZ[p] - CZ[q]) ^ 2)
-        if (d < least) least = d
-      }
-    }
-    again = kept = 0
-    split("", A2); split("", cand2)
-    for (i = 1; i <= na; i++) {
-      p = A[i]
-      mine = ""
-      if (shape != "") { if (toShape(s, CX[p], CY[p], CZ[p]) - reach[p] > least + margin) continue }
-      else {
-        n = split(cand[i], w, " ")
-        for (k = 1; k <= n; k++) {
-          q = w[k]
-          lb = sqrt((CX[p] - CX[q]) ^ 2 + (CY[p] - CY[q]) ^ 2 + (CZ[p] - CZ[q]) ^ 2) - reach[p] - reach[q]
-          if (lb <= least + margin) mine = mine " " q
-        }
-        if (mine == "") continue
-      }
-      A2[++kept] = p
-      cand2[kept] = mine
-      if (reach[p] > grain) again = 1
-    }
-    m = space ? 4 : 2
-    if (!again || kept > 20000) break
-    # finer: those of A, and the candidates
-    split("", A); split("", cand)
-    na = 0
-    split("", seen)
-    for (i = 1; i <= kept; i++) {
-      n = split(cand2[i], w, " ")
-      mine = ""
-      for (k = 1; k <= n; k++)
-        if (reach[w[k]] > grain) { q = split_(w[k]); for (j = 0; j < m; j++) { ball(q + j); mine = mine " " q + j } }
-        else mine = mine " " w[k]
-      if (reach[A2[i]] > grain) { p = split_(A2[i]); for (j = 0; j < m; j++) { ball(p + j); A[++na] = p + j; cand[na] = mine } }
-      else { A[++na] = A2[i]; cand[na] = mine }
-    }
-  }
-  # at last the distances themselves
-  least = 1e300
-  widest = 0
-  for (i = 1; i <= kept; i++) {
-    p = A2[i]
-    gap[i] = 1e300
-    if (shape != "") gap[i] = toShape(s, CX[p], CY[p], CZ[p])
-    n = split(cand2[i], w, " ")
-    for (k = 1; k <= n; k++) { d = away(CX[p], CY[p], CZ[p], w[k]); if (d < gap[i]) gap[i] = d }
-    if (gap[i] < least) least = gap[i]
-  }
-  n = 0
-  for (i = 1; i <= kept; i++) if (gap[i] <= least + margin) { zone[++n] = A2[i]; if (reach[A2[i]] > widest) widest = reach[A2[i]] }
-  return n
-}
 function ofBodies(numbers,   n, w, k, all) {
   n = split(numbers, w, " ")
   for (k = 1; k <= n; k++) all = all around[w[k]]
@@ -283,11 +210,11 @@ function bow(p,   k, a, b, t, most) {
   }
   return sqrt(most)
 }
-# the distance of a place from piece p, if it is less than `best`, else that
+# the distance of a place from piece p, to what pieces that are `flat` lack, if it is less than `best`, else that
 function closest(p, v, best,   r, n, t) {
   ball(p)
   if (sqrt((CX[p] - v[1]) ^ 2 + (CY[p] - v[2]) ^ 2 + (CZ[p] - v[3]) ^ 2) - reach[p] > best) return best
-  if (bow(p) < 1e-6 * diagonal) { t = away(v[1], v[2], v[3], p); return t < best ? t : best }
+  if (bow(p) < flat) { t = away(v[1], v[2], v[3], p); return t < best ? t : best }
   n = split_(p) + (space ? 3 : 1)
   for (r = parts[p]; r <= n; r++) best = closest(r, v, best)
   return best
@@ -298,6 +225,7 @@ function shortly(t) { return sprintf("%.6g", t) }
 function nearestTo(d, v, line,   n, w, k, list, m, i, t, best, found, own, slack, other) {
   n = split(entities[d], w, " ")
   best = 1e300
+  flat = 1e-6 * diagonal
   pieces = pieces < elements ? elements : pieces
   for (k = 1; k <= n; k++) {
     split("", list)
@@ -315,7 +243,7 @@ function nearestTo(d, v, line,   n, w, k, list, m, i, t, best, found, own, slack
   return found
 }
 # the faces of some bodies that lie on others; where none does, the nearest: by the middles of their pieces
-function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meets) {
+function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meets, off, play) {
   n = piecesOf(ofBodies(a), list)
   nb = piecesOf(ofBodies(b), B)
   for (j = 1; j <= nb; j++) ball(B[j])
@@ -332,7 +260,7 @@ function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meet
       if (d < best) { best = d; next_ = r }
     }
     off[i] = along(e, next_) ? best : 1e300
-    play[i] = 1e-4 * diagonal + 1.2 * (bulgeOf(e) + bulgeOf(next_))
+    play[i] = 1e-4 * diagonal + 1.2 * (bow(e) + bow(next_))
     if (off[i] < play[i]) meets = 1
     if (off[i] < least) least = off[i]
   }
@@ -340,14 +268,6 @@ function between(a, b,   list, B, n, nb, i, j, e, r, d, best, least, found, meet
   for (i = 1; i <= n; i++)
     if (off[i] < (meets ? 0 : least + 1e-3 * diagonal) + play[i] && index(found " ", " " face[list[i]] " ") == 0) found = found " " face[list[i]]
   return found
-}
-function bulgeOf(e,   k, a, b, d, most) {
-  for (k = 0; k < (space ? 3 : 1); k++) {
-    a = k; b = space ? (k + 1) % 3 : 1
-    d = sqrt((X[e, k + 2 + space] - (X[e, a] + X[e, b]) / 2) ^ 2 + (Y[e, k + 2 + space] - (Y[e, a] + Y[e, b]) / 2) ^ 2 + (Z[e, k + 2 + space] - (Z[e, a] + Z[e, b]) / 2) ^ 2)
-    if (d > most) most = d
-  }
-  return most + 0
 }
 # do two pieces face each other, within 45 degrees?
 function along(e, f,   n, m, k) {
@@ -440,11 +360,11 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
     if (k in tied && ties < contacts) continue
     split(contact[k], w, "\t")
     i = members[dim - 1, w[1]]; p = members[dim - 1, w[2]]; key = k in obstacle ? w[2] : ""
-    n = space ? nearest(i, p, 2 * h, 0.05 * h, key) : nearestCurves(i, p, 2 * h, 0.05 * h, key)
+    n = nearest(i, p, h, 0.05 * h, key)
     for (i = 1; i <= n; i++) {
       p = zone[i]
       if (widest > wide) wide = widest
-      key = space ? int(CX[p] / h / 2) " " int(CY[p] / h / 2) " " int(CZ[p] / h / 2) : cellOf(CX[p], 2 * h) " " cellOf(CY[p], 2 * h)
+      key = cellAt(p, h)
       if (key in used_) continue
       used_[key] = 1
       points++

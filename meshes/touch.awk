@@ -48,14 +48,14 @@ function partOn(f, g,   A, B, n, m, i, j, k, r, q, t, b, cx, cy, cz, wide, cell,
   for (j = 1; j <= m; j++) {
     b = B[j]
     ball(b)
-    if (!(b in play_)) play_[b] = t + 1.2 * bulgeOf(b)
+    if (!(b in play_)) play_[b] = t + 1.2 * bow(b)
     if (reach[b] > wide) wide = reach[b]
   }
   # cells as wide as the largest piece reaches: those around a place have all that may hold it
   wide += t
-  for (j = 1; j <= m; j++) { b = cellOf(CX[B[j]], wide) " " cellOf(CY[B[j]], wide) " " cellOf(CZ[B[j]], wide); cell[b] = cell[b] " " B[j] }
+  for (j = 1; j <= m; j++) { b = cellAt(B[j], wide); cell[b] = cell[b] " " B[j] }
   for (i = 1; i <= n; i++) {
-    if (!(A[i] in play_)) play_[A[i]] = t + 1.2 * bulgeOf(A[i])
+    if (!(A[i] in play_)) play_[A[i]] = t + 1.2 * bow(A[i])
     q = split_(A[i])
     for (r = q; r < q + (space ? 4 : 2); r++) {
       ball(r)
@@ -84,6 +84,7 @@ function opposite(f, g,   k, c, w) {
   for (k = 1; k <= 3; k++) c += wayOf[f, k] * wayOf[g, k]
   return c < 0
 }
+function cellAt(p, wide) { return cellOf(CX[p], wide) " " cellOf(CY[p], wide) " " cellOf(CZ[p], wide) }
 function cellOf(v, wide) { v /= wide; return v < 0 ? -int(-v) - 1 : int(v) }
 function touching(   n, w, i, j, a, b, k, l, nf, ng, F, G) {
   n = split(entities[dim], w, " ")

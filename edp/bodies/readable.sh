@@ -147,7 +147,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     closer=$folder/closer.geo
     : > "$closer"
     asks=$closer
-    way="-2 -order 2"
+    way="-$((1 + space)) -order 2"        # in the plane curves are enough
     meshed=0
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
     case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save meshed=1; fi ;; esac
@@ -205,7 +205,6 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     for turn in 1 2 3 4 5 6; do
         test $code = 5 || break
         test $turn != 6 || asks=
-        way="-1 ${way#-2}"               # curves are enough: gmsh's triangles between them may take without end
         outline
         pick "$folder/picks"
         code=$?
