@@ -318,6 +318,31 @@ def test_kink_without_bound(go, sides, space):
         assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
 
 
+HOLLOWS = {
+    "bore": ("Cylinder", "0, 0, 0, 0, 0, 1, R, Pi/2", (0.707, 0.707, 0.5), 7),
+    "ball": ("Sphere", "0, 0, 0, R, 0, Pi/2, Pi/2", (0.577, 0.577, 0.577), 36 / 7),
+}
+
+
+@pytest.mark.parametrize("shape", HOLLOWS)
+def test_smooth_hollow_has_a_bound(go, shape):
+    """Coarse parts of a thick ring and of a hollow ball under pressure from inside (Lame): a smooth wall is no edge."""
+    kind, numbers, (x, y, z), mises = HOLLOWS[shape]
+    geo = 'SetFactory("OpenCASCADE");\n'
+    for k in (1, 2):
+        geo += f"{kind}({k}) = {{{numbers.replace('R', str(k))}}};\n"
+    geo += "BooleanDifference(3) = { Volume{2}; Delete; }{ Volume{1}; Delete; };\nTransfinite Curve {:} = 4;\n"
+    case = "group part near 0.7 0.7 0.7\nbody part E 1000 nu 0.3\nstresses\n"
+    for name, normal in {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}.items():
+        case += f"group {name} plane 0 0 0 {normal}\nsymmetry {name}\n"
+    case += f"group wall near {x} {y} {z}\npressure wall 3\n"
+    case += f"group skin near {2 * x} {2 * y} {2 * z}\nobstacle skin plane 9 9 9 -1 -1 -1\n"
+    (one,) = go(geo, case, space=True).summary["stresses"]
+    assert one["singular"] is None
+    assert np.linalg.norm(one["at"][: 3 if shape == "ball" else 2]) == pytest.approx(1, abs=0.02)
+    assert one["vonMises"] == pytest.approx(mises, rel=0.05)
+
+
 def test_clamped_rim_of_unnamed_sides(go):
     """A bar whose sides are in no group: all of the clamped rim has no bound, the greatest stress is elsewhere."""
     geo = 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 2, 2, 6};\nMesh.MeshSizeMax = 0.5;\n'
