@@ -104,6 +104,7 @@ symmetry axis
 cut waist shank plane 0.3 5 0 1
 preload waist 20
 traction top 0 3
+line up 0.4 0 0.4 9
 """
 
 
@@ -119,6 +120,10 @@ def test_bolt_in_the_plane(file, tmp_path):
     found = done.summary
     assert found["preloads"][0]["force"] == pytest.approx(20 + 9 * 100 / 175, rel=1e-5)
     assert found["contacts"][0]["normalForce"] == pytest.approx(20 - 9 * 75 / 175, rel=1e-5)
+    line = np.genfromtxt(tmp_path / "out/line-up.csv", delimiter=",", names=True)
+    behind = line["y"] > 5.001  # beyond the cut the shank lacks its shortening
+    straight = found["preloads"][0]["force"] / 1000 * line["y"] - behind * found["preloads"][0]["shortened"]
+    assert line["uy"] == pytest.approx(straight, abs=1e-6)
 
 
 # two flanges that touch at their outer rings, and a bolt through them: they bend
