@@ -329,7 +329,7 @@ HOLLOWS = {
     [*product(HOLLOWS, ["Transfinite Curve {:} = 4;"]), ("bore", "Mesh.ElementOrder = 1; Mesh.MeshSizeMax = 0.4;")],
 )
 def test_smooth_hollow_has_a_bound(go, shape, mesh):
-    """Parts of a thick ring and a hollow ball, pressed from inside (Lame): a smooth wall, coarse or straight, is no edge."""
+    """A thick ring and a hollow ball, pressed from inside (Lame): a smooth wall, coarse or straight, is no edge."""
     kind, numbers, (x, y, z), mises = HOLLOWS[shape]
     geo = 'SetFactory("OpenCASCADE");\n'
     for k in (1, 2):
