@@ -318,6 +318,18 @@ def test_kink_without_bound(go, sides, space):
         assert one["at"][:2] == pytest.approx([2, depth], abs=0.3)
 
 
+def test_half_a_kink_without_bound(go):
+    """The half of a re-entrant corner of 204 degrees: on the plane of symmetry its side turns to the other side."""
+    geo = KINKED.replace("Point(3) = {4, 2, 0, h}; ", "").replace("{4, 0, 0, h}", "{2, 0, 0, h}")
+    geo = geo.replace("SIZE", "0.35").replace("TAN", "0.7").replace("SIDES", "Line(4) = {4, 5};")
+    geo = geo.replace("Line(2) = {2, 3};", "Line(2) = {2, 4};").replace("{1:5}", "{1, 2, 4, 5}")
+    solid = SOLID.replace("o[6]", "o[5]")
+    case = "body plate E 1000 nu 0.3\nobstacle left plane -9 0 0 1 0 0\nsymmetry right\nsymmetry front\n"
+    case += "traction left -1 0 0\nstresses\nspring left 0.001 0.001 0.001\n"
+    (one,) = go(geo + solid, case, space=True).summary["stresses"]
+    assert one["singular"][:2] == pytest.approx([2, 0.6], abs=0.3)
+
+
 HOLLOWS = {
     "bore": ("Cylinder", "0, 0, 0, 0, 0, 1, R, Pi/2", (0.707, 0.707, 0.5), 7),
     "ball": ("Sphere", "0, 0, 0, R, 0, Pi/2, Pi/2", (0.577, 0.577, 0.577), 36 / 7),
