@@ -11,7 +11,7 @@ import foreign
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
-from freefem import FREEFEM, ROOT, data, execute, short_of
+from freefem import FREEFEM, ROOT, data, execute, part, short_of
 from test_parts import Mesh, block, turn
 
 MEMORY = 3_000_000  # kB: a run that wants more shall end, not the machine
@@ -721,3 +721,29 @@ def test_one_point_on_a_round_obstacle(go):
     told = go(sketch.text(), case, "-distance", "exact")
     value, said = told.numbers["contacts.0.force"]
     assert value > 150 and 0.01 * value < said < value
+
+
+RIM = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 7.78, 5.8, 0.87};
+Box(2) = {0, 0, 0.87, 6.95, 5.14, 1.68};
+Rotate {{2, -1, 1}, {0, 0, 0}, 0.29} { Volume{:}; }
+Physical Volume("lower") = {1}; Physical Volume("upper") = {2};
+Mesh.MeshSizeMax = 0.75;
+"""
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_rim_between_two_held_faces(tmp_path, order):
+    """Points whose node is held, opposite held ones, carry nothing, though the meshes of the rim are not the same."""
+    axis = np.array([2, -1, 1]) / np.sqrt(6)
+    spin = np.cross(np.eye(3), axis)
+    turned = np.eye(3) + np.sin(0.29) * spin + (1 - np.cos(0.29)) * spin @ spin
+    across, down = (" ".join(map(repr, map(float, turned @ along))) for along in ((1, 0, 0), (0, 0, -1e3)))
+    case = (
+        "body lower E 70e3 nu 0.33\nbody upper E 70e3 nu 0.33\ngroup lo between lower upper\n"
+        f"group up between upper lower\ngroup held plane 0 0 0 {across}\ncontact lo up\nclamp held\n"
+        f"weight upper {down}\n"
+    )
+    run = part(tmp_path, RIM, case, "-order", order, "-estimate", 0, space=True)
+    assert run.summary["pressureMax"] < 1.2e4 and run.summary["contacts"][0]["normalForce"] < 3.5e4
+    assert sum("more are held, and so is what is opposite" in text for text in run.summary["warnings"]) == 1
