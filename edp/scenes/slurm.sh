@@ -2,7 +2,8 @@
 # slurm.sh: a batch script for a cluster with SLURM: sbatch edp/scenes/slurm.sh SCRIPT FLAGS..., from the package's folder
 # A case on 16 ranks: sbatch -n 16 edp/scenes/slurm.sh edp/parts-3d.edp -mesh my.geo -case my.case -order 1. Tried without SLURM only.
 # The package is on a file system that all nodes share, and so is TMPDIR for a case: one process makes the mesh, all read it.
-# Each rank holds its part of the mesh: 0.05 GB for the program, and at most 3.7 kB an unknown of P1, 6.3 of P2, divided by the ranks.
+# Each rank holds its part of the mesh and all of the surface: 0.05 GB for the program, and of n unknowns at most 2.6 kB n of P1, 4.5 of
+# P2, divided by the ranks, and 18 kB n^(2/3) of P1, 28 of P2.
 #SBATCH --job-name=contact
 #SBATCH --nodes=2
 #SBATCH --ntasks-per-node=8
@@ -16,6 +17,7 @@ make mpi
 # the mesh first, by one process: the others would wait for gmsh
 said=$(sh edp/freefem.sh "$@" -solver none) || { code=$?; echo "$said"; exit "$code"; }
 echo "$said" | awk -v ranks="$SLURM_NTASKS" '{ print }
-    match($0, /[0-9]+ unknowns of P[12]/) { split(substr($0, RSTART), word, " ")
-        printf "memory: up to %.2g GB on each of %d processes\n", 0.05 + word[1] * (word[4] == "P1" ? 3.7e-6 : 6.3e-6) / ranks, ranks }'
+    match($0, /[0-9]+ unknowns of P[12]/) { split(substr($0, RSTART), word, " "); n = word[1]; first = word[4] == "P1"
+        own = n * (first ? 2.6e-6 : 4.5e-6) / ranks; surface = n ^ (2 / 3) * (first ? 18e-6 : 28e-6)
+        printf "memory: up to %.2g GB on each of %d processes\n", 0.05 + own + surface, ranks }'
 mpiexec -n "$SLURM_NTASKS" sh edp/freefem.sh "$@" -solver multigrid
