@@ -146,7 +146,10 @@ def test_memory_of_several_processes():
     words = r"([\d.]+) GB for .* ([\d.]+) kB n of P1, ([\d.]+) of\n# P2,.* ([\d.]+) kB n\^\(2/3\) of P1, ([\d.]+) of"
     found = re.search(words, (ROOT / "edp/scenes/slurm.sh").read_text())
     program, *each = (float(word) for word in found.groups())
-    constants = re.search(r"real leanShare = ([\d.]+)", (ROOT / "edp/operator/memory.idp").read_text())
+    formula = (ROOT / "edp/operator/memory.idp").read_text()
+    surfaces, parts = (re.search(rf"(\d+) : (\d+)\) {last}", formula).groups() for last in (r"\* n\^\(2", "/ ranks"))
+    assert [1000 * kilobytes for kilobytes in each] == [float(word) for word in (*parts, *surfaces)]
+    constants = re.search(r"real leanShare = ([\d.]+)", formula)
     table = (ROOT / "tests/COST.md").read_text().split("<!-- table: ranks -->")[1].split("<!-- end -->")[0]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line[:3] == "| P"]
     rows = [row for row in rows if row[2] != "1" and row[3].isdigit()]

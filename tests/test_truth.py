@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
 from freefem import FREEFEM, ROOT, data, execute, part, short_of
-from test_parts import Mesh, block, turn
+from test_parts import Mesh, block, turn, vector
+from test_turning import rotation
 
 MEMORY = 3_000_000  # kB: a run that wants more shall end, not the machine
 
@@ -735,14 +736,11 @@ Mesh.MeshSizeMax = 0.75;
 @pytest.mark.parametrize("order", [1, 2])
 def test_rim_between_two_held_faces(tmp_path, order):
     """Points whose node is held, opposite held ones, carry nothing, though the meshes of the rim are not the same."""
-    axis = np.array([2, -1, 1]) / np.sqrt(6)
-    spin = np.cross(np.eye(3), axis)
-    turned = np.eye(3) + np.sin(0.29) * spin + (1 - np.cos(0.29)) * spin @ spin
-    across, down = (" ".join(map(repr, map(float, turned @ along))) for along in ((1, 0, 0), (0, 0, -1e3)))
+    turned = rotation(0.29, (2, -1, 1))
     case = (
         "body lower E 70e3 nu 0.33\nbody upper E 70e3 nu 0.33\ngroup lo between lower upper\n"
-        f"group up between upper lower\ngroup held plane 0 0 0 {across}\ncontact lo up\nclamp held\n"
-        f"weight upper {down}\n"
+        "group up between upper lower\ncontact lo up\nclamp held\n"
+        f"group held plane 0 0 0 {vector((1, 0, 0), turned, 3)}\nweight upper {vector((0, 0, -1e3), turned, 3)}\n"
     )
     run = part(tmp_path, RIM, case, "-order", order, "-estimate", 0, space=True)
     assert 2e3 < run.summary["pressureMax"] < 1.2e4 and 1.5e4 < run.summary["contacts"][0]["normalForce"] < 3.5e4
