@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab test test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab test test-long test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -477,17 +477,16 @@ doctor: ## say what is installed, what is missing and how to get it
 
 # ---------------------------------------------------------------- checks
 
-# Where PETSc is, the plugin is built, and tested; where not, its tests are skipped.
-test: ## run the tests that take few seconds: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
-test-all: ## run every test there is, the long ones as well: what .ci/run runs
-test: LENGTH := not long
-test-all: LENGTH := (long or not long)
-# Processes that wait for each other are slow beside other tests: these come last, one at a time. Code 5: no test of that kind.
-test test-all: $(VENV)/dev.stamp | system
+# Where PETSc is, the plugin is built, and tested; where not, its tests are skipped. Which tests are quick: tests/long.txt.
+test: ## run the quick tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
+test-long: ## run the other tests
+test-all: ## run every test there is
+test:      WHICH := not long
+test-long: WHICH := long
+test-all:  WHICH := long or not long
+test test-long test-all: $(VENV)/dev.stamp | system
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)
-	@tests() { kind=$$1; shift; PYTHONDONTWRITEBYTECODE= $(PYTHON) -m pytest -q -m "$(LENGTH) and $$kind" "$$@" $(PYTEST_ARGS) $(TESTS); }; \
-	most=0; many=0; tests 'not ranks' -n 3 --dist worksteal || most=$$?; tests ranks || many=$$?; \
-	case $$most,$$many in 0,0|0,5|5,0) ;; *) exit 1;; esac
+	@PYTHONDONTWRITEBYTECODE= $(PYTHON) tests/run.py '$(WHICH)' $(PYTEST_ARGS) $(TESTS)
 
 # What tests need beside the package: each is skipped where its tool is not there.
 tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: the plugin of make mpi, NGSolve, CalculiX, Chromium, a locale's sources

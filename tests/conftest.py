@@ -3,6 +3,7 @@
 import gc
 import os
 
+import accounts
 import freefem
 import pytest
 from text_boxes import faults
@@ -14,6 +15,23 @@ os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1"}  # of what 
 
 def pytest_addoption(parser):
     parser.addoption("--no-skips", action="store_true", help="a test that is skipped is named and fails the session")
+
+
+def pytest_configure(config):
+    config.pluginmanager.register(accounts)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """The tests of long.txt get the mark `long`: a name there is a test, or a function with all its cases."""
+    named = set((freefem.ROOT / "tests/long.txt").read_text().splitlines())
+    names = {item.nodeid for item in items} | {item.nodeid.split("[")[0] for item in items}
+    for item in items:
+        if not named.isdisjoint((item.nodeid, item.nodeid.split("[")[0])):
+            item.add_marker("long")
+    stale = sorted(named - names)
+    if stale and config.args == config.getini("testpaths"):
+        raise pytest.UsageError(f"tests/long.txt names no test: {stale[0]} ({len(stale)} such lines)")
 
 
 def pytest_collection_finish():

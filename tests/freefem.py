@@ -6,7 +6,6 @@
 """
 
 import fcntl
-import functools
 import hashlib
 import json
 import os
@@ -20,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from accounts import shared
 
 ROOT = Path(__file__).resolve().parent.parent
 MULTIGRID, FAST = (  # as built; the numbers in the names are those of what the plugins give the scripts
@@ -134,12 +134,9 @@ def named(value):
     return " ".join(map(flag_text, value)) if isinstance(value, list) else None
 
 
-def short_of(short, every):
-    """A parametrised test's cases: these short ones, and the others of `every` in make test-all only.
-
-    A case of several parameters is a tuple."""
-    others = [case if isinstance(case, tuple) else (case,) for case in every if case not in short]
-    return [*short, *(pytest.param(*case, marks=pytest.mark.long) for case in others)]
+def cases_of(some, more):
+    """A parametrised test's cases, each once."""
+    return [*some, *(case for case in more if case not in some)]
 
 
 def flag_lists(text):
@@ -166,7 +163,7 @@ def execute(command, cwd=ROOT, env=None):
     return done.returncode, done.stdout.decode(errors="replace").replace(PLUGIN_SAYS, "", 1)
 
 
-@functools.cache
+@shared
 def has_ipopt():
     """Whether this FreeFEM has the plugin ff-Ipopt: Debian 13's has not."""
     return execute([*FREEFEM, "edp/scenes/ipopt/plugin.edp"])[0] == 0
@@ -201,7 +198,7 @@ def run(scene, *flags, expect=0):
     return result
 
 
-@functools.cache
+@shared
 def stored(scene, flags):
     key = hashlib.sha256(repr((scene, flags)).encode()).hexdigest()[:16]
     STORE.mkdir(parents=True, exist_ok=True)

@@ -30,6 +30,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import reference
+from accounts import shared
 from freefem import FREEFEM, ROOT, execute, table
 from test_adhesion import flags
 
@@ -156,7 +157,7 @@ class Keys(SimpleNamespace):
         return getattr(self, name)
 
 
-@functools.cache
+@shared
 def run(command):
     """The names of a command's expressions."""
     with tempfile.TemporaryDirectory() as name:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import reference
-from freefem import MULTIGRID, ROOT, Run, data, run, run_in, scene_text, script, short_of, snippet, stored, told, tree
+from freefem import MULTIGRID, ROOT, Run, cases_of, data, run, run_in, scene_text, script, snippet, stored, told, tree
 from test_two_bodies import confined
 
 built = pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
@@ -15,9 +15,7 @@ FINE = ["-law", "signorini", "-d0", 0, "-gap", 0, "-force", FORCE, "-patch", 1.3
 FINE_HALF = [*FINE, "-h", 0.1, "-layers", 4, "-symmetry", "half"]
 
 
-@pytest.mark.parametrize(
-    "symmetry, points", [("whole", 49), pytest.param("half", 28, marks=pytest.mark.long), ("quarter", 16)]
-)
+@pytest.mark.parametrize("symmetry, points", [("whole", 49), ("half", 28), ("quarter", 16)])
 def test_stiffness_and_points(tmp_path, symmetry, points):
     """Energies of linear displacements, and the weights of the points, shall be exact, and those of the whole."""
     flags = ["-order", 1, "-h", 1, "-patch", 3, "-layers", 2, "-symmetry", symmetry]
@@ -33,8 +31,7 @@ def test_stiffness_and_points(tmp_path, symmetry, points):
     assert len(values["top"]) == points
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
+@pytest.mark.parametrize("kappa", [1e3, 1e9])
 def test_methods_agree(kappa):
     """The paper's scheme, Newton's method, load steps and xnewton shall find one solution, the energy's minimum."""
     best = run(SCENE, *COARSE, "-kappa", kappa)
@@ -59,7 +56,7 @@ LAWS = [["-law", "signorini"], *[["-kappa", k, "-m", m] for k in (1, 1e12) for m
 
 @pytest.mark.parametrize(
     "law, symmetry",
-    short_of(
+    cases_of(
         [*((law, "quarter") for law in (LAWS[0], LAWS[2], LAWS[3])), (LAWS[4], "half")],
         [(LAWS[1], "quarter"), (LAWS[4], "quarter"), (LAWS[4], "whole")],
     ),
@@ -99,7 +96,6 @@ def test_quarter_is_a_quarter_of_its_images(tmp_path):
     assert whole.contact["weight"].sum() == pytest.approx(quarter.contact["weight"].sum(), rel=1e-12)
 
 
-@pytest.mark.long
 def test_elements_at_the_rim():
     """Told the contact's radius, P3's force of a stiff law shall be off by 1e-4 and less, within what is said of it."""
     sphere = run(SCENE, "-kappa", 1e9, "-order", 3, "-h", 2, "-grading", 10, "-edges", 1, "-ends", 4.89, "-estimate", 1)
@@ -115,7 +111,6 @@ def test_elements_at_the_rim():
     assert sphere.contact["weight"].sum() == pytest.approx(8 * 1.1**2 * 2.25 * 17.75 * np.sin(np.pi / 8), rel=1e-6)
 
 
-@pytest.mark.long
 def test_contact_fills_the_rings():
     """P2 touches at the middles of the rim's chords: that contact fills -patch shall be said, of no other."""
     flags = ["-ends", 2, "-order", 2, "-h", 1.5, "-kappa", 1e10, "-patch", 2.5, "-estimate", 0]
@@ -125,7 +120,6 @@ def test_contact_fills_the_rings():
     assert not any("raise -patch" in text for text in within.summary["warnings"])
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("symmetry", ["half", "whole"])
 def test_rim_of_a_half_and_of_a_whole(symmetry):
     """A half and a whole on meshes of rings shall have the quarter's force, but for their meshes."""
@@ -136,7 +130,6 @@ def test_rim_of_a_half_and_of_a_whole(symmetry):
     assert 1.8 < more.points / quarter.points < (2.1 if symmetry == "half" else 4.2)
 
 
-@pytest.mark.long
 def test_grading():
     """Sizes that grow half as fast, the default, shall halve the error of the force: 1567.7 by an independent code."""
     coarse, usual = run(SCENE, "-grading", 20), run(SCENE)
@@ -161,7 +154,7 @@ def test_no_ridge_on_the_mirror():
     assert abs(onY - inner) < 0.005
 
 
-@pytest.mark.parametrize("scene", [SCENE, pytest.param("sphere-on-plane", marks=pytest.mark.long)])
+@pytest.mark.parametrize("scene", [SCENE, "sphere-on-plane"])
 def test_no_ridge_on_two_mirrors(scene):
     """P2 on a quarter, h = a/5: pressures on both planes shall be those beside them, within 1.5 % of the greatest."""
     flags = FINE if scene == SCENE else ["-force", FORCE]
@@ -247,7 +240,6 @@ def hertz(force, radius, modulus):
     return a, 1.5 * force / (np.pi * a**2)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("kappa", [1e3, 1e9])
 def test_two_balls_by_all_methods(kappa):
     """With a deformable master too the methods shall find one solution, under a force and under a displacement."""
@@ -277,7 +269,7 @@ def test_patch_in_space_nodal_fails():
 
 @pytest.mark.parametrize(
     "scene, flags, points",
-    short_of(
+    cases_of(
         [("patch-test-3d", [], "nodal"), ("two-spheres", ["-h", 0.3, "-layers", 1], "segment")],
         [("patch-test-3d", [], "segment"), ("two-spheres", ["-h", 0.3, "-layers", 1], "nodal")],
     ),
@@ -316,7 +308,7 @@ def test_loads_in_space():
 
 
 @pytest.mark.parametrize(
-    "scene, flags", short_of([("patch-test-3d", ["-u0", 2.0])], [("two-spheres", ["-h", 0.3, "-layers", 1])])
+    "scene, flags", cases_of([("patch-test-3d", ["-u0", 2.0])], [("two-spheres", ["-h", 0.3, "-layers", 1])])
 )
 def test_bodies_that_almost_touch(scene, flags):
     """However small the gap, the bodies shall not be joined: the same force, and the supports carry it."""

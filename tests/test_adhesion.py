@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, environment, flag_text, run, run_in, script, short_of, snippet, table, told
+from freefem import FREEFEM, ROOT, cases_of, environment, flag_text, run, run_in, script, snippet, table, told
 from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
 from postprocess import style
@@ -130,7 +130,7 @@ def test_change_of_units():
 
 @pytest.mark.parametrize(
     "mu, approach",
-    short_of([(0.05, 0.0), (0.3, -0.3), (1, -1.2), (1, 1.0), (3, -4)], [(1, -3.0), (2, 1.0), (5, 1.5)]),
+    cases_of([(0.05, 0.0), (0.3, -0.3), (1, -1.2), (1, 1.0), (3, -4)], [(1, -3.0), (2, 1.0), (5, 1.5)]),
 )
 def test_from_rest_in_one_step(mu, approach):
     """From no forces the step shall come to a stable state, in few linearisations of few back-substitutions."""
@@ -141,7 +141,6 @@ def test_from_rest_in_one_step(mu, approach):
     assert done.backsolves <= 12 * done.newton + 12
 
 
-@pytest.mark.long
 def test_rivals():
     """The paper's thresholds and line search shall find the same state; plain Newton shall fail by name."""
     ours = run(SPHERE, "-u0", 0.0005)
@@ -166,7 +165,6 @@ def test_table_that_falls(tmp_path):
     assert "falls, but not from 0" in refused.stdout
 
 
-@pytest.mark.long
 def test_in_space():
     """The sphere in space shall pull like the axisymmetric one, to 2 %."""
     space = run("adhesive-sphere-3d", "-u0", -0.00087, "-fine", 0.15)
@@ -186,15 +184,13 @@ def test_two_bodies():
 # ---------------------------------------------------------------- paths
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("mu", short_of([0.05, 2], [0.3, 1]))
+@pytest.mark.parametrize("mu", cases_of([0.05, 2], [0.3, 1]))
 def test_pull_off(mu):
     """The least force on the whole path shall be that of the half-space to 0.5 %, with five increments each way."""
     done, _, unit = follow(mu)
     assert done.pullOff / unit == pytest.approx(PULL_OFF[mu], rel=0.005)
 
 
-@pytest.mark.long
 def test_bradley():
     """For a stiff sphere the pull-off force shall be 2 pi w R."""
     given, unit = flags(0.01, (-1, 0.5, -1))
@@ -210,7 +206,7 @@ def test_no_jump_below_tabors_limit():
     assert abs(done.loopWork) < 0.05 * unit * GAP
 
 
-@pytest.mark.parametrize("per_length", [0.2, pytest.param(0.1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("per_length", [0.2, 0.1])
 def test_two_jumps(per_length):
     """At Tabor's number 2 there shall be two jumps on fine enough meshes, where and of the energy that theory has."""
     done, rows, unit = follow(2, per_length=per_length)
@@ -226,7 +222,6 @@ def test_two_jumps(per_length):
     assert (smooth["dissipated"] == 0).all()
 
 
-@pytest.mark.long
 def test_fold():
     """A jump shall begin where the branch ends: at a fold, from which no energy is put in, at one approach."""
     done, rows, unit = follow(1, per_length=0.1, order=2)
@@ -240,7 +235,6 @@ def test_fold():
     np.testing.assert_array_equal(rows["stability"][after - 1], 0)
 
 
-@pytest.mark.long
 def test_dissipation_whatever_the_steps():
     """What a loop dissipates shall not depend on its increments, and be the work done along it."""
     runs = [run(SPHERE, "-path", "-0.0031 0.0011 -0.0031", "-steps", steps) for steps in (5, 20)]
@@ -278,7 +272,6 @@ def test_start_on_the_model():
     assert 2 * run(SPHERE).newton < run(SPHERE, "-start", "none").newton
 
 
-@pytest.mark.long
 def test_error_of_a_path():
     """What the mesh has a path's numbers off by shall be in their errors, which are no more than some times it."""
     ends = "-path", "-0.0031 0.0011 -0.0031"
@@ -310,7 +303,6 @@ def test_accuracy_of_a_law_that_falls(tmp_path):
     assert abs(done.halfWidth - 0.1527) <= done.estimates["halfWidth"]["error"] + 1e-4
 
 
-@pytest.mark.long
 def test_path_of_forces(tmp_path):
     """Prescribed forces shall be met, on the approaches' own curve, and refused by name beyond the least one."""
     given = ["-control", "force", "-steps", 2]
@@ -338,7 +330,6 @@ def test_profiles():
     np.testing.assert_allclose(profiles["pressure"], expected, atol=1e-4 * work / GAP)
 
 
-@pytest.mark.long
 def test_unstable_branch():
     """The whole curve shall turn back twice, unstable in between, and hold the stable branches of the path."""
     given, unit = flags(2, (-3.9, 1.7))
@@ -362,7 +353,6 @@ def test_monotone_path():
     assert rows["force"][2] == pytest.approx(run("disc-on-block", "-h", 0.5).force, rel=1e-5)
 
 
-@pytest.mark.long
 def test_path_goes_on(tmp_path):
     """A path that was interrupted shall go on after its last state, to the same end."""
     given, _ = flags(1, whole_path(1))
@@ -384,7 +374,6 @@ def test_path_goes_on(tmp_path):
     assert done.newton < whole.newton
 
 
-@pytest.mark.long
 def test_waves_snap_in_one_after_the_other():
     """The waves' contacts shall snap in at approaches of their own, and every jump dissipate."""
     done = run("adhesive-wavy", "-path", "-0.006 0 -0.008")

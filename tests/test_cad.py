@@ -6,7 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, part, short_of
+from freefem import FREEFEM, ROOT, cases_of, execute, part
 from test_parts import Mesh, cube
 from test_zoo import gmsh, measure, readable
 
@@ -70,7 +70,6 @@ def bolt_case(placed):
     return f"{GROUPS}group foot {foot}\ngroup top {top}\n{SIZES}{BODIES}{JOINS}{loads}"
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("placed", PLACES)
 def test_bolt(placed, tmp_path):
     """The joint diagram of a bolt whose STEP file has neither a cut nor a shared face; nu is 0, the head is rigid."""
@@ -108,7 +107,7 @@ line up 0.4 0 0.4 9
 """
 
 
-@pytest.mark.parametrize("file", short_of(["part.step"], ["part.step", "part.brep", "part.geo"]))
+@pytest.mark.parametrize("file", cases_of(["part.step"], ["part.step", "part.brep", "part.geo"]))
 def test_bolt_in_the_plane(file, tmp_path):
     """The same in the plane, out of each kind of geometry."""
     mesh = gmsh(tmp_path, file, FLAT, "-0") if file != "part.geo" else tmp_path / file
@@ -216,9 +215,7 @@ move high 0 -0.05
 """
 
 
-@pytest.mark.parametrize(
-    "order, slave", [(1, "head plate"), (2, "head plate"), pytest.param(2, "plate head", marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("order, slave", [(1, "head plate"), (2, "head plate"), (2, "plate head")])
 def test_head_over_a_hole(order, slave, tmp_path):
     """The slave reaches over the master's rims: it carries nothing there, and beside them what a fine section does."""
     ring = part(tmp_path / "plane", HEAD_IN_PLANE, HEAD_SECTION, "-estimate", 0)
@@ -246,7 +243,7 @@ RIMS = [(8, 2, 0.13, False), (8, 2, 0.16, True)]
 FINER = [(12, 1, 0.35, False), (18, 2, 0.05, False), (12, 2, 0.16, True)]
 
 
-@pytest.mark.parametrize("cells, order, most, compliant", short_of(RIMS, RIMS + FINER))
+@pytest.mark.parametrize("cells, order, most, compliant", cases_of(RIMS, RIMS + FINER))
 def test_error_at_a_rim(tmp_path, cells, order, most, compliant):
     """A punch on a larger block, which is the slave: rims cut its triangles. Finer meshes have a limit."""
     mesh = cube(Mesh(), (4, 4, 2), (cells, cells, cells // 2))
@@ -287,7 +284,7 @@ def removed(out):
     subprocess.run(["rm", "-r", out], check=True)
 
 
-@pytest.mark.parametrize("placed", short_of(["turned"], PLACES))
+@pytest.mark.parametrize("placed", cases_of(["turned"], PLACES))
 def test_two_cuts(placed, tmp_path):
     """Two through one body, one aslant: each is all of the section, in its plane, and faces keep their numbers."""
     mesh = gmsh(tmp_path, "part.step", moved(BOLT, placed), "-0")
@@ -306,7 +303,6 @@ def test_two_cuts(placed, tmp_path):
     assert sum(volumes) == pytest.approx(20 + 6 + 30) and areas["side"] == pytest.approx(20)
 
 
-@pytest.mark.long
 def test_names_of_the_file(tmp_path):
     """A .geo file's own names stay where its bodies are cut, and so do faces that two of its bodies share."""
     names = 'Physical Volume("shank") = {1}; Physical Volume("sleeve") = {3, 4}; Physical Volume("head") = {2};\n'
@@ -362,9 +358,7 @@ obstacle side plane -1 0 0 1 0 0
 """
 
 
-@pytest.mark.parametrize(
-    "how, pull", [("part", 3), *(pytest.param(*x, marks=pytest.mark.long) for x in (("tie", 3), ("contact", -3)))]
-)
+@pytest.mark.parametrize("how, pull", [("part", 3), *(x for x in (("tie", 3), ("contact", -3)))])
 def test_joined(how, pull, tmp_path):
     """Two bars on each other: their mean displacements under a pull, or where they may part under a push."""
     mesh = gmsh(tmp_path, "part.step", STACK, "-0")
@@ -377,7 +371,6 @@ def test_joined(how, pull, tmp_path):
     assert not [each for each in found["warnings"] if "bodies touch" in each]
 
 
-@pytest.mark.long
 def test_nothing_said(tmp_path):
     """Bodies that touch without a statement are named, with the statement to write; bodies at a distance are not."""
     case = STACKED + "traction side 0 0 1\nobstacle top plane 0 0 6 0 0 -1\n"
@@ -405,7 +398,7 @@ NEIGHBOURS = {  # boxes on the first one's top, and whether they touch it
 }
 
 
-@pytest.mark.parametrize("box", short_of(list(NEIGHBOURS)[1:4], NEIGHBOURS))
+@pytest.mark.parametrize("box", cases_of(list(NEIGHBOURS)[1:4], NEIGHBOURS))
 def test_who_touches(box, tmp_path):
     """A small face on a large one, a corner of both, an edge alone, a gap."""
     mesh = gmsh(tmp_path, "part.step", OCC + f"Box(1) = {{0, 0, 0, 1, 1, 3}}; Box(2) = {{{box}}};\n", "-0")
@@ -445,7 +438,7 @@ Cone(5) = {10, 0, 0, 0, 3, 0, 2, 1}; Sphere(6) = {0, 10, 0, 1.5}; Torus(7) = {0,
 )
 
 
-@pytest.mark.parametrize("placed", short_of(["turned"], PLACES))
+@pytest.mark.parametrize("placed", cases_of(["turned"], PLACES))
 def test_kinds(placed, tmp_path):
     """Kind, place, direction, radius and area of each face against its drawing, as it lies and moved."""
     found = rows(table(tmp_path, gmsh(tmp_path, "part.step", moved(SHAPES, placed), "-0")))
@@ -518,7 +511,6 @@ def test_flush(tmp_path):
     assert "; on" in of["cylinder of 4"][5] and "; on" not in of["cylinder of 5"][5]
 
 
-@pytest.mark.long
 def test_part_of_two_materials(tmp_path):
     """Strains jump between bodies that share nodes, recovery keeps the jump: P2 is exact here, and ± says so."""
     mesh = gmsh(tmp_path, "part.step", STACK, "-0")
@@ -540,7 +532,6 @@ Box(3) = {-3, -3, 2, 6, 6, 2}; BooleanDifference{ Volume{3}; Delete; }{ Volume{1
 )
 
 
-@pytest.mark.long
 def test_pin_in_two_plates(tmp_path):
     """A pin that fits touches both plates, one that is thinner neither; the picture shows what is inside."""
     pairs = {}
@@ -586,7 +577,7 @@ move lid 0 -0.01
 RIMS = "group under between disc low\ngroup over between disc high\n"
 
 
-@pytest.mark.parametrize("order", short_of(["{1} {0}"], ["{1} {0}", "{0} {1}"]))
+@pytest.mark.parametrize("order", cases_of(["{1} {0}"], ["{1} {0}", "{0} {1}"]))
 def test_one_surface_in_two_contacts(order, tmp_path):
     """`between disc low` and `between disc high` are one circle: as if one group stood in both, with their names."""
     mesh = gmsh(tmp_path, "part.step", DISC, "-0")
@@ -675,7 +666,7 @@ REFUSED = {  # lines in place of the join and the cut, and what is said
 }
 
 
-@pytest.mark.parametrize("lines", short_of(list(REFUSED)[::4], REFUSED))
+@pytest.mark.parametrize("lines", cases_of(list(REFUSED)[::4], REFUSED))
 def test_refused(lines, tmp_path_factory):
     folder = tmp_path_factory.mktemp("refused")
     mesh = gmsh(folder, "part.step", STACK, "-0")

@@ -11,7 +11,7 @@ import campaign
 import ccx
 import numpy as np
 import pytest
-from freefem import short_of
+from freefem import cases_of
 from page_numbers import last_digit, number
 from test_readme import RESULTS, rows
 
@@ -101,7 +101,7 @@ def test_statements_without_translation(tmp_path):
 # ---------------------------------------------------------------- the page
 
 
-@pytest.mark.parametrize("name", short_of(["shrink-fit", "taper", "bolted-sleeve"], PARTS))
+@pytest.mark.parametrize("name", cases_of(["shrink-fit", "taper", "bolted-sleeve"], PARTS))
 def test_numbers_of_the_page(tmp_path, name):
     """The package's numbers in the page's tables, each to its digits."""
     part = PARTS[name]
@@ -141,7 +141,7 @@ SIZES = {"shrink-fit": 12, "bolted-sleeve": 0.8, "taper": 2, "ball-in-groove": 0
 
 
 @needs_ccx
-@pytest.mark.parametrize("name", short_of(["shrink-fit", "bolted-sleeve"], PARTS))
+@pytest.mark.parametrize("name", cases_of(["shrink-fit", "bolted-sleeve"], PARTS))
 def test_beside_calculix(tmp_path, name):
     """On a coarse mesh: the force within ± and 1 %, stress and displacement within ± and 2 %."""
     part, path = meshed(tmp_path, name, SIZES[name])

@@ -17,7 +17,7 @@ import reference
 import stability
 import tables
 from campaign import value
-from freefem import short_of
+from freefem import cases_of
 from text_boxes import faults
 
 from postprocess import figures, style
@@ -45,7 +45,7 @@ WHOLE = peers_condensed.CONDENSED, "-order 5 -corners 5", 5e-6
 LONGER = (peers.BODIES, "-h 0.4", 2e-4), WHOLE
 
 
-@pytest.mark.parametrize("script, flags, off", short_of([PLANE, HALF], LONGER))
+@pytest.mark.parametrize("script, flags, off", cases_of([PLANE, HALF], LONGER))
 def test_peer(tmp_path, script, flags, off):
     """The other code shall give the references' forces; where it is not installed, say in a line how to get it."""
     python = peers.PYTHON if peers.PYTHON.exists() else sys.executable
@@ -124,7 +124,6 @@ def conditions():
             yield row | ({"status": "not converged", "newton": ""} if failed else {"status": "converged"})
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("name", FIGURES)
 def test_figures(campaigns, tmp_path, name):
     """Each figure of a campaign shall be written as PDF and PNG, failed runs included."""
@@ -155,8 +154,7 @@ def test_tables_that_are_refused(tmp_path, text, why):
 # ---------------------------------------------------------------- the real runs
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("part", ["a third", pytest.param("whole", marks=pytest.mark.long)])
+@pytest.mark.parametrize("part", ["a third", "whole"])
 def test_the_quick_campaign(part, tmp_path):
     """The default method shall solve every case; on the paper's geometry in at most 4 linearisations."""
     cases = stability.quick()[:: 3 if part == "a third" else 1]
@@ -182,7 +180,6 @@ COUNTS = {  # models / steps of kappa = 1e3, m = 3 and of 1e9, 20, at h = 1
 }
 
 
-@pytest.mark.long
 def test_a_few_models(tmp_path):
     """Walls, tangents, plain Newton, xnewton: solved in these counts, to one force, no bound below the error."""
     rows = models.run(tmp_path / "few.csv", models.few(), jobs=2)
@@ -193,7 +190,6 @@ def test_a_few_models(tmp_path):
     assert len(ratios) >= 4 and max(ratios) < 2
 
 
-@pytest.mark.long
 def test_models_of_one_load(tmp_path):
     """A sixth of the runs of `make models`, 25 laws: none fails, and no count is above that of the page."""
     chosen = [item for item in models.cases() if (item.parameters["u0"], item.parameters["h"]) == ("2.5", "1")]

@@ -80,7 +80,6 @@ def test_drawing_commands():
 
 
 @pytest.mark.parametrize("name", [name for name in HOWTO if name != NEEDS_FIGURES])
-@pytest.mark.long
 def test_page(name, tmp_path):
     """The commands of a how-to page shall run, one after the other, on coarse meshes."""
     commands = "".join(fences(HOWTO[name].read_text(), "sh"))
@@ -95,7 +94,6 @@ def test_page(name, tmp_path):
     assert code == 0, stdout[-3000:]
 
 
-@pytest.mark.long
 def test_what_is_begun(tmp_path):
     """The commands on the page of a folder that `make new` begins shall run there."""
     folder = tmp_path / "mine"

@@ -5,7 +5,7 @@ from math import atan, exp, pi, radians, sqrt, tan
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part, short_of
+from freefem import ROOT, cases_of, data, part
 from test_friction import case, series
 from test_parts import Mesh, block
 
@@ -120,7 +120,7 @@ BACK = {  # first phase, second phase, values, displacement by value, reaction b
 }
 
 
-@pytest.mark.parametrize("load", short_of([*BACK][:3], [*BACK]))
+@pytest.mark.parametrize("load", cases_of([*BACK][:3], [*BACK]))
 def test_a_load_that_reverses(tmp_path, load):
     """A beam of 4 by 1, E 1000: value, displacement and reaction change their sign together; the area is the energy."""
     first, second, values, way, reaction = BACK[load]
@@ -201,7 +201,6 @@ move tight 0 -0.6
 """
 
 
-@pytest.mark.long
 def test_belt_as_a_curve(tmp_path):
     """Where all of it slips, the tensions' ratio in each row is e^(mu theta), of a belt of this thickness: see
     test_friction_bodies.py; what the pull does beyond what it lifts goes into friction."""
@@ -240,7 +239,6 @@ def clips(tmp_path_factory):
     return found
 
 
-@pytest.mark.long
 def test_clip_in_and_out(clips, capsys):
     """Friction turns the contact force by its angle, against the motion; the loop is what friction dissipates."""
     for mu, run in clips.items():
@@ -332,7 +330,6 @@ def off(found, fine, name, error):
     return abs(found[name] - fine[name]) / found[error]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("later", LATER)
 @pytest.mark.parametrize("order", [1, 2])
 def test_errors_of_a_preload(tmp_path, later, order):
@@ -363,7 +360,6 @@ stresses
 """
 
 
-@pytest.mark.long
 def test_errors_of_two_preloads(tmp_path):
     """Each shortening depends on both tensions. The stress has the errors of the shortenings, too."""
     coarse = case(tmp_path / "coarse", TWO_BOLTS, TWO_BOLTED, "-estimate", 1)
@@ -408,7 +404,6 @@ def test_errors_of_a_round_bolt(tmp_path):
     assert 0 < found["shortenedError"] < 2e-3 * exact and 0 < found["error"] < 0.05
 
 
-@pytest.mark.long
 def test_an_interrupted_path_with_a_bolt(tmp_path):
     """It goes on with the shortenings that it has found, and says that its errors are not known."""
     text = f"{JOINT}leg 2\ntraction top 0 1\nleg 2\ntraction top 0 3\n"
@@ -420,7 +415,6 @@ def test_an_interrupted_path_with_a_bolt(tmp_path):
     assert series(again)["preload cut force"] == pytest.approx(series(whole)["preload cut force"], rel=1e-9)
 
 
-@pytest.mark.long
 def test_bolt_in_space_with_friction(tmp_path):
     """The joint diagram in space: tension and clamping force of each row."""
     text = JOINT.replace("state stress\n", "").replace("symmetry axis\n", "symmetry axis\nsymmetry side\n")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import ROOT, named, run, run_in, script, short_of
+from freefem import ROOT, cases_of, named, run, run_in, script
 from test_energy import derivative
 from test_two_bodies import confined
 
@@ -14,7 +14,7 @@ PATCHES = [("patch-test", ["-order", 3, "-lower", 2, "-upper", 3]), ("patch-test
 PATCHES += [("patch-test-3d", ["-order", k, "-lower", 2, "-upper", n]) for k, n in ((1, 5), (2, 3), (3, 3))]
 
 
-@pytest.mark.parametrize("scene, flags", short_of(PATCHES, [("patch-test-3d", ["-order", 2])]))
+@pytest.mark.parametrize("scene, flags", cases_of(PATCHES, [("patch-test-3d", ["-order", 2])]))
 def test_patch(scene, flags):
     """Between meshes that do not match the pressure shall be uniform to 1e-10, and exact, the weights the areas."""
     done = run(scene, *flags, "-tol", 1e-12)
@@ -59,7 +59,7 @@ def test_smooth_pressures(order):
     assert np.abs(p / np.sqrt(smooth) - 1).max() < (6e-3 if order == 3 else 1e-3)
 
 
-@pytest.mark.parametrize("method, steps", short_of([("paper", 12)], [("newton", 8), ("linesearch", 8)]))
+@pytest.mark.parametrize("method, steps", cases_of([("paper", 12)], [("newton", 8), ("linesearch", 8)]))
 def test_methods_between_nodes(method, steps):
     """P3's points are no nodes: methods on the whole system shall find what the condensed one does."""
     done = run("disc-on-block", "-order", 3, "-method", method)
@@ -87,7 +87,7 @@ WHERE = [([], LAWS), (ABOUT, LAWS[::3]), (BESIDE, LAWS[1::3])]
 EVERY = [(order, law, more) for order in (2, 3, 4) for more, laws in WHERE for law in laws]
 
 
-@pytest.mark.parametrize("order, law, more", short_of(COUNTED, EVERY), ids=named)
+@pytest.mark.parametrize("order, law, more", cases_of(COUNTED, EVERY), ids=named)
 def test_counts(order, law, more):
     """At most 4 linearisations and 20 back-substitutions, whatever the law."""
     done = run("disc-on-block", *law, *more, "-order", order, "-h", 0.25 * order, "-tol", 1e-8)
@@ -108,7 +108,7 @@ MORE = [
 ]
 
 
-@pytest.mark.parametrize("scene, u0, flags", short_of(WORKING, MORE))
+@pytest.mark.parametrize("scene, u0, flags", cases_of(WORKING, MORE))
 def test_work_is_force(scene, u0, flags):
     """dE/du0 shall be the force to 1e-5."""
     slope, force = derivative(scene, u0, flags)
@@ -122,7 +122,7 @@ P2_SPHERE = ("sphere-on-block", ["-h", 2, "-patch", 4, "-layers", 1, "-order", 2
 
 @pytest.mark.parametrize(
     "scene, flags, method",
-    short_of([(*P4_DISC, "newton")], [(*P4_DISC, "paper"), (*P2_SPHERE, "newton"), (*P2_SPHERE, "paper")]),
+    cases_of([(*P4_DISC, "newton")], [(*P4_DISC, "paper"), (*P2_SPHERE, "newton"), (*P2_SPHERE, "paper")]),
 )
 def test_methods_agree(scene, flags, method):
     """The paper's scheme and Newton's method shall find xnewton's solution."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import run, short_of, table
+from freefem import cases_of, run, table
 
 STEP = 5e-4  # of the approach: the difference's own error is of its square, its rounding far below
 HARD = ["-law", "signorini"]
@@ -48,7 +48,7 @@ def derivative(scene, u0, flags):
 
 
 @pytest.mark.parametrize(
-    "scene, u0, flags", short_of(SCENES, MORE), ids=lambda value: str(value) if isinstance(value, str) else None
+    "scene, u0, flags", cases_of(SCENES, MORE), ids=lambda value: str(value) if isinstance(value, str) else None
 )
 def test_work_is_force_in_every_scene(scene, u0, flags):
     """dE/du0 shall be the force to 1e-5."""

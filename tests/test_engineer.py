@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part, run_in, short_of
+from freefem import ROOT, cases_of, data, part, run_in
 from PIL import Image
 from test_parts import read
 
@@ -80,7 +80,7 @@ def line_of(folder, name):
 # ---------------------------------------------------------------- heat, interference
 
 
-@pytest.mark.parametrize("state", short_of(["axisymmetric"], ["stress", "strain"]))
+@pytest.mark.parametrize("state", cases_of(["axisymmetric"], ["stress", "strain"]))
 def test_shrink_fit(state, tmp_path):
     """A ring that has cooled shall press as Lame's says: plane strain grows by 1 + nu more."""
     ring = state == "axisymmetric"
@@ -148,7 +148,6 @@ def test_axis_without_initial_strains(tmp_path):
     assert "-axis: not with expand, preload or conduct" in told.stdout
 
 
-@pytest.mark.long
 def test_heat_in_space(tmp_path):
     """A bar that heat presses against a wall: E (alpha dT - gap/length), nothing across."""
     case = "body bar E 1000 nu 0.3\nobstacle top plane 0 0 4.002 0 0 -1\nsymmetry x\nsymmetry y\nsymmetry z\n"
@@ -249,7 +248,6 @@ ROUND = ROUND.replace(
 )
 
 
-@pytest.mark.long
 def test_tension_of_a_heated_shank_in_space(tmp_path):
     """Of elements that follow its round side, in front of the cut: the same balance; this mesh is 0.2 % thinner."""
     case = JOINT.replace("state stress\n", "").replace("nu 0\n", "nu 0.3\n").replace("axis\n", "axis\nsymmetry side\n")
@@ -259,7 +257,6 @@ def test_tension_of_a_heated_shank_in_space(tmp_path):
     assert found["contacts"][0]["normalForce"] - found["preloads"][0]["force"] == pytest.approx(5 * np.pi / 4, rel=4e-3)
 
 
-@pytest.mark.long
 def test_bolt_in_space(tmp_path):
     """The same joint in space."""
     case = JOINT.replace("state stress\n", "").replace("symmetry axis\n", "symmetry axis\nsymmetry side\n")
@@ -285,7 +282,6 @@ def fit(r, p, inner=100.0):
     return np.array(found).T
 
 
-@pytest.mark.long
 def test_stresses_of_lame(tmp_path):
     """Along a line and at the greatest, errors shall hold and not be ten times the stress's; fields shall be there."""
     case = f"{BODIES}contact bore seat interference 0.02\npressure inner 100\nline radius 7.2 7.2 21 21\n"
@@ -318,8 +314,7 @@ def test_stresses_of_lame(tmp_path):
         assert picture.width / picture.height == pytest.approx(16 / 9, abs=0.01)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("bore", short_of([False], [True]), ids=["pair", "rigid bore"])
+@pytest.mark.parametrize("bore", cases_of([False], [True]), ids=["pair", "rigid bore"])
 def test_displacements_where_curves_end(tmp_path, bore):
     """A spline is off most beside its ends, here on symmetry planes: what lines say there, against Lame's."""
     held = "body hub E 200000 nu 0.3\nsymmetry below\nsymmetry left\nobstacle seat circle 0 0 R 20 inside\n"
@@ -347,7 +342,6 @@ BEAM = data("engineer/beam.geo")
 PUSHED = data("engineer/pushed.case")
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("order", [2, 4])
 def test_stresses_of_a_cantilever(order, tmp_path):
     """Bending and shear across its middle, bending along its top; at the clamp's corners nothing is claimed."""
@@ -372,7 +366,6 @@ def test_stresses_of_a_cantilever(order, tmp_path):
 BELOW = data("engineer/below.geo")
 
 
-@pytest.mark.long
 def test_stresses_below_a_contact(tmp_path):
     """Hertz's line contact, down its axis: von Mises' stress, its greatest and the depth of that."""
     case = "body block E 1000 nu 0.3\nobstacle face circle 0 10 R 10 force 0 -1\nclamp base\nline axis 0 0 0 -0.4\n"
@@ -424,7 +417,6 @@ def test_help_in_two_parts():
     assert "-preconditioner" in whole and "-method" in whole
 
 
-@pytest.mark.long
 def test_sweep(tmp_path, monkeypatch, capsys):
     """Runs side by side, goes on with what is missing, and refuses what belongs to another sweep."""
     (tmp_path / "part.geo").write_text(RING.replace("SIZE", "6"))
@@ -467,7 +459,6 @@ SPOILS = {
 
 
 @pytest.mark.parametrize("name", SPOILS)
-@pytest.mark.long
 def test_spoilt_results(name, tmp_path, monkeypatch, capsys):
     """Commands shall say in one line that a folder's files are spoilt: no traceback, no escape code, no waiting."""
     case = f"{BODIES}contact bore seat interference 0.02\nstresses\n"
@@ -521,9 +512,7 @@ Mesh.MeshSizeMax = SIZE; Mesh.MeshSizeMin = SIZE;
 TWISTED = data("engineer/twisted.case")
 
 
-@pytest.mark.parametrize(
-    "friction, angle", [pytest.param(0.9, 0.005, marks=pytest.mark.long), (0.05, 0.02)], ids=["sticks", "slips"]
-)
+@pytest.mark.parametrize("friction, angle", [(0.9, 0.005), (0.05, 0.02)], ids=["sticks", "slips"])
 def test_moment_of_a_rotation(tmp_path, friction, angle):
     """What turns a ring on a shaft: by both rings' shear where all sticks, else by friction's share of what presses."""
     solve(tmp_path, RINGS, TWISTED.format(friction, angle), "-vtu", 0, size=1.2)
@@ -547,7 +536,7 @@ Physical Curve("flat") = {{3}};"""
 
 @pytest.mark.parametrize(
     "friction, other",
-    short_of([("", "base"), (" friction 0.3", "obstacle")], [("", "obstacle"), (" friction 0.3", "base")]),
+    cases_of([("", "base"), (" friction 0.3", "obstacle")], [("", "obstacle"), (" friction 0.3", "base")]),
 )
 def test_what_several_motions_need(tmp_path, friction, other):
     """What two motions need is what passes through the contact between: the same number, and the same error."""
@@ -575,7 +564,7 @@ FLAT = data("engineer/flat.geo")
 
 
 @pytest.mark.parametrize(
-    "pull, length, least, most", short_of([(0, 10, 1e-14, 1e-8), (3.1, 9.96, 0.1, 0.5)], [(3.05, 10, 0.1, 0.5)])
+    "pull, length, least, most", cases_of([(0, 10, 1e-14, 1e-8), (3.1, 9.96, 0.1, 0.5)], [(3.05, 10, 0.1, 0.5)])
 )
 def test_length_of_a_flat_face(tmp_path, pull, length, least, most):
     """A face that presses all over is known to rounding, not where a corner is about to lift, or just has."""
@@ -585,7 +574,6 @@ def test_length_of_a_flat_face(tmp_path, pull, length, least, most):
     assert abs(found["value"] - length) <= found["error"] and least < found["error"] < most
 
 
-@pytest.mark.long
 def test_sweep_of_changed_files(tmp_path, monkeypatch, capsys):
     """A run is done anew when a law's table or a file that the geometry includes has changed, and kept otherwise."""
     (tmp_path / "part.geo").write_text('Include "shapes/ring.geo";\n')

@@ -6,7 +6,7 @@ from itertools import count
 import numpy as np
 import pytest
 import reference
-from freefem import ROOT, data, run_in, script, short_of, snippet, told
+from freefem import ROOT, cases_of, data, run_in, script, snippet, told
 from test_examples import example
 
 from postprocess import closed_forms as forms
@@ -33,16 +33,11 @@ def true_errors(run, kappa, m):
 
 
 LAWS = (1e3, 3), (1e9, 3), (1e3, 10), HARD
-SHORT = {(2, LAWS[0]), (2, LAWS[1]), (2, HARD), (1, LAWS[0]), (1, HARD), (4, LAWS[1])}
 
 
 @pytest.mark.parametrize(
     "law, order, h",
-    [
-        pytest.param(law, order, h, marks=[] if (order, law) in SHORT and h >= 0.25 * order else [pytest.mark.long])
-        for law in LAWS
-        for order, h in ((1, 0.25), (2, 0.5), (4, 1), (4, 0.5))
-    ],
+    [(law, order, h) for law in LAWS for order, h in ((1, 0.25), (2, 0.5), (4, 1), (4, 0.5))],
 )
 def test_estimates_hold(solved, order, h, law):
     """The error that is said shall be at least the true one, and not too much more."""
@@ -56,7 +51,7 @@ def test_estimates_hold(solved, order, h, law):
     assert sum(run.estimates["parts"].values()) == pytest.approx(run.estimates["force"]["error"])
 
 
-@pytest.mark.parametrize("order, h", short_of([(1, 1), (2, 2)], [(3, 2.5), (2, 1.4)]))
+@pytest.mark.parametrize("order, h", cases_of([(1, 1), (2, 2)], [(3, 2.5), (2, 1.4)]))
 def test_in_space(solved, order, h):
     """In space too: the sphere on the block."""
     run = solved("sphere-on-block", "-order", order, "-h", h)
@@ -105,7 +100,6 @@ def test_prescribed_force(solved):
     assert off <= coarse.estimates["approach"]["error"] <= 20 * off
 
 
-@pytest.mark.long
 def test_prescribed_force_on_a_soft_law(solved):
     """What is off at the contact moves the greatest pressure under a given force too; what is off far away does not."""
     law = ("-force", 19.42, "-d0", -0.001763, "-m", 1.149, "-kappa", 63.62, "-nu", 0.2139)
@@ -180,7 +174,6 @@ def test_limit_in_space(solved):
     assert "unknowns" in run.accuracy["why"] and run.ndof < 6000 and run.accuracy["reached"] < 0.03
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("scene", ["sphere-on-block", "sphere-on-plane", "two-spheres"])
 def test_space_is_deterministic(solved, scene):
     """Two runs in space shall make the same meshes."""
@@ -215,7 +208,6 @@ def crossed_cylinders(folder, *flags, size=0.3, expect=0):
     return run_in(ROOT, "edp/parts-3d.edp", *parts, *flags, out=folder / "run", expect=expect)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("size, asked", [(0.3, 1e-2), (0.16, 1e-2), (0.16, 3e-3)])
 def test_accuracy_of_parts_in_space(tmp_path, size, asked):
     """A user's own .geo file shall be meshed again until the way that the force goes is as near as asked."""
@@ -234,7 +226,6 @@ def test_accuracy_needs_a_geometry(tmp_path):
     assert "-accuracy 0.01: new meshes need the geometry" in run.stdout and not (tmp_path / "run").exists()
 
 
-@pytest.mark.long
 def test_accuracy_on_curves(solved):
     """New meshes of two cylinders shall stay on the circles."""
     run = solved("two-cylinders", "-h", 1, "-accuracy", 1e-3)
@@ -283,7 +274,6 @@ def parts_of(case):
     return contact, way
 
 
-@pytest.mark.long
 def test_own_parts(tmp_path):
     """A floating pin: its force is told by the balance; pressure, length, the way of its load are known by an error."""
     case = example("pin-in-hole", tmp_path, "", "-estimate", 1, size=1.5)
@@ -296,7 +286,6 @@ def check_pin(case):
     assert re.search(r"weight core moves +\S+ ± ", case.stdout)
 
 
-@pytest.mark.long
 def test_accuracy_of_own_parts(tmp_path):
     """New meshes of a user's parts shall keep their curves, and their errors what was asked for."""
     asked = "-estimate", 1, "-accuracy", 2e-2, "-goal", "pressure"

@@ -52,7 +52,6 @@ def test_case_file_on_the_page(name):
     assert shown == (FOLDER / name / f"{name}.case").read_text()
 
 
-@pytest.mark.long
 def test_page_of_the_case_file(tmp_path):
     """The commands of the page run as they stand, and the case file on it is the example's."""
     text = (ROOT / "edp/case/README.md").read_text()
@@ -95,7 +94,7 @@ def balanced(case):
 # ---------------------------------------------------------------- on coarser meshes
 
 
-@pytest.mark.parametrize("force, size", [pytest.param(400, 0.4, marks=pytest.mark.long), (4000, 1.2)])
+@pytest.mark.parametrize("force, size", [(400, 0.4), (4000, 1.2)])
 def test_pin_in_hole(tmp_path, force, size):
     """The pin's contact angle and greatest pressure shall be Persson's, its rotation fixed, its load its supports'."""
     case = example("pin-in-hole", tmp_path, f"0 -1000 |0 -{force} ", size=size)
@@ -149,7 +148,6 @@ def test_roller_true_distance(tmp_path):
     assert case.summary["outOfBalance"] < 1e-9
 
 
-@pytest.mark.long
 def test_press_fit(tmp_path):
     """The mean pressure between two rings that nothing else holds shall be Lame's, and be the same all round."""
     case = example("press-fit", tmp_path, "", "-estimate", "1", edges=92)
@@ -166,7 +164,6 @@ def test_press_fit(tmp_path):
     balanced(case)
 
 
-@pytest.mark.long
 def test_crossed_cylinders(tmp_path):
     """Semi-axes and greatest pressure of crossed cylinders shall be those of Hertz's ellipse."""
     case = example("crossed-cylinders", tmp_path, size=0.27, extent=5)
@@ -177,7 +174,6 @@ def test_crossed_cylinders(tmp_path):
     balanced(case)
 
 
-@pytest.mark.long
 def test_ball_on_bracket(tmp_path):
     """A ball that only contact holds shall press like Hertz's; what no gap feels is said."""
     case = example("ball-on-bracket", tmp_path, size=0.45, round=3, finer=0.9, coarse=10)
@@ -195,7 +191,6 @@ def check_ball(case, allowed):
     assert case.first["pressureMax"] == pytest.approx(greatest, rel=allowed)
 
 
-@pytest.mark.long
 def test_gear_pair(tmp_path):
     """A tooth's pressure shall be Hertz's of the involutes' radii, its force along the line of action."""
     case = example("gear-pair", tmp_path, "contact 0.02|contact 0.06")
@@ -245,7 +240,6 @@ def joint(folder, case):
     return [bolt[3], sleeve[3], bolt[5], bolt[7]], [*exact[3], exact[5][0], exact[7][0]]
 
 
-@pytest.mark.long
 def test_shrink_fit(tmp_path):
     """A ring that cools shall press like Lame's, its stresses along a line within their errors."""
     case = example("shrink-fit", tmp_path, "", "-estimate", "1", edges=10)
@@ -258,10 +252,9 @@ def test_shrink_fit(tmp_path):
     balanced(case)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     "clearance, size, least, most",
-    [(0.3, 0.14, 0.01, 0.025), pytest.param(0.06, 0.3, 0.04, 0.06, marks=pytest.mark.long)],
+    [(0.3, 0.14, 0.01, 0.025), (0.06, 0.3, 0.04, 0.06)],
 )
 def test_hip_joint(clearance, size, least, most, tmp_path):
     """The farther the socket is from the ball, the nearer shall pressure and radius be to Hertz's."""
@@ -270,7 +263,6 @@ def test_hip_joint(clearance, size, least, most, tmp_path):
     assert least < found[0] / exact[0] - 1 < most and found[1] == pytest.approx(exact[1], rel=most)
 
 
-@pytest.mark.long
 def test_snap_hook(tmp_path):
     """A hook shall need the force of a beam whose end turns; the ± of linear gaps is not asked for."""
     case = example("snap-hook", tmp_path, "ramp 0.01|ramp 0.03", "-distance", "exact", size=0.5)
@@ -280,7 +272,6 @@ def test_snap_hook(tmp_path):
     balanced(case)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("friction", [0.1, 0.3])
 def test_snap_hook_with_friction(tmp_path, friction):
     """Friction bends the arm too: the beam's force on the way in, not that without friction times a factor."""
@@ -294,7 +285,6 @@ def test_snap_hook_with_friction(tmp_path, friction):
     assert case.first["stickShare"] == 0
 
 
-@pytest.mark.long
 def test_bolted_sleeve(tmp_path):
     """Bolt and sleeve shall share the load as the joint diagram has it, and part where it says."""
     case = example("bolted-sleeve", tmp_path, "", "-history", "1", "-steps", "8", size=1.2)
@@ -303,8 +293,7 @@ def test_bolted_sleeve(tmp_path):
     assert case.first["contactPoints"] == 0 and "nothing presses" in case.stdout
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("friction", [0.05, pytest.param(0.2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("friction", [0.05, 0.2])
 def test_taper(tmp_path, friction):
     """Driven in it slips all over; let go of it stays where friction is above its slope, and comes out where not."""
     text = (FOLDER / "taper" / "taper.case").read_text().replace("friction 0.2", f"friction {friction}")
@@ -343,7 +332,6 @@ def test_page(name):
     assert f"({name}/README.md)" in (FOLDER / "README.md").read_text()
 
 
-@pytest.mark.long
 def test_screen_of_the_manual():
     """The greatest pressure on the page shall be the pin's."""
     text = (ROOT / "edp/howto/accuracy.md").read_text()
@@ -355,7 +343,6 @@ def test_screen_of_the_manual():
 # ---------------------------------------------------------------- shapes never seen
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("name", shapes.NAMES)
 def test_shape(name, tmp_path):
     """A shape that the package has never seen shall run at first try, its forces in balance."""

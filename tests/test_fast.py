@@ -135,7 +135,6 @@ def test_same_in_space(tmp_path):
         assert squares == pytest.approx(away**2, rel=1e-12)
 
 
-@pytest.mark.long
 def test_same_numbers(package, tmp_path):
     """With the plugin, where there is a compiler, all shall have the same counts and, but for rounding, results."""
     plain = results(package, tmp_path / "plain")

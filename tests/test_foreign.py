@@ -74,14 +74,12 @@ def test_parts():
     ("name", "number", "truth", "most", "draw", "flags"),
     [
         # a rim of seven sides, one element from the contact: Lame
-        pytest.param("twisted fit 4", "pressureMax", 3.1222, 0.2, Draw(), "", marks=pytest.mark.long),
-        pytest.param("twisted fit 2", "pressureMax", 28.318, 0.05, Draw(), "", marks=pytest.mark.long),
+        ("twisted fit 4", "pressureMax", 3.1222, 0.2, Draw(), ""),
+        ("twisted fit 2", "pressureMax", 28.318, 0.05, Draw(), ""),
         # at the true distance a slip turns round; a point that sticks would slip
         ("rubbed head 2", "force", 278.844, 1e-3, Draw(), ""),
-        pytest.param("rubbed head 2", "force", 278.844, 1e-2, Draw(0.82, 2), "", marks=pytest.mark.long),
-        pytest.param(
-            "rubbed head 4", "pressureMax", 280.74, 0.2, Draw(0.81), "-order 4", marks=pytest.mark.long
-        ),  # on three nodes of the master
+        ("rubbed head 2", "force", 278.844, 1e-2, Draw(0.82, 2), ""),
+        ("rubbed head 4", "pressureMax", 280.74, 0.2, Draw(0.81), "-order 4"),  # on three nodes of the master
         # normals turn: the balance does not tell all of the force
         ("head 2", "normalForce", 633.8704, 1e-3, Draw(), "-distance exact"),
     ],
@@ -106,7 +104,6 @@ def test_table():
     assert line == "| all | 3 | 33.3 % | 66.7 % | 1 | 100.0 % | 0.5 | 3.3 |"
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     [

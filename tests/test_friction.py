@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, data, execute, flag_text, part, run, run_in, short_of, snippet, table, told
+from freefem import FREEFEM, ROOT, cases_of, data, execute, flag_text, part, run, run_in, snippet, table, told
 from shapes import moved, polygon
 from test_parts import UNTURNED, Mesh, block, turn
 
@@ -110,7 +110,6 @@ MeshSize{PointsOf{Volume{1};}} = 2; MeshSize{PointsOf{Volume{2};}} = 1.5;
 PRESSED_LOOSE = data("friction/pressed-loose.case")
 
 
-@pytest.mark.long
 def test_way_of_a_load_that_friction_holds(tmp_path):
     """The error of a load's way on a body that friction alone holds sideways: elements 0.4 as large have 6.48e-4."""
     done = case(tmp_path, LOOSE, PRESSED_LOOSE, "-order", 2, "-estimate", 1, space=True)
@@ -124,7 +123,7 @@ def test_way_of_a_load_that_friction_holds(tmp_path):
 
 @pytest.mark.parametrize(
     ("law", "friction"),
-    short_of([("hard", 0.3)], [("1e12", 0.6), ("1", 1.5)]),
+    cases_of([("hard", 0.3)], [("1e12", 0.6), ("1", 1.5)]),
 )
 def test_counts_of_a_path(tmp_path, law, friction):
     given = {} if law == "hard" else {"law": "power", "kappa": law, "m": 3, "d0": -1e-9}
@@ -169,7 +168,7 @@ def test_cattaneo_and_mindlin(tmp_path):
 
 @pytest.mark.parametrize(
     ("friction", "inner"),
-    [(0.4, 0.3535), *(pytest.param(*c, marks=pytest.mark.long) for c in [(0.2, 0.0471), (0.8, 0.8090)])],
+    [(0.4, 0.3535), *(c for c in [(0.2, 0.0471), (0.8, 0.8090)])],
 )
 def test_spence(tmp_path, friction, inner):
     """A flat punch on a large block, nu = 0, the shear changing the pressure too: what sticks, to a cell."""
@@ -180,7 +179,6 @@ def test_spence(tmp_path, friction, inner):
     assert rows["x"][last] - 0.0125 <= inner <= rows["x"][last + 1] + 0.0125
 
 
-@pytest.mark.long
 def test_work_is_stored_and_dissipated(tmp_path):
     """By ever smaller steps: within 1e-4 of what is dissipated."""
     off = []
@@ -262,7 +260,7 @@ JAWS = polygon(
 ) + polygon("jaw", 0.2, ["0, 1", "2, 1", "2, 2", "0, 2"], {1: "grip", 3: "top"}, 7)
 
 
-@pytest.mark.parametrize(("pull", "code"), [(5.9, 0), pytest.param(6.1, 20, marks=pytest.mark.long)])
+@pytest.mark.parametrize(("pull", "code"), [(5.9, 0), (6.1, 20)])
 def test_a_jaw_driven_by_force(tmp_path, pull, code):
     """Nothing but slides feels a plate's way between two planes: pressed by 10, it bears 2 mu 10."""
     plate = polygon("plate", 0.2, ["0, 0", "2, 0", "2, 0.4", "0, 0.4"], {1: "down", 2: "end", 3: "up"})
@@ -300,7 +298,6 @@ def test_what_friction_carries_of_the_load_is_told_by_its_steps(tmp_path, pull, 
     assert "less friction" not in message and (not said or said[0] < 60 / pull < said[1])
 
 
-@pytest.mark.long
 def test_a_jaw_takes_a_plate_along(tmp_path):
     """By four elements in two steps: the plate slides on what bears it, and what goes in is stored and lost."""
     text = "body plate E 1000 nu 0.3\nbody jaw E 2000 nu 0.3\nobstacle under plane 0 0 0 1 friction 0.1\n"
@@ -314,7 +311,6 @@ def test_a_jaw_takes_a_plate_along(tmp_path):
     assert work == pytest.approx(stored + lost, rel=1e-4) and np.diff(lost)[0] > 0.05
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("friction", [0.2, 0.3, 0.8])
 def test_plank_against_a_wall(tmp_path, friction):
     """Leaning at 1 rad, its foot on the floor: where statics have an equilibrium it stands, and balances."""
@@ -335,7 +331,6 @@ def test_plank_against_a_wall(tmp_path, friction):
     assert foot + top == pytest.approx([0, 1], abs=1e-6) and wall * top[1] - up * top[0] == pytest.approx(middle)
 
 
-@pytest.mark.long
 def test_random_loads_on_a_block(tmp_path):
     """None fails that has an equilibrium: on one flat face friction bears mu N, within the face."""
     random = np.random.default_rng(3)
@@ -360,7 +355,6 @@ def test_mirrored_parts_bear_the_opposite_shear(tmp_path):
     assert run.summary["contacts"][0]["shearForce"][0] == 0 and abs(run.contact["shear"]).max() > 0.1
 
 
-@pytest.mark.long
 def test_rolling_and_wedge_beyond_what_they_can(tmp_path):
     """A pull that friction does not bear; a wedge about an axis; rolling that has not begun."""
     run = rub(tmp_path / "a", "edp/scenes/rolling.edp", {"-h": 0.04, "-shear": 0.03}, 20)
@@ -385,7 +379,6 @@ def test_gross_sliding_is_named(tmp_path):
     assert "gross sliding" in run.message and "-shear" in run.message
 
 
-@pytest.mark.long
 def test_mindlin(tmp_path):
     """A rigid sphere on a block of nu = 0.49, pressed and pulled to and fro: approach, way and the loop's energy."""
     young, nu, friction, radius = 100, 0.49, 0.3, 100
@@ -403,8 +396,7 @@ def test_mindlin(tmp_path):
     assert rows["dissipated"][3] - rows["dissipated"][1] == pytest.approx(loop, rel=0.01)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("pull", "h"), [(0.6, 0.0125), pytest.param(0.3, 0.005, marks=pytest.mark.long)])
+@pytest.mark.parametrize(("pull", "h"), [(0.6, 0.0125), (0.3, 0.005)])
 def test_carter(tmp_path, pull, h):
     """Rolling: creepage, tractions, what sticks at the side where the surfaces come in, what is dissipated."""
     force, friction = 0.08631, 0.3
@@ -436,7 +428,7 @@ def test_wedge_of_a_scene_is_let_go_at_once(tmp_path):
 
 
 @pytest.mark.parametrize("share", [0.99, 1.01])
-@pytest.mark.parametrize("slope", [0.3, *(pytest.param(s, marks=pytest.mark.long) for s in (0.05, 0.6))])
+@pytest.mark.parametrize("slope", [0.3, *(s for s in (0.05, 0.6))])
 def test_wedge_of_a_scene_locks_above_its_slope(tmp_path, slope, share):
     """Friction of a hundredth less and more than the slope."""
     friction = share * slope
@@ -467,7 +459,6 @@ def test_about_the_axis(tmp_path):
     assert run.summary["contacts"][0]["dissipated"] > 0
 
 
-@pytest.mark.long
 def test_space_turns_with_its_load(tmp_path):
     """Along x and along y the same, turned."""
     flags = {"-u0": 0.5, "-h": 2, **HARD, "-drag": 0.1}
@@ -564,7 +555,6 @@ def off(error, value, truth):
     return error / max(abs(value - truth), 1e-300)
 
 
-@pytest.mark.long
 def test_error_of_the_load_steps(tmp_path):
     """Half as many load steps say how far these have the numbers off; an odd number says nothing."""
     flags = {"h": 0.6, "force": 0, "shear": 0, "u0": 0.8, "drag": 0.25, "friction": 0.4, "reach": 5, "grading": 20}
@@ -583,7 +573,6 @@ def test_error_of_the_load_steps(tmp_path):
     assert list(series(odd)["newton"]) == list(series(fretting(tmp_path / "as", steps=1, **flags))["newton"])
 
 
-@pytest.mark.long
 def test_error_of_the_mesh(tmp_path):
     """The transposed tangent's dual: the force's derivative as a difference quotient; finer elements are within."""
     flags = {"force": 0, "shear": 0, "friction": 0.3, "reach": 5, "grading": 20, "nu": 0.2}
@@ -602,7 +591,6 @@ def test_error_of_the_mesh(tmp_path):
     assert steep.summary["estimates"]["energy"] is None
 
 
-@pytest.mark.long
 def goes_on(folder, command, rows_before, steps):
     """A path killed after so many rows and begun again: the numbers of one that was not."""
     command = list(map(str, [*command, "-out"]))
@@ -640,10 +628,7 @@ def test_free_body_goes_on(tmp_path, monkeypatch):
     goes_on(tmp_path, ["sh", "edp/freefem.sh", "edp/parts.edp", *words], 3, 13)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("friction", "lifted", "several"), [(4, 0.001, True), pytest.param(1, -0.01, False, marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize(("friction", "lifted", "several"), [(4, 0.001, True), (1, -0.01, False)])
 def test_several_solutions_are_said(tmp_path, friction, lifted, several):
     """A block wedged by its friction while its head is lifted: it might as well be free."""
     text = f"body block E 100 nu 0.3\nobstacle base plane 0 0 0 1 friction {friction}\nleg 1\nmove head 0 -0.01\n"
@@ -662,7 +647,7 @@ def test_shears_in_both_files(tmp_path):
     assert all(f'Name="{name}"' in text and column in run.contact.dtype.names for name, column in names.items())
 
 
-@pytest.mark.parametrize("order", [2, pytest.param(4, marks=pytest.mark.long)])
+@pytest.mark.parametrize("order", [2, 4])
 def test_tie_reproduces_uniform_tension(tmp_path, order):
     text = GLUED + "symmetry base\nsymmetry left\nsymmetry side\ntraction top 0 1\n"
     run = case(tmp_path, stack(), text, "-tol", 1e-12, "-order", order)
@@ -679,7 +664,6 @@ def test_tie_where_there_is_something_opposite(tmp_path):
     assert contact["force"] == pytest.approx([-0.1, -1], rel=1e-5) and 0 < contact["contactPoints"] < contact["points"]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("order", [1, 2, 3])
 def test_tie_reproduces_uniform_tension_in_space(tmp_path, order):
     mirrors = "".join(f"symmetry {name}\n" for name in "base lx ly ux uy".split())
@@ -690,7 +674,6 @@ def test_tie_reproduces_uniform_tension_in_space(tmp_path, order):
     assert max(abs(rows["shearX"]).max(), abs(rows["shearY"]).max()) < 1e-9
 
 
-@pytest.mark.long
 def test_cantilever_of_two_glued_pieces(tmp_path):
     """Its tip goes as far as that of one piece with elements a third as large, within the ±."""
     glued = "body left E 1000 nu 0.3\nbody right E 1000 nu 0.3\ntie end2 end1\nclamp wall\ntraction tip 0 -1\n"
@@ -708,10 +691,9 @@ def test_cantilever_of_two_glued_pieces(tmp_path):
 LOOP = {"-h": 0.2, "-legs": "1 0, 1 1, 1 -1, 1 1", "-history": 1, "-steps": 3}
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     "scene, flags",
-    short_of([("fretting", LOOP)], [("fretting-3d", {"-u0": 0.5, "-h": 2, **HARD, "-drag": 0.1})]),
+    cases_of([("fretting", LOOP)], [("fretting-3d", {"-u0": 0.5, "-h": 2, **HARD, "-drag": 0.1})]),
 )
 def test_pictures(tmp_path, scene, flags):
     """The shear beside the pressure; the loop, and what sticks over the load steps."""
@@ -732,7 +714,6 @@ def test_no_loop_without_friction(capsys):
     assert "run it with friction" in said and said.count("\n") == 1
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("kind", ["plane", "loads", "space", "bodies"])
 def test_the_campaign_begun(tmp_path, kind):
     """The first paths of the campaign with friction: every step is solved, or has no equilibrium and says so."""
@@ -772,7 +753,6 @@ def rows(run, *names):
     return np.array([np.atleast_1d(found[name]) for name in names])
 
 
-@pytest.mark.long
 def test_true_distance_of_a_plane_is_the_linear_one(tmp_path):
     """Pressed and dragged along a rigid plane by half the body's size, block and plane turned and mirrored."""
     mesh, found = block(Mesh(), (4, 2), (16, 8), (-2, -2)), []
@@ -788,7 +768,6 @@ def test_true_distance_of_a_plane_is_the_linear_one(tmp_path):
     assert found[1] == pytest.approx(found[0], rel=1e-9)
 
 
-@pytest.mark.long
 def test_drag_over_many_elements(tmp_path):
     """Over seven elements: a rigid disc and the same as a stiff body, whose surface is the master."""
     rigid = case(tmp_path, LOW, pressed([(1, 0, -0.05), (2, 0.5, -0.05)], at=(-0.5, 1)), *EXACT)
@@ -799,7 +778,6 @@ def test_drag_over_many_elements(tmp_path):
         assert rows(stiff, name)[0][1:] == pytest.approx(rows(rigid, name)[0][1:], rel=1e-3), name
 
 
-@pytest.mark.long
 def test_dragged_onto_what_nothing_faced(tmp_path):
     """Half a disc, stiffer than the block: points that had nothing opposite come to bear."""
     disc = [
@@ -815,7 +793,6 @@ def test_dragged_onto_what_nothing_faced(tmp_path):
     assert contact["shearForce"][0] == pytest.approx(0.3 * contact["normalForce"], rel=0.02)
 
 
-@pytest.mark.long
 def test_little_friction_with_the_true_distance(tmp_path):
     """Of a disc that goes far: the frictionless rounds and numbers."""
     geometry = LOW.replace("Physical Curve", HALF + "Physical Curve", 1)
@@ -827,7 +804,6 @@ def test_little_friction_with_the_true_distance(tmp_path):
     assert rows(other, "force")[0] == pytest.approx(rows(one, "force")[0], rel=1e-7)
 
 
-@pytest.mark.long
 def test_rotation_by_a_radian_drags(tmp_path):
     """A disc that turns on a block which is pushed up: what is lost is the bound times the way."""
     geometry = LOW.replace("Physical Curve", HALF + "Physical Curve", 1)
@@ -871,7 +847,7 @@ def test_path_that_ends(tmp_path):
     assert len(series(run)) == 5 and series(run)["newton"][-1] == 5
 
 
-@pytest.mark.parametrize("steps", [1, pytest.param(4, marks=pytest.mark.long)])
+@pytest.mark.parametrize("steps", [1, 4])
 def test_locked_wedge_pulled_at_once(tmp_path, steps):
     """From sliding in to a pull in one load step: it is locked, as if let go first, and its energies balance."""
     legs = f"leg 2\ntraction head -50 0\nleg {steps}\ntraction head 6.5 0\n"

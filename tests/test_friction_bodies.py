@@ -7,7 +7,7 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, data, execute, part, run_in, short_of, snippet, table, told
+from freefem import ROOT, cases_of, data, execute, part, run_in, snippet, table, told
 from test_friction import case, series
 from test_paraview import Grid
 
@@ -47,7 +47,6 @@ def test_light_load_on_a_tight_fit(tmp_path):
     assert fit.summary["supports"][0]["force"] == pytest.approx([-pulled, 0], abs=1e-5 * pulled)
 
 
-@pytest.mark.long
 def test_press_fit_in_space(tmp_path):
     fit = case(tmp_path, SPACE_FIT, SPACE_FITTED, "-order", 1, space=True)
     contact = fit.summary["contacts"][0]
@@ -88,7 +87,6 @@ def test_mirrored_point_has_no_friction(tmp_path):
     assert abs(rows["x"][first]) < 1e-9 and rows["shear"][first] == 0 and rows["slip"][first] == 0
 
 
-@pytest.mark.long
 def test_greatest_pressures_of_two_meshes(tmp_path):
     """Neither's error excludes the other: a load's way moves pressures by what a unit of the load does."""
     found = []
@@ -108,8 +106,7 @@ clamp wall
 """
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("rubs", short_of([" friction 0.3"], [""]))
+@pytest.mark.parametrize("rubs", cases_of([" friction 0.3"], [""]))
 def test_way_of_a_load_by_differences(tmp_path, rubs):
     """An arm that a traction presses: what a unit of the load moves it by, of the adjoint, as a greater load does."""
     ways = []
@@ -147,7 +144,6 @@ def mesh_again(half: str, turned: float, both: bool) -> str:
     return f"{head}$Nodes\n{nodes}$EndNodes\n$Elements\n{elements}$EndElements\n"
 
 
-@pytest.mark.long
 def test_mirror_in_space(tmp_path):
     """Half a block on half a block, turned about z, so that no axis is the mirror's normal: as the whole ones are."""
     (tmp_path / "half.geo").write_text(HALVES)
@@ -184,7 +180,6 @@ move head 0.004 0.002 -0.01
 """
 
 
-@pytest.mark.long
 def test_all_fields_of_a_contact(tmp_path):
     """P3 in space with friction and estimates: contact.vtu has what each of them adds, under its own name."""
     rubbed = part(tmp_path, BOX, RUBBED, "-order", 3, "-vtu", 1, script="edp/parts-3d.edp")
@@ -205,8 +200,7 @@ move tight 0 -0.3
 """
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("friction, thick", short_of([(0.8, 0.05)], [(0.8, 0.2), (0.3, 0.2)]))
+@pytest.mark.parametrize("friction, thick", cases_of([(0.8, 0.05)], [(0.8, 0.2), (0.3, 0.2)]))
 def test_belt_over_half_a_turn(tmp_path, friction, thick):
     """It slips: the tensions' ratio is Euler's, of a belt that is pulled in its middle and rubs at its inner side.
 
@@ -237,15 +231,13 @@ traction head 0 -0.5
 """
 
 
-@pytest.mark.long
 def test_wedge_let_go(tmp_path):
     """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
     let_go = case(tmp_path, WEDGE, WEDGED)
     assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("kinds", short_of([("block",)], [(("fit", "wedge", "belt"),)]))
+@pytest.mark.parametrize("kinds", cases_of([("block",)], [(("fit", "wedge", "belt"),)]))
 def test_sample_of_the_campaign(tmp_path, kinds):
     """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
     command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]
@@ -254,7 +246,6 @@ def test_sample_of_the_campaign(tmp_path, kinds):
     assert max(map(int, re.findall(r"newton: .*most (\d+)", stdout))) <= 12
 
 
-@pytest.mark.long
 def test_moment_of_a_twisted_fit(tmp_path):
     """All of a press fit slips: friction's moment on the displaced radius, turned from inside or outside."""
     fit = FIT.replace("{3, 8, 8, 12}", "{3, 8.05, 8, 12}")
@@ -287,7 +278,6 @@ Physical Surface("slider") = {2}; Physical Curve("sole") = {5}; Physical Curve("
 """
 
 
-@pytest.mark.long
 def test_normal_force_of_tilted_normals(tmp_path):
     """Where surfaces bend, shears bear a part of the load: the balance alone does not tell the normal force."""
     text = "body block E 300 nu 0.4\nbody slider E 1000 nu 0.4\nclamp base\ncontact sole floor friction 0.3\n"
@@ -297,7 +287,6 @@ def test_normal_force_of_tilted_normals(tmp_path):
     assert 1e-3 < normal["error"] < 1e-2 and abs(normal["value"] - 8.0125) < 3 * normal["error"]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("friction", [0.3, 0.15])
 def test_two_contacts_at_a_corner(tmp_path, friction):
     """What one contact's shear carries there is another's normal force: forces are known to that, on any mesh."""
@@ -317,7 +306,6 @@ def test_two_contacts_at_a_corner(tmp_path, friction):
     assert min(errors[-1]) > 4e-3 and max(errors[-1]) < 0.02 and max(errors[-1]) < 0.5 * max(errors[0])
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("size, order", [(0.4, 1), (0.5, 2)])
 def test_grounded_node_rubs(tmp_path, size, order):
     """A body that contact alone holds is grounded at a node, which may be in contact: friction acts there as well."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import reference
-from freefem import ROOT, flag_lists, named, refusal, run, run_in, script, short_of, table, tree
+from freefem import ROOT, cases_of, flag_lists, named, refusal, run, run_in, script, table, tree
 
 from postprocess import vtu
 
@@ -56,7 +56,7 @@ COUNTS = "points contactPoints wallPoints adaptations warnings unpairedPoints".s
 FORCED = "threshold", "tau"  # with a prescribed force the start chooses them
 
 
-@pytest.mark.parametrize("words", short_of(SHORT, EVERY), ids=named)
+@pytest.mark.parametrize("words", cases_of(SHORT, EVERY), ids=named)
 def test_same_as_whole(words, unfolded, tmp_path):
     """Numbers, tables, errors and counts shall be those of the whole; the solves as many, or few more."""
     scene, *flags = [*words, "-tol", "1e-12"]
@@ -88,7 +88,7 @@ def test_same_as_whole(words, unfolded, tmp_path):
             assert ours is None or ours["error"] == pytest.approx(theirs["error"], rel=2e-3), name
 
 
-@pytest.mark.parametrize("order", [2, pytest.param(4, marks=pytest.mark.long)])
+@pytest.mark.parametrize("order", [2, 4])
 def test_errors_contain_each_other(order):
     """On meshes of their own both forces shall be within their errors of the true one, and of each other."""
     flags = ["-order", order, "-estimate", 1]
@@ -99,8 +99,7 @@ def test_errors_contain_each_other(order):
         assert abs(half["value"] - whole["value"]) < one["error"]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("order", short_of([4], [1, 2, 3]))
+@pytest.mark.parametrize("order", cases_of([4], [1, 2, 3]))
 def test_pictures_show_the_whole(order, unfolded, tmp_path):
     """Files for ParaView and the tables of states shall be those of the whole, but for the order of nodes."""
     flags = ["-method", "newton", "-h", 2, "-order", order, "-states", 1, "-tol", 1e-12, "-estimate", 0]
@@ -141,7 +140,6 @@ def test_error_shares(tmp_path):
     assert cells[:, 0].sum() == pytest.approx(done.estimates["parts"]["inside"], rel=1e-9)
 
 
-@pytest.mark.long
 def test_accuracy(tmp_path):
     """New meshes of a half shall keep to the plane of symmetry and reach what is asked for."""
     done = run_in(ROOT, "edp/main.edp", "-half", 1, "-accuracy", 1e-6, "-order", 3, "-vtu", 0, out=tmp_path / "out")
@@ -152,7 +150,6 @@ def test_accuracy(tmp_path):
     assert abs(done.contact["x"] + done.contact["x"][::-1]).max() < 1e-12
 
 
-@pytest.mark.long
 def test_accuracy_of_pressures(tmp_path):
     """A peak in the plane of symmetry is no end of contact: hard contact shall have a bound of its profile."""
     flags = ["-half", 1, "-law", "signorini", "-goal", "pressure", "-accuracy", 5e-3, "-order", 2, "-vtu", 0]

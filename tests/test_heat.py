@@ -7,7 +7,7 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part, short_of, table
+from freefem import ROOT, cases_of, data, part, table
 
 from postprocess import closed_forms as forms
 from postprocess import vtu
@@ -152,7 +152,6 @@ def test_heat_is_refused(tmp_path):
     assert said.startswith("-points nodal: no flux goes")
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("order", [1, 3, 4])
 def test_orders(order, tmp_path):
     """Each element shall be as exact as its degree allows."""
@@ -163,7 +162,6 @@ def test_orders(order, tmp_path):
     assert found["heat"]["in"] == pytest.approx(12 * heat, rel=within)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("outside", [100, 130])
 def test_heated_fit(outside, tmp_path):
     """The example on a coarser mesh, whose elements follow the circles."""
@@ -177,7 +175,6 @@ def test_heated_fit(outside, tmp_path):
     balanced(found["heat"])
 
 
-@pytest.mark.long
 def test_turned_mirrored_rescaled(tmp_path):
     """The same bars turned, mirrored and in other units shall be the same."""
     case = f"{WARM}{CONTACT}\n{HELD}temperature top 1\n"
@@ -196,7 +193,6 @@ def test_turned_mirrored_rescaled(tmp_path):
         assert other["contacts"][0]["normalForce"] == pytest.approx(force, rel=close)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("case", ["conducts", "expands"])
 def test_in_space(case, tmp_path):
     """The bars as boxes of tetrahedra."""
@@ -210,7 +206,6 @@ def test_in_space(case, tmp_path):
     balanced(found["heat"])
 
 
-@pytest.mark.long
 def test_curved_in_space(tmp_path):
     """A ring on a shaft, whose elements follow the cylinders: pressed and heated, then with a flux and a film."""
     faces = "symmetry floor\nsymmetry side\nsymmetry below\nsymmetry above\n"
@@ -230,7 +225,6 @@ def test_curved_in_space(tmp_path):
     balanced(heat)
 
 
-@pytest.mark.long
 def test_prescribed_force(tmp_path):
     """Under a force the pressure is known, and heat moves the group."""
     case = f"{WARM}{CONTACT}\n{HELD}force top 0 -50\ntemperature top 1\n"
@@ -244,8 +238,7 @@ def test_prescribed_force(tmp_path):
     assert warm[top] == pytest.approx(1) and (warm.min(), warm.max()) == (0, 1)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("state", short_of(["axisymmetric"], ["strain"]))
+@pytest.mark.parametrize("state", cases_of(["axisymmetric"], ["strain"]))
 def test_fluxes_and_films(state, tmp_path):
     """Heat given at the bore leaves through a film outside, over curved edges too."""
     ring = state == "axisymmetric"
@@ -268,7 +261,6 @@ def test_fluxes_and_films(state, tmp_path):
     balanced(found)
 
 
-@pytest.mark.long
 def test_uniform_temperature(tmp_path):
     """At one temperature everywhere the fit shall be that of `expand`, in forces and stresses."""
     held = "symmetry floor\nsymmetry side\n"
@@ -285,7 +277,6 @@ def test_uniform_temperature(tmp_path):
             assert each["vonMises"] == pytest.approx(of_expand["vonMises"], rel=1e-7)
 
 
-@pytest.mark.long
 def test_uniform_temperature_under_a_force(tmp_path):
     """The same of a bar with a force on its side, which heat moves against the bar's own stiffness."""
     held = "clamp bottom\nsymmetry left\nforce beside -30 0\n"
@@ -302,7 +293,6 @@ def test_uniform_temperature_under_a_force(tmp_path):
         assert each["vonMises"] == pytest.approx(of_expand["vonMises"], rel=1e-7)
 
 
-@pytest.mark.long
 def test_thermal_stresses(tmp_path):
     """Stresses along a radius of the ring: Lame's and those of the temperature (Timoshenko and Goodier, 150)."""
     case = sleeve(60) + "line r 25.5 6 44.5 6\n"
@@ -326,7 +316,6 @@ def test_thermal_stresses(tmp_path):
         assert found[name] == pytest.approx(exact, abs=2e-3 * np.abs(exact).max()), name
 
 
-@pytest.mark.long
 def test_no_steady_state(tmp_path):
     """A ring that touches only while it is cold, and is warmed by what touches: the run says that it found nothing."""
     bodies = FIT + "conduct shaft 0.05 expand 2e-6 from 20\nconduct ring 0.2 expand 23e-6 from 20\n"
@@ -339,7 +328,6 @@ def test_no_steady_state(tmp_path):
     assert 0 < found["heat"]["contacts"][0]["conductance"] < 1e-3
 
 
-@pytest.mark.long
 def test_cold_body(tmp_path):
     """A body that is warm by nothing has no temperature."""
     case = f"{SOFT}{CONTACT}\n{HELD}move top 0 1\nflux top 0.1\n"
@@ -354,7 +342,6 @@ def test_cold_body(tmp_path):
     assert "nothing fixes its temperature" in found["message"]
 
 
-@pytest.mark.long
 def test_law(tmp_path):
     """With a law the conductance follows its pressure."""
     case = f"{SOFT}{CONTACT} law power kappa 100 m 2 d0 -0.1\n{HELD}move top 0 -1\ntemperature top 1\n"
@@ -394,7 +381,6 @@ CHANGES = {  # what the message says: what is changed in the case
 }
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("flag", FLAGS)
 def test_refused_flags(flag, tmp_path):
     """Each by its name, before anything is solved."""
@@ -430,7 +416,6 @@ def read(case, folder):
     return done.returncode, done.stdout
 
 
-@pytest.mark.long
 def test_refused_groups(tmp_path):
     """Temperatures that meet, and bodies that turn, are refused once the mesh is known."""
     meet, turn = CASE.replace("clamp", "temperature left 3\nclamp"), CASE.replace("move top 0 -1", "rotate top 0 0 0.1")

@@ -11,8 +11,8 @@ from postprocess.references import hertz
 from postprocess.results import read_run
 
 HERTZ = [
-    pytest.param("hertz-line", ["-width", 80, "-depth", 40, "-grading", 80, "-h", 0.1], marks=pytest.mark.long),
-    pytest.param("two-cylinders", ["-h", 0.1], marks=pytest.mark.long),
+    ("hertz-line", ["-width", 80, "-depth", 40, "-grading", 80, "-h", 0.1]),
+    ("two-cylinders", ["-h", 0.1]),
     ("hertz-line", ["-geometry", "axisymmetric", "-force", 10, "-h", 0.1]),
 ]
 
@@ -39,7 +39,6 @@ def test_hertz_needs_a_force(tmp_path, capsys):
     assert "without -force" in capsys.readouterr().err
 
 
-@pytest.mark.long
 def test_series(tmp_path):
     """Force against approach of a load series shall be drawn."""
     done = run("rough", "-method", "xnewton", "-h", 0.5, "-modes", 20, "-history", 1, "-steps", 2)

@@ -423,7 +423,6 @@ def test_one_edge(tmp_path, untouched):
     assert any("reaches the end" in text for text in run.summary["warnings"])
 
 
-@pytest.mark.long
 def test_files(tmp_path, untouched):
     """A folder, a file that is not there or may not be read shall be refused; odd names shall work."""
     assert_refused(attempt(tmp_path, tmp_path), tmp_path, ["a folder"])

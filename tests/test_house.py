@@ -343,7 +343,7 @@ def test_what_a_script_reads(script, tmp_path):
 ROLLER = ["edp/parts.edp", "-mesh", "edp/examples/roller/roller.geo", "-case", "edp/examples/roller/roller.case"]
 
 
-@pytest.mark.parametrize("words, least", [(["edp/main.edp"], 0.80), pytest.param(ROLLER, 0.75, marks=pytest.mark.long)])
+@pytest.mark.parametrize("words, least", [(["edp/main.edp"], 0.80), (ROLLER, 0.75)])
 def test_what_a_run_executes(words, least, tmp_path):
     """Of the statements that a run reads it shall execute most: what it does not need is read by others alone."""
     tree = executed.copy_tree(tmp_path / "tree")

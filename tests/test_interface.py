@@ -13,6 +13,7 @@ from freefem import (
     FREEFEM,
     ROOT,
     being_written,
+    cases_of,
     environment,
     execute,
     files,
@@ -20,7 +21,6 @@ from freefem import (
     plotted,
     run_in,
     script,
-    short_of,
     tree,
 )
 
@@ -44,9 +44,9 @@ def package(tmp_path_factory):
 @pytest.mark.parametrize(
     "folder, name, scene",
     [
-        pytest.param(".", "edp/main.edp", DISC, marks=pytest.mark.long),
+        (".", "edp/main.edp", DISC),
         ("edp", "main.edp", DISC),
-        pytest.param(".", "edp/scenes/meshed-disc.edp", TWO_BODIES, marks=pytest.mark.long),
+        (".", "edp/scenes/meshed-disc.edp", TWO_BODIES),
         ("edp/scenes", "confined-block.edp", BLOCK),
     ],
 )
@@ -156,7 +156,6 @@ def test_from_any_folder(name, package, tmp_path):
     assert code == 10 and stdout.startswith("nowhere.edp: no such script")
 
 
-@pytest.mark.long
 def test_modules_are_the_package_s(package, tmp_path):
     """The starter shall read no module, script or Python module of the present folder in place of the package's."""
     for name in "case/flags.idp case/scene.idp laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
@@ -185,7 +184,6 @@ def test_modules_are_the_package_s(package, tmp_path):
     assert code == 0 and "converged" in said, said
 
 
-@pytest.mark.long
 def test_module_in_the_present_folder(tmp_path):
     """Without the starter a file that FreeFEM would read in a module's place is refused; one of another name is not."""
     package = tree(tmp_path / "package")
@@ -244,7 +242,6 @@ def test_plot_without_a_window(scene, tmp_path):
 # ---------------------------------------------------------------- meshes
 
 
-@pytest.mark.long
 def test_mesh_is_made_once(package):
     """A mesh shall be kept under a name with its parameters, taken again, and made anew when a .geo is newer."""
     generated = package / "meshes" / "generated"
@@ -282,7 +279,6 @@ def test_same_shape_same_mesh(package):
 # ---------------------------------------------------------------- whole or not at all
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("word", ["\033[31mbody", "a" * 30000], ids=["escape", "long"])
 def test_what_is_echoed(word, tmp_path):
     """Codes that a terminal would obey shall not come back, and a word of any length be refused at once."""
@@ -294,7 +290,6 @@ def test_what_is_echoed(word, tmp_path):
         assert b"\033" not in done.stdout and len(done.stdout) < 7000
 
 
-@pytest.mark.long
 def test_pipes(tmp_path):
     """A pipe as a case file, or as the table of a law, shall not be waited for."""
     os.mkfifo(tmp_path / "it's a pipe")
@@ -320,7 +315,7 @@ def no_room_beyond(limit):
     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
 
-@pytest.mark.parametrize("words", short_of([["-mesh", "{0}.geo"], None], [["-mesh", "{0}.geo", "-case", "{0}.case"]]))
+@pytest.mark.parametrize("words", cases_of([["-mesh", "{0}.geo"], None], [["-mesh", "{0}.geo", "-case", "{0}.case"]]))
 def test_no_room_for_a_mesh(words, tmp_path):
     """Where there is no room for a mesh or its copy a run shall say so, with code 30, and blame no mesh."""
     folder = tmp_path / "tmp"
@@ -343,7 +338,6 @@ def test_no_room_for_a_mesh(words, tmp_path):
     assert not (tmp_path / "out").exists() and list(folder.rglob("*.msh")) == []
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("flags", [[], ["-history", "1", "-steps", "2"]])
 def test_folder_moved_during_a_run(flags, tmp_path):
     """A run whose results' folder is taken away shall end with one line and code 30."""
@@ -359,7 +353,7 @@ def test_folder_moved_during_a_run(flags, tmp_path):
 
 @pytest.mark.parametrize(
     "limit, flags",
-    short_of(
+    cases_of(
         [(0, []), (20000, []), (1000, ["-states", "1"]), (60000, ["-states", "1"])],
         [(700, []), (5000, []), (40000, ["-states", "1"])],
     ),

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, execute, part, short_of, snippet, told
+from freefem import ROOT, cases_of, data, execute, part, snippet, told
 from test_meshes import read
 
 BALL = """SetFactory("OpenCASCADE"); Sphere(1) = {{0, 0, 0, 1}};
@@ -62,7 +62,6 @@ def ball(tmp_path_factory):
     return gmsh(tmp_path_factory.mktemp("ball"), BALL.format(size=0.6, order=2))
 
 
-@pytest.mark.long
 def test_linear_fields(tmp_path, ball):
     """Rigid motions cost nothing, and a field that swells is in balance with its pressure, to rounding."""
     found = fields(tmp_path, ball, ON_PLANE + f"pressure skin {-BULK3!r}\n")
@@ -94,7 +93,6 @@ def within(summary, number, truth, most):
     return force
 
 
-@pytest.mark.long
 def test_folded(tmp_path, ball):
     """A face that is dented by nearly its element's height: what would be folded stays straight, and that is said."""
     lines = ball.split("\n")
@@ -114,8 +112,7 @@ def test_folded(tmp_path, ball):
     within(summary, "force", 4 / 3 * np.pi, 0.02)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("order, most", [(2, 1e-3), pytest.param(1, 0.2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("order, most", [(2, 1e-3), (1, 0.2)])
 def test_ball(tmp_path, order, most):
     """The weight of a ball of about 200 triangles."""
     mesh = gmsh(tmp_path, BALL.format(size=0.45, order=order))
@@ -129,7 +126,7 @@ Physical Volume("ball") = {1}; Mesh.MeshSizeMin = 0.5; Mesh.MeshSizeMax = 0.5;
 PRESSED = data("isoparametric/pressed.case")
 
 
-@pytest.mark.parametrize("heat", [5e-3, pytest.param(-2e-2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("heat", [5e-3, -2e-2])
 def test_heat(tmp_path, heat):
     """A pressed ball that is warmer too swells as freely as one that is not: the same stress, none of shape."""
     summary, _ = run(tmp_path, EIGHTH, f"{PRESSED}expand ball {heat / 100!r} 100\n", "-estimate", "0")
@@ -154,8 +151,7 @@ PLUGGED += "group top plane 1 1 1 0 0 1\nbody plug E 1000 nu 0.3\nobstacle low p
 PLUGGED += "symmetry x\nsymmetry y\npressure top 3\n"
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("order, most", short_of([(2, 1e-4)], [(1, 0.02)]))
+@pytest.mark.parametrize("order, most", cases_of([(2, 1e-4)], [(1, 0.02)]))
 def test_pressure_within_a_rim(tmp_path, order, most):
     """A pressure on a flat face whose rim is round: the balance's force is known to the shape of the rim."""
     summary, _ = run(tmp_path, PLUG, PLUGGED, "-order", order)
@@ -171,7 +167,6 @@ STACKED = STACKED.replace(
 STACKED += "body upper E 3000 nu 0\ncontact a b\nmove top 0 0 -0.01\n"
 
 
-@pytest.mark.long
 def test_facets_at_a_rim(tmp_path):
     """A pressure that is uniform but for P3's straight elements: they are said, no pressure without bound."""
     summary, _ = run(tmp_path, FLUSH, STACKED, "-order", 3)
@@ -206,8 +201,7 @@ def lame(inner=7.0, radius=10.0, outer=14.0, overlap=0.01, height=2.0):
     return np.pi / 2 * radius * height * overlap / radius * 1000 / (1 - 0.3**2) / bends
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("order, sides, more, most", short_of([(2, 8, 10, 1e-3)], [(2, 5, 7, 3e-3), (1, 8, 10, 0.05)]))
+@pytest.mark.parametrize("order, sides, more, most", cases_of([(2, 8, 10, 1e-3)], [(2, 5, 7, 3e-3), (1, 8, 10, 0.05)]))
 def test_press_fit(tmp_path, order, sides, more, most):
     """A quarter of two pipes, meshes that do not match."""
     mesh = gmsh(tmp_path, PIPE.format(sides=sides, more=more, order=order))
@@ -215,7 +209,6 @@ def test_press_fit(tmp_path, order, sides, more, most):
     within(summary, "normalForce", lame(), most)
 
 
-@pytest.mark.long
 def test_true_distance(tmp_path):
     """Bodies that hardly move: the true distance tells the same."""
     mesh = gmsh(tmp_path, PIPE.format(sides=8, more=10, order=2))
@@ -224,7 +217,6 @@ def test_true_distance(tmp_path):
     assert linear == pytest.approx(exact, rel=1e-3)
 
 
-@pytest.mark.long
 def test_straight_when_asked(tmp_path, ball):
     """-surface facets, and P1, leave elements straight."""
     case = ON_PLANE + "weight ball 0 0 -1\n"

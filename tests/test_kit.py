@@ -6,7 +6,7 @@ import re
 import access
 import pytest
 from browser import CHROMIUM, Browser
-from freefem import FREEFEM, ROOT, execute, run_in, short_of
+from freefem import FREEFEM, ROOT, cases_of, execute, run_in
 from page_numbers import printed
 from test_labs import BARE, LABS, answers
 from test_readme import fences
@@ -28,7 +28,6 @@ def made(tmp_path_factory):
     return folder / "kit"
 
 
-@pytest.mark.long
 def test_handouts(made):
     """A handout a lab, with its pictures, without answers or a link but to what is on the net."""
     assert {path.stem for path in made.glob("handout-*.html")} == {f"handout-{lab}" for lab in LABS}
@@ -38,7 +37,6 @@ def test_handouts(made):
         assert all(target.startswith(("http", "#", "data:")) for target in re.findall(r'href="([^"]*)"', text))
 
 
-@pytest.mark.long
 def test_the_page_without_gmsh(made, tmp_path):
     """Lab 0 in one file shall run anywhere, and have the paper's count; its force that of a like mesh."""
     assert "gmsh" not in re.sub(r"//.*", "", (made / "algorithm1.edp").read_text())
@@ -48,7 +46,6 @@ def test_the_page_without_gmsh(made, tmp_path):
     assert printed(stdout, "force") == pytest.approx(152.09, rel=0.01)
 
 
-@pytest.mark.long
 def test_slides(made):
     """A lecture: about thirty slides, each picture with words for who cannot see it, formulas typeset, links away."""
     text = (made / "slides.html").read_text()
@@ -58,8 +55,7 @@ def test_slides(made):
     assert "<math" in text and not re.search(r"<em>[^<]*[=κ][^<]*</em>", text)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", short_of(["cut", "four_five"], lecture.PICTURES))
+@pytest.mark.parametrize("name", cases_of(["cut", "four_five"], lecture.PICTURES))
 def test_sketches(name, tmp_path):
     """Each picture of the lecture is drawn without a run, in both sizes."""
     assert main(["sketch", name, "--out", str(tmp_path / "page.pdf")]) == 0
@@ -69,7 +65,6 @@ def test_sketches(name, tmp_path):
     }
 
 
-@pytest.mark.long
 @pytest.mark.skipif(not CHROMIUM, reason="needs Chromium")
 def test_slides_on_a_screen(made, tmp_path):
     """Each slide fits the screen of a projector."""
@@ -80,7 +75,6 @@ def test_slides_on_a_screen(made, tmp_path):
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
-@pytest.mark.long
 def test_for_everyone(made, tmp_path):
     """Slides and sheets: no serious fault on a desk and on a phone, no control that Tab does not come to or show."""
     pytest.importorskip("axe_core_python")
@@ -123,7 +117,7 @@ def filled(lab, folder, change=lambda value: value):
     return path
 
 
-@pytest.mark.parametrize("lab", short_of([LABS[2], LABS[5]], LABS))
+@pytest.mark.parametrize("lab", cases_of([LABS[2], LABS[5]], LABS))
 def test_answers(lab, made, tmp_path, capsys):
     """The page's own values shall be well, all; those 2 % off, but zeros, none; the template asks for the same."""
     assert main([CHECK, lab.partition("-")[0], str(filled(lab, tmp_path))]) == 0
@@ -169,7 +163,6 @@ def test_a_law_without_end(tmp_path, capsys, monkeypatch):
     assert "does not end: stopped after 1 seconds" in capsys.readouterr().out
 
 
-@pytest.mark.long
 def test_a_law(tmp_path, capsys):
     """The answers' law shall be well; with a slope twice too steep that check alone is off."""
     (law,) = fences(answers("4-own-law"), "freefem")

@@ -1,7 +1,6 @@
 """edp/labs/: every command of every lab runs, the answers' numbers hold, the scripts refuse as scenes do."""
 
 import csv
-import functools
 import glob
 import re
 import shlex
@@ -9,7 +8,8 @@ import shutil
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, listing, run, run_in, script, short_of, tree
+from accounts import shared
+from freefem import FREEFEM, ROOT, cases_of, environment, execute, listing, run, run_in, script, tree
 from page_numbers import agrees, printed
 from test_readme import fences, is_rule, quoted, section
 
@@ -131,8 +131,7 @@ DRAW = ".venv/bin/python -m postprocess "
 
 
 # of the other labs the answers' first numbers are tested always
-@pytest.mark.long
-@pytest.mark.parametrize("lab", short_of([PAGE], LABS))
+@pytest.mark.parametrize("lab", cases_of([PAGE], LABS))
 def test_commands(lab, tmp_path, monkeypatch):
     """Every command of a lab shall run as it is written, in this order, and leave what it names."""
     package = package_in(tmp_path)
@@ -196,7 +195,6 @@ def coating(tmp_path_factory):
     return package
 
 
-@pytest.mark.long
 def test_coating(coating, tmp_path):
     """The answers' numbers of their own law; the others are held by test_numbers.py."""
     ((head, rows),) = [table for table in tables(answers(OWN_LAW)) if "coating" in table[0][0]]
@@ -207,7 +205,7 @@ def test_coating(coating, tmp_path):
         assert [agrees(*pair) for pair in zip(found, cells, strict=True)] == [True] * 3, (flags, found)
 
 
-@pytest.mark.parametrize("lab", short_of(["3-threshold"], SCENES))
+@pytest.mark.parametrize("lab", cases_of(["3-threshold"], SCENES))
 def test_results_of_a_lab(lab, plain):
     """A run in the lab's folder, no environment set: its results lie at the root."""
     shutil.rmtree(plain / "results", ignore_errors=True)
@@ -238,7 +236,6 @@ def test_words_of_the_gecko():
     assert jumps == next(tables(answers("7-gecko")))[1][-1][3]
 
 
-@pytest.mark.long
 def test_unknowns_of_the_sphere(tmp_path):
     """The unknowns that lab 6 says of its finest mesh shall be the run's."""
     (flags, count) = re.findall(r"^With `(.*)` the block has ([\d ]+) unknowns", readme("6-sphere"), re.M)[0]
@@ -261,7 +258,7 @@ def changed_page(words):
     return text
 
 
-@functools.cache
+@shared
 def said_by_page(words, package):
     (package / lab_script(PAGE)).write_text(changed_page(words))
     code, stdout = execute([*FREEFEM, lab_script(PAGE)], package, BARE)
@@ -273,7 +270,7 @@ CHANGES = {row[0]: row[1:] for row in next(tables(answers(PAGE)))[1]}
 KINDS = ["none", "`T0 = d0`", "`kappa = 1e9`", "`m = 10`", "the uniform update", '`model = "linear"`']  # of changes
 
 
-@pytest.mark.parametrize("change", short_of(KINDS, CHANGES))
+@pytest.mark.parametrize("change", cases_of(KINDS, CHANGES))
 def test_the_page(change, plain):
     """Lab 0's page, as it is and changed, shall give the counts and the force of the answers."""
     stdout = said_by_page(change, plain)
@@ -305,7 +302,7 @@ def adhesive(*flags, code=0):
     return stdout
 
 
-@pytest.mark.parametrize("flags", short_of(BRIEF, ADHESIVE))
+@pytest.mark.parametrize("flags", cases_of(BRIEF, ADHESIVE))
 def test_models_of_an_adhesive_law(flags):
     """Lab 11's page shall give the models, steps, forces and energies of the answers, in stable states."""
     stdout = adhesive(*flags.split())
@@ -316,14 +313,13 @@ def test_models_of_an_adhesive_law(flags):
 
 @pytest.mark.parametrize(
     "flags",
-    short_of(["-model newton", "-u0 -1 -model newton"], ["-w 0.003108162 -model wall", "-u0 -1.68 -from 0 -steps 5"]),
+    cases_of(["-model newton", "-u0 -1 -model newton"], ["-w 0.003108162 -model wall", "-u0 -1.68 -from 0 -steps 5"]),
 )
 def test_where_no_state_is_found(flags):
     """Where the answers say that a way fails, it shall say so, with exit code 20."""
     assert adhesive(*flags.split(), code=20).startswith("NO STATE: ")
 
 
-@pytest.mark.long
 def test_one_approach_has_two_states():
     """From afar and from contact lab 11's page shall find two stable states, those of the package's path."""
     afar, touching = adhesive("-u0", -1.68), adhesive("-u0", -1.68, "-from", -1.5, "-steps", 4)
@@ -337,8 +333,7 @@ def test_one_approach_has_two_states():
     assert run("adhesive-sphere", *flags).force / unit == pytest.approx(forces[1], rel=0.03)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("u0", [1, pytest.param(-2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("u0", [1, -2])
 def test_the_adhesive_page_against_the_package(u0):
     """Lab 11's page, on a mesh of its own, shall have the force of the package's stable step."""
     force = run("adhesive-sphere", "-u0", u0 * 1e-3, "-estimate", 0).force / (np.pi * 0.0010989011 * 10)
@@ -384,21 +379,12 @@ INVERSE = "= p[i] <= soft * knee ? p[i] / soft : knee + (p[i] - soft * knee) / s
     "function, change, check, steps",
     [
         ("slope", ("? soft : stiff)", "? 2 * soft : 2 * stiff)"), "slope, against differences of the pressure", SLOPED),
-        pytest.param(
-            "inverse",
-            (INVERSE, "= x / 3;"),
-            "inverse of pressure, against s",
-            (None, "0.90 %", "3.5 %"),
-            marks=pytest.mark.long,
-        ),
-        pytest.param(
-            *(
-                "potential",
-                ("W[i] = 0.5", "W[i] = 3 * 0.5"),
-                "pressure, against differences of the potential",
-                (1, 1, 4),
-            ),
-            marks=pytest.mark.long,
+        ("inverse", (INVERSE, "= x / 3;"), "inverse of pressure, against s", (None, "0.90 %", "3.5 %")),
+        (
+            "potential",
+            ("W[i] = 0.5", "W[i] = 3 * 0.5"),
+            "pressure, against differences of the potential",
+            (1, 1, 4),
         ),
     ],
     ids=["slope", "inverse", "potential"],
@@ -433,7 +419,7 @@ def test_own_law_stays_in_its_lab():
 # ---------------------------------------------------------------- scripts
 
 
-@pytest.mark.parametrize("lab", short_of(["1-law", OWN_LAW, "7-gecko"], SCENES))
+@pytest.mark.parametrize("lab", cases_of(["1-law", OWN_LAW, "7-gecko"], SCENES))
 def test_help_and_refusals(lab, tmp_path):
     """-help shall print the flags; a bad flag or value shall end with code 10; nothing shall be written."""
     package = tree(tmp_path / "package")
@@ -446,7 +432,6 @@ def test_help_and_refusals(lab, tmp_path):
     assert listing(package) == before
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("lab, flags", [("1-law", ["-h", 5]), ("6-sphere", ["-h", 1.6, "-layers", 1, "-estimate", 0])])
 def test_the_command_of_a_run(lab, flags, tmp_path):
     """The command that a page of runs gives for a lab's run shall make that run again."""
@@ -475,7 +460,6 @@ def test_figures_refuse(figure, words, tmp_path, capsys):
     assert not (tmp_path / "x.pdf").exists()
 
 
-@pytest.mark.long
 def test_figures_of_a_lab(tmp_path, capsys):
     """`figures` shall draw a lab's figures from a lab's run."""
     run_in(ROOT, lab_script("2-newton"), "-vtu", 0, out=tmp_path / "run")

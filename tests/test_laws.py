@@ -1,11 +1,11 @@
 """laws/: the contact law, its inverse and potential, and the law wrapped in its wall, against values of our own."""
 
-import functools
 from decimal import Decimal, getcontext
 from itertools import product
 
 import numpy as np
 import pytest
+from accounts import shared
 from freefem import LAW, OPEN, WALL, data, snippet, told
 
 getcontext().prec = 40
@@ -20,7 +20,7 @@ GRAPH_ROWS = data("laws/graph-rows.edp")
 # stiffness and exponent: the ends of their ranges and the usual ones; between them in the long run
 RANGE = [(1e-2, 1.05), (1e-2, 30), (1e3, 3), (1e30, 1.05), (1e30, 30)]
 BETWEEN = [pair for pair in product((1e-2, 1e3, 1e12, 1e30), (1.05, 3, 10, 30)) if pair not in RANGE]
-RANGE += [pytest.param(*pair, marks=pytest.mark.long) for pair in BETWEEN]
+RANGE += [pair for pair in BETWEEN]
 
 
 def evaluate(folder, code, rows, *flags, options=""):
@@ -107,7 +107,7 @@ def test_table(tmp_path):
 # ---------------------------------------------------------------- the law with its wall
 
 
-@functools.cache
+@shared
 def resolvent(shat, phat, k, tau, kappa, m):
     """(state, s, p, slope) of the graph's point with p + k s = phat + k shat, by bisection in 40 digits."""
     c = Decimal(phat + k * shat)

@@ -1,7 +1,7 @@
 """Products with the kernel of many points without its matrix: against the matrix, and whole runs."""
 
 import pytest
-from freefem import ROOT, data, run, run_in, scene_text, script, short_of, snippet, told, tree
+from freefem import ROOT, cases_of, data, run, run_in, scene_text, script, snippet, told, tree
 
 PRODUCTS = data("levels/products.edp")
 MODEL = data("levels/model.edp")
@@ -11,11 +11,11 @@ MODEL = data("levels/model.edp")
     "scene, flags",
     [
         ("rough", ["-order", 1, "-h", 0.1, "-modes", 32]),
-        pytest.param("rough", ["-order", 2, "-h", 0.2, "-modes", 32], marks=pytest.mark.long),
-        pytest.param("rough", ["-order", 4, "-h", 0.4, "-modes", 32], marks=pytest.mark.long),
-        pytest.param("sphere-on-block", ["-order", 1, "-h", 0.5], marks=pytest.mark.long),
-        pytest.param("sphere-on-block", ["-order", 2, "-h", 0.8], marks=pytest.mark.long),
-        pytest.param("sphere-on-plane", ["-order", 2, "-h", 0.2], marks=pytest.mark.long),
+        ("rough", ["-order", 2, "-h", 0.2, "-modes", 32]),
+        ("rough", ["-order", 4, "-h", 0.4, "-modes", 32]),
+        ("sphere-on-block", ["-order", 1, "-h", 0.5]),
+        ("sphere-on-block", ["-order", 2, "-h", 0.8]),
+        ("sphere-on-plane", ["-order", 2, "-h", 0.2]),
     ],
 )
 def test_products(scene, flags, tmp_path):
@@ -34,7 +34,6 @@ TURNED = data("levels/turned.geo")
 TURNED_CASE = data("levels/turned-case.case")
 
 
-@pytest.mark.long
 def test_products_of_a_case(tmp_path):
     """Contacts that face two ways, in mirrors that are no axes: each in its own plane, the other one not felt."""
     (tmp_path / "turned.geo").write_text(TURNED)
@@ -53,7 +52,7 @@ def test_products_of_a_case(tmp_path):
 SYNTHETIC = data("levels/synthetic.edp")
 
 
-@pytest.mark.parametrize("side", [pytest.param(45, marks=pytest.mark.long), pytest.param(224, marks=pytest.mark.long)])
+@pytest.mark.parametrize("side", [45, 224])
 def test_start(side, tmp_path):
     """The start of a stiff law on a half-space without body: found on some points, solved on all; Hertz's force."""
     scene = scene_text("sphere-on-block").split("flagsDone(")[0]
@@ -66,7 +65,7 @@ def test_start(side, tmp_path):
 STIFF = "sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9]
 
 
-@pytest.mark.parametrize("scene, flags", short_of([("rough", ["-order", 1, "-h", 0.2])], [STIFF]))
+@pytest.mark.parametrize("scene, flags", cases_of([("rough", ["-order", 1, "-h", 0.2])], [STIFF]))
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")

@@ -8,7 +8,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part, run_in, short_of, tree
+from freefem import ROOT, cases_of, data, part, run_in, tree
 
 # an ellipse, finer near (0, 5), turned by `turn` about its centre
 CAM = data("linear-gaps/cam.geo")
@@ -78,7 +78,7 @@ def said(tmp_path):
 
 @pytest.mark.parametrize(
     "rx, depth, angle, flags",
-    short_of([(6, 4.999, 0.05, ())], [(5, 4.99, 0.09, ("-distance", "exact")), (5, 4.99, 0.02, ())]),
+    cases_of([(6, 4.999, 0.05, ())], [(5, 4.99, 0.09, ("-distance", "exact")), (5, 4.99, 0.02, ())]),
 )
 def test_turned_bodies(said, rx, depth, angle, flags):
     """A disc and an elliptic cam turned by a statement: the force of those that are turned in their meshes."""
@@ -91,7 +91,7 @@ def test_turned_bodies(said, rx, depth, angle, flags):
 
 @pytest.mark.parametrize(
     "load, height, flags",
-    short_of(
+    cases_of(
         [("weight plank 0 -1", None, ("-distance", "exact")), ("traction top 0 -4", 4.0, ())],
         [("weight plank 0 -1", None, ()), ("traction top 0 -4", 4.0, ("-distance", "exact"))],
     ),
@@ -115,7 +115,6 @@ def test_levers(said, load, height, flags):
     assert not plank.warnings
 
 
-@pytest.mark.long
 def test_followed_pressure(said):
     """A pressure goes with the surface that it acts on: its lever stays, and it pushes sideways as the plank tilts."""
     dead = said(PLANK, STANDING + "traction top 0 -4\n")
@@ -124,7 +123,6 @@ def test_followed_pressure(said):
     assert follows.linear["changes"]["left plane"] != pytest.approx(dead.linear["changes"]["left plane"], rel=0.1)
 
 
-@pytest.mark.long
 def test_exchanged(said):
     """Slave and master exchanged: the true distance lies within both errors, and is predicted within a third."""
     noses = {order: ON_FLOOR.format(*order, 0, -0.08) for order in (("nose", "floor"), ("floor", "nose"))}
@@ -143,7 +141,6 @@ def test_exchanged(said):
             assert linear.summary["estimates"]["refine"] == "use -distance exact"
 
 
-@pytest.mark.long
 def test_hip(said):
     """A ball in a soft cup, axisymmetric: force and way, each predicted within a twentieth."""
     linear, true = said(HIP, IN_CUP), said(HIP, IN_CUP, "-distance", "exact")
@@ -154,7 +151,6 @@ def test_hip(said):
         assert linear.linear["changes"][name] == pytest.approx(moved, rel=0.05)
 
 
-@pytest.mark.long
 def test_too_much(said):
     """A gap whose linearisation is far off: said, with a size within a factor of ten, and with what helps."""
     case = ON_FLOOR.format("nose", "floor", 1.2, -0.05)
@@ -167,7 +163,6 @@ def test_too_much(said):
     assert linear.holds("force", true.known("force")[0]) and not linear.linear["trusted"]
 
 
-@pytest.mark.long
 def test_slides_that_change_nothing(said):
     """A disc under a plane that slides along it: no word, the true distance gives the same number."""
     case = PRESSED.format(4.99).replace("0 -1\n", "0 -1 move 1 0\n") + "clamp shaft\n"
@@ -177,7 +172,6 @@ def test_slides_that_change_nothing(said):
     assert linear.known("force")[1] == pytest.approx(true.known("force")[1], rel=1e-3)
 
 
-@pytest.mark.long
 def test_motion_of_the_whole(said):
     """A body's motion is its area's mean: of a disc that turns about its middle 0, however its nodes are spread."""
     turned = said(CAM, PRESSED.format(4.99) + "rotate shaft 0 0 0.02\n", rx=5)
@@ -185,7 +179,6 @@ def test_motion_of_the_whole(said):
     assert np.hypot(*motion[:2]) < 0.001 and motion[2] == pytest.approx(0.02, rel=0.01)
 
 
-@pytest.mark.long
 def test_shaft_in_hub(said):
     """A shaft that turns in its hub changes nothing."""
     geo = (ROOT / "edp/examples/press-fit/press-fit.geo").read_text()
@@ -198,7 +191,6 @@ def test_shaft_in_hub(said):
         assert not turned.warnings
 
 
-@pytest.mark.long
 def test_rounds_leave_errors(said):
     """After rounds of the true distance a ring's error is that of the linear run: its resultant is only rounding."""
     folder = ROOT / "edp/examples/press-fit"
@@ -207,7 +199,6 @@ def test_rounds_leave_errors(said):
     assert exact.known("force")[1] == pytest.approx(linear.known("force")[1], rel=0.1)
 
 
-@pytest.mark.long
 def test_turned_in_space(said):
     """A disc in space, turned about its axis."""
     case = "body disc E 1e5 nu 0.3\nobstacle rim plane 0 2.97 0 0 -1 0\n{}\n"
@@ -315,12 +306,11 @@ BOTH = "body low E 1000 nu 0.3\nbody up E 1000 nu 0.3\ncontact {} friction 0.3\n
 ON_BALL = "body ball E 1000 nu 0.3\nobstacle skin sphere 0 0 -2 R 2 friction 0.3{}\nmove cut {}\n"
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     "geo, case",
     [
         (NOSE, BOTH.format("nose floor", "0.05 -0.1") + "clamp base\n"),
-        pytest.param(BALL, ON_BALL.format("", "0.06 0.02 -0.05"), marks=pytest.mark.long),
+        (BALL, ON_BALL.format("", "0.06 0.02 -0.05")),
         (BALL, ON_BALL.format(" move 0 0 0.05", "0.05 0 0")),
     ],
     ids=["dragged", "ball", "pushed obstacle"],
@@ -345,7 +335,6 @@ def test_friction_with_the_true_distance(said, geo, case):
     assert "gaps at rest" not in linear.stdout
 
 
-@pytest.mark.long
 def test_friction_pressed_deep(said):
     """The flat surface is the slave: its points come opposite others, and each still lies within its error."""
     case = BOTH.format("floor nose", "0.3 -0.5") + "clamp base\n"

@@ -8,13 +8,13 @@ from freefem import (
     TANGENT,
     WALL,
     Run,
+    cases_of,
     data,
     named,
     refusal,
     run,
     run_in,
     scene_text,
-    short_of,
     snippet,
     table,
     told,
@@ -59,7 +59,7 @@ MORE = [
 ]
 
 
-@pytest.mark.parametrize("scene, flags, counts", short_of(COUNTS, MORE), ids=named)
+@pytest.mark.parametrize("scene, flags, counts", cases_of(COUNTS, MORE), ids=named)
 def test_counts(scene, flags, counts):
     """The sequence of tangents shall take so many models and Newton steps; no wall shall stand anywhere."""
     linear = run(scene, *LINEAR, *flags)

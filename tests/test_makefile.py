@@ -81,7 +81,6 @@ def test_clean(package):
     assert (package / "edp" / "mine.edp").exists()
 
 
-@pytest.mark.long
 def test_what_is_begun_outside(tmp_path):
     """What `make new` begins shall stand its own test, which tells a spoilt law; an existing folder is refused."""
     folder = tmp_path / "my own"

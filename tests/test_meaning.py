@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch
-from freefem import ROOT, execute, short_of, table
+from freefem import ROOT, cases_of, execute, table
 from test_paraview import Grid
 
 BOWL = "body disc E 1000 nu 0.3\nobstacle rim circle 0 0.5 R 2.5 inside\n"
@@ -79,7 +79,6 @@ def test_prescribed_motion(go):
     assert moved.summary["bodies"][0]["reaction"][0] == pytest.approx(7.5, rel=1e-6)
 
 
-@pytest.mark.long
 def test_mean_motion(go):
     """A body's motion is its area's mean: of a uniform strain the middle's, however the elements are spread."""
     case = "body bar E 1000 nu 0\nsymmetry left\nobstacle right plane 2 0 -1 0 move -0.01 0\n"
@@ -88,7 +87,6 @@ def test_mean_motion(go):
         assert told.summary["bodies"][0]["motion"][0] == pytest.approx(-0.005, rel=1e-6)
 
 
-@pytest.mark.long
 def test_turned_body(go):
     """A body that is turned as a whole turns by the angle that is prescribed, and moves as its middle does."""
     for order in (1, 4):
@@ -117,7 +115,7 @@ def test_ring(go):
 
 
 @pytest.mark.parametrize(
-    "line", short_of(["force head 0 0 -2"], ["traction head 0 0 5", "weight bar 0 1 2", "move head 0 -1 0"])
+    "line", cases_of(["force head 0 0 -2"], ["traction head 0 0 5", "weight bar 0 1 2", "move head 0 -1 0"])
 )
 def test_too_many_numbers(go, line):
     """More numbers than components shall be refused as such, not as a vector that is 0."""
@@ -134,7 +132,6 @@ def test_layer(go):
     assert "overflow" not in go(bar(1, 1), case.format("-1.6")).stdout
 
 
-@pytest.mark.long
 def test_ends(go):
     """Where a group ends at a corner of the body nothing is cut off; where the body goes on smoothly it is."""
     case = "body bar E 1000 nu 0.3\nobstacle sole plane 0 0 0 1\nmove head 0 -0.01\n"
@@ -159,10 +156,9 @@ def halves(split):
     return sketch.text()
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     "rubs, support",
-    short_of([("", "symmetry side"), (" friction 0.3", "move side 0.01 0")], [(" friction 0.3", "symmetry side")]),
+    cases_of([("", "symmetry side"), (" friction 0.3", "move side 0.01 0")], [(" friction 0.3", "symmetry side")]),
 )
 def test_neighbours(go, tmp_path, rubs, support):
     """Two contacts of neighbours on one surface carry what one contact does, each its own share of the node between."""
@@ -179,7 +175,6 @@ def test_neighbours(go, tmp_path, rubs, support):
     assert len(pressures) == 2 and pressures[0] == pytest.approx(pressures[1], rel=1e-4) and pressures[0] > 0.3
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("other", ["0 0 0 1 friction 0.2", "0 -0.001 0 1 friction 0.3"])
 def test_neighbours_unlike(go, other):
     """With friction, and unlike at the node that they share, they are refused: how forces part is not known."""

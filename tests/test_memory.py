@@ -1,6 +1,5 @@
 """Little memory: an answer, or one line and a code; never a number beside it."""
 
-import functools
 import json
 import re
 import resource
@@ -8,7 +7,8 @@ import subprocess
 import time
 
 import pytest
-from freefem import MULTIGRID, ROOT, data, environment, flag_text, script, short_of, snippet
+from accounts import shared
+from freefem import MULTIGRID, ROOT, cases_of, data, environment, flag_text, script, snippet
 
 EXAMPLES = ROOT / "edp" / "examples"
 built = MULTIGRID.exists()
@@ -55,7 +55,7 @@ CASES = {
 }
 
 
-@functools.cache
+@shared
 def unlimited(name, base):
     folder = base / name.replace(" ", "")
     code, output, seconds = within(None, *CASES[name], folder=folder)
@@ -63,7 +63,6 @@ def unlimited(name, base):
     return json.loads((folder / "summary.json").read_text()), seconds
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("name", CASES)
 def test_answer_or_one_line(name, tmp_path_factory, capsys):
     """300 MB to 3 GB, one thread of BLAS and two: the same answer in ten times the time at most, or a refusal or a
@@ -100,7 +99,6 @@ def test_answer_or_one_line(name, tmp_path_factory, capsys):
             print(f"\n{name}, {free['ndof']} dofs, {threads} threads, {seconds:.1f} s: {', '.join(row)}")
 
 
-@pytest.mark.long
 def test_refused_before_it_is_taken(tmp_path):
     """One line that says what is needed, what is there and what would fit; it does."""
     code, output, _ = within(430, *SPACE[:-1], 0.36, folder=tmp_path / "out")
@@ -113,7 +111,7 @@ def test_refused_before_it_is_taken(tmp_path):
     assert code == 0, output
 
 
-@pytest.mark.parametrize("megabytes, h, order", short_of([(275, 0.1, 3)], [(265, 0.06, 4), (280, 0.05, 4)]))
+@pytest.mark.parametrize("megabytes, h, order", cases_of([(275, 0.1, 3)], [(265, 0.06, 4), (280, 0.05, 4)]))
 def test_plane_numbered_within_memory(tmp_path, megabytes, h, order):
     """FreeFEM crashes where the numbering of the plane's nodes does not fit: one line before that."""
     flags = *CASES["plane, default"], "-h", h, "-order", order

@@ -1,11 +1,11 @@
 """meshes/*.geo: conforming, right in area or volume, grouped as the scripts expect."""
 
-import functools
 from collections import Counter
 from itertools import combinations
 
 import numpy as np
 import pytest
+from accounts import shared
 from freefem import ROOT, execute, run
 
 TETRAHEDRON, TRIANGLE, EDGE = 4, 2, 1
@@ -52,7 +52,7 @@ def read(text):
     return names, nodes, elements
 
 
-@functools.cache
+@shared
 def made(folder, name, dimension, *numbers):
     """gmsh's mesh of meshes/`name`.geo with these numbers of its own."""
     flags = [
@@ -70,11 +70,7 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("mesh")
 
 
-# between the whole block and its quarter
-BETWEEN = pytest.param("block-3d half", marks=pytest.mark.long)
-
-
-@pytest.fixture(scope="module", params=[BETWEEN if name in BETWEEN.values else name for name in MESHES])
+@pytest.fixture(scope="module", params=list(MESHES))
 def mesh(request, folder):
     """(bodies' sizes, names, nodes, elements of the bodies, elements of their boundary, dimension)."""
     numbers, sizes = MESHES[request.param]
@@ -153,7 +149,6 @@ def test_contact_line_with_sharp_ends(folder):
             assert np.abs(x).min() < 1e-13
 
 
-@pytest.mark.long
 def test_singular_places_pay():
     """With P2 the force's error shall be a tenth of that without, for at most 15 % more unknowns."""
     flags = ["-order", 2, "-h", 0.25]

@@ -6,7 +6,7 @@ The reference is the law's own state on the same bodies; the second opinion the 
 import numpy as np
 import pytest
 from condensed import Problem, bounds, power
-from freefem import data, named, run, scene_text, short_of, snippet, told
+from freefem import cases_of, data, named, run, scene_text, snippet, told
 
 DISC = "disc-on-block"
 PAPER = ["-method", "paper", "-h", 0.5]
@@ -44,7 +44,7 @@ def norm_on(problem, here, overlaps):
 
 
 @pytest.mark.parametrize("bodies", BODIES)
-@pytest.mark.parametrize("count", [pytest.param(25, id="few"), pytest.param(400, id="many", marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [pytest.param(25, id="few"), pytest.param(400, id="many")])
 def test_no_bound_is_below_the_error(tmp_path, bodies, count):
     """Random obstacles, laws, thresholds: forces shall be off by no more than each bound, and so shall their sum.
 
@@ -91,7 +91,7 @@ BY_LAW = [([], 0.9), (["-m", 10], 0.1), (["-law", "exponential"], 0.9)]
 MORE = [([], 0.1), (["-T0", "d0"], 0.3), (["-m", 10], 0.9), (["-kappa", 1e6], 0.1), (["-law", "exponential"], 0.1)]
 
 
-@pytest.mark.parametrize("law, eps", short_of(BY_LAW, MORE), ids=named)
+@pytest.mark.parametrize("law, eps", cases_of(BY_LAW, MORE), ids=named)
 def test_a_wall_is_within_its_bound(law, eps):
     """What a sequence of walls that stops early lacks in the force shall be below the part "model" of the error."""
     wall = run(DISC, *PAPER, *law, "-tol", 1e-9, "-eps", eps, "-estimate", 1)
@@ -115,7 +115,7 @@ def test_under_a_prescribed_force_the_approach_found_counts(model):
 
 
 @pytest.mark.parametrize(
-    "model, asked, counts", short_of([("wall", 0.12, (2, 4))], [("wall", 0.29, (1, 4)), ("linear", 0.29, (1, 3))])
+    "model, asked, counts", cases_of([("wall", 0.12, (2, 4))], [("wall", 0.29, (1, 4)), ("linear", 0.29, (1, 3))])
 )
 def test_the_bound_ends_the_loop_where_an_accuracy_is_asked(model, asked, counts):
     """The loop shall end at the first model whose bound is a tenth of the accuracy, by eq. (7) for another goal."""

@@ -219,8 +219,8 @@ MASTER = data("modules/master.edp")
     [
         (1, "[P1, P1]", 1.7, "smooth"),
         (2, "[P2, P2]", 1.7, "facets"),
-        pytest.param(2, "[P2, P2]", 0.5, "smooth", marks=pytest.mark.long),
-        pytest.param(4, "[P4, P4]", 1.7, "facets", marks=pytest.mark.long),
+        (2, "[P2, P2]", 0.5, "smooth"),
+        (4, "[P4, P4]", 1.7, "facets"),
         (4, "[P4, P4]", 1.7, "smooth"),
     ],
 )
@@ -247,7 +247,7 @@ COVERED = data("modules/covered.edp")
 SHORT, LONG = (0.62, 1), (0.35, 0.56, 0.74, 0.8)
 
 
-@pytest.mark.parametrize("share", [*SHORT, *(pytest.param(share, marks=pytest.mark.long) for share in LONG)])
+@pytest.mark.parametrize("share", [*SHORT, *LONG])
 @pytest.mark.parametrize("order, element", [(1, "[P1, P1]"), (2, "[P2, P2]"), (3, "[P3, P3]"), (4, "[P4, P4]")])
 def test_partly_covered(tmp_path, share, order, element):
     """Whatever part the master covers, no weight shall be negative, and together they give the integrals."""
@@ -299,7 +299,7 @@ TANGENT = data("modules/tangent.edp")
 
 TANGENTS = [("disc-on-block", 4), ("meshed-disc", 2), ("confined-block", 1)]
 OTHERS = sorted({*product(("disc-on-block", "meshed-disc", "confined-block"), (1, 2, 3, 4))} - {*TANGENTS})
-TANGENTS += [pytest.param(*case, marks=pytest.mark.long) for case in OTHERS]
+TANGENTS += [case for case in OTHERS]
 
 
 @pytest.mark.parametrize("scene, order", TANGENTS)

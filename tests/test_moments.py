@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 import pytest
-from freefem import part, short_of
+from freefem import cases_of, part
 from test_parts import UNTURNED, Mesh, block, cube, read, turn_in_space
 
 RING = """
@@ -78,7 +78,7 @@ def test_hub_slips(tmp_path):
     assert "  moments\n    bore seat " in run.stdout and "\n    clamp rim " not in run.stdout
 
 
-@pytest.mark.parametrize("how", short_of([" rigid"], ["", " rigid", " about 0 0"]))
+@pytest.mark.parametrize("how", cases_of([" rigid"], ["", " rigid", " about 0 0"]))
 def test_hub_under_a_moment(tmp_path, how):
     """The moment that a shaft is loaded with goes through contact and clamp, whatever point it is told about."""
     run = part(tmp_path, RING + RINGS, HUB.format(0.2) + f"moment core 3000{how}\nabout P 1 2\n")
@@ -94,7 +94,6 @@ def test_hub_under_a_moment(tmp_path, how):
     assert "  moments about P (1, 2)\n    bore seat " in run.stdout
 
 
-@pytest.mark.long
 def test_loads_before_the_solution(tmp_path):
     """`-check 1` prints friction, and each force, moment, spin and spring with its numbers and what it leaves free."""
     dense = FIT.replace("nu 0.3", "nu 0.3 density 8e-9") + "clamp rim\ncontact bore seat friction 0.2\n"
@@ -114,7 +113,7 @@ def test_loads_before_the_solution(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "how", short_of(["rigid at 0.2 4", "free at 0.2 4"], ["free", "rigid", "free at 0.2 4", "rigid at 0.2 4"])
+    "how", cases_of(["rigid at 0.2 4", "free at 0.2 4"], ["free", "rigid", "free at 0.2 4", "rigid at 0.2 4"])
 )
 def test_lever(tmp_path, how):
     """A post under a force that nothing guides: contact and clamp have its force and its moment about any point."""
@@ -149,8 +148,8 @@ def stacked(force, *, spring, side='symmetry "u left"\n', more="", contact=""):
     return mesh, f'{case}symmetry bottom\nsymmetry left\n{side}spring "u {spring}" 300 400\n{more}{force}\n'
 
 
-@pytest.mark.parametrize("spring", short_of(["top"], ["top", "right"]))
-@pytest.mark.parametrize("along", short_of(["0 -2"], ["0 -2", "0.5 -2"]))
+@pytest.mark.parametrize("spring", cases_of(["top"], ["top", "right"]))
+@pytest.mark.parametrize("along", cases_of(["0 -2"], ["0 -2", "0.5 -2"]))
 def test_guide_beside_a_spring(tmp_path, spring, along):
     """A spring on the guided group, or at its corner, carries its own force; the guide carries none along the load."""
     case = stacked(f'force "u top" {along}', spring=spring, more="about A 0 0\n")
@@ -170,7 +169,6 @@ def test_guide_beside_a_spring(tmp_path, spring, along):
         assert not entry["carries"] and "guide of" not in run.stdout
 
 
-@pytest.mark.long
 def test_move_beside_a_spring(tmp_path):
     """A moved side has a corner in common with a spring: each carries its own force, in balance with the contact."""
     run = part(tmp_path, *stacked('move "u top" 0 -0.002', spring="right", more="about A 0 0\n"))
@@ -182,7 +180,7 @@ def test_move_beside_a_spring(tmp_path):
     assert run.summary["prescribed"][0]["force"] == pytest.approx(-supports["move u top"][1], rel=1e-6)
 
 
-@pytest.mark.parametrize("about", short_of(["0 0"], ["0 0", "0.5 3"]))
+@pytest.mark.parametrize("about", cases_of(["0 0"], ["0 0", "0.5 3"]))
 def test_moments_of_a_half(tmp_path, about):
     """Of a mirrored half all moments are those of the half: a uniform pressure, 2 wide, acts at 1."""
     load = 'pressure "u top" 1'
@@ -201,7 +199,6 @@ def test_moments_of_a_half(tmp_path, about):
     assert summary["masterMoment"] == pytest.approx(-force, rel=1e-5)
 
 
-@pytest.mark.long
 def test_rigid_like_others(tmp_path):
     """In the middle of a half a rigid force does as a guided one, on a stiff post as a free one: in errors too."""
     half = f'{POST}symmetry "post left"\nforce head 0 -4'.replace("friction 0.5", "")
@@ -242,8 +239,7 @@ def boxes(matrix):
     return cube(mesh, size=(1.5, 1.2, 2), cells=(2, 2, 2), at=(0.3, 0.4, 1), prefix="post ", name="post").text(matrix)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("kind", short_of(["rigid"], PUSHED))
+@pytest.mark.parametrize("kind", cases_of(["rigid"], PUSHED))
 def test_any_axis(tmp_path, kind):
     """In space, turned at random: contact and clamp have the moment of the loads, the turned problem the turned one."""
     force, place, axis, about = map(np.array, ((0.2, -0.1, -3), (1, 1.1, 3.4), (0.1, 1, -0.4), (0.5, 0.2, 1)))
@@ -320,7 +316,6 @@ def with_errors(run):
     return found
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("kind", WITHIN)
 def test_errors_hold(tmp_path, kind):
     """The errors of a coarse mesh contain the values of one three times as fine."""
@@ -386,8 +381,7 @@ def fit(state, young=210e3, nu=0.3):
     return lame, spun(10, 10, 20, young, nu) - spun(10, 5, 10, young, nu)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("state", short_of(["stress"], ["stress", "strain"]))
+@pytest.mark.parametrize("state", cases_of(["stress"], ["stress", "strain"]))
 def test_shrink_fit_that_loosens(tmp_path, state):
     """A shrink fit loses its pressure with the square of the speed, all of it at one: closed forms of Lame."""
     lame, opened = fit(state)
@@ -403,7 +397,7 @@ def test_shrink_fit_that_loosens(tmp_path, state):
         assert abs(normal - true) <= told["error"]
 
 
-@pytest.mark.parametrize("inner", short_of([0], [0, 5]))
+@pytest.mark.parametrize("inner", cases_of([0], [0, 5]))
 def test_spinning_disc(tmp_path, inner):
     """The rim of a rotating disc, or ring, about its axis, held along it: the closed form of plane strain."""
     rho, omega, young, nu = 8e-9, 2000, 210e3 / (1 - 0.3**2), 0.3 / (1 - 0.3)
@@ -437,7 +431,7 @@ Physical Curve("low") = {11, 31}; Physical Curve("left") = {12, 32};
 HIGH = [("stress", 4), ("axisymmetric", 4), ("axisymmetric", 3)]
 
 
-@pytest.mark.parametrize(("state", "order"), short_of(HIGH[:2], HIGH))
+@pytest.mark.parametrize(("state", "order"), cases_of(HIGH[:2], HIGH))
 def test_spin_of_curved_elements_at_high_orders(tmp_path, state, order):
     """A quarter of two rings: their pressure and what the symmetries carry. Of two hollow spheres: as with order 2.
 
@@ -463,7 +457,7 @@ def test_spin_of_curved_elements_at_high_orders(tmp_path, state, order):
         assert contact["normalForce"] - by[1] == pytest.approx(by[2] - by[0], rel=1e-3) and by[2] < 0.99 * by[0]
 
 
-@pytest.mark.parametrize("order", short_of([1], [1, 2]))
+@pytest.mark.parametrize("order", cases_of([1], [1, 2]))
 def test_spin_in_space(tmp_path, order):
     """A clamped box that spins about any axis: the clamp carries its mass times the middle's distance."""
     axis, about = np.array([0.3, -1, 2]), np.array([5, 1, -2])
@@ -478,7 +472,6 @@ def test_spin_in_space(tmp_path, order):
         assert matrix.T @ run.summary["supports"][0]["force"] == pytest.approx(-pull, rel=1e-9)
 
 
-@pytest.mark.long
 def test_spin_of_a_round_body(tmp_path):
     """A pin on the side of the axis, on elements that follow its surface: its mass times the distance of its middle."""
     geo = 'SetFactory("OpenCASCADE");\nCylinder(1) = {0.5, 0, 0, 0, 0, 3, 1};\nPhysical Volume("pin") = {1};\n'
@@ -491,7 +484,6 @@ def test_spin_of_a_round_body(tmp_path):
     assert force[0] == pytest.approx(-9 * 0.5 * force[2], rel=1e-3)
 
 
-@pytest.mark.long
 def test_moment_in_phases(tmp_path):
     """A free moment that is reached in phases: in stick, the energy is half the moment times its angle."""
     phases = "leg 1\nmoment core 0\nleg 2\nmoment core 5000\nleg 2\nmoment core -5000\n"

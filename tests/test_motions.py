@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import data, short_of, snippet, told
+from freefem import cases_of, data, snippet, told
 
 BEGIN = data("motions/begin.edp")
 
@@ -88,7 +88,7 @@ PLAIN = ["-start", "none", "-preconditioner", "diagonal"]
 
 @pytest.mark.parametrize(
     "flags, motions, stiff",
-    short_of([([], 0, 0), ([], 4, 1), (PLAIN, 2, 1)], [([], 2, 0), (PLAIN, 1, 0), (PLAIN, 4, 0)]),
+    cases_of([([], 0, 0), ([], 4, 1), (PLAIN, 2, 1)], [([], 2, 0), (PLAIN, 1, 0), (PLAIN, 4, 0)]),
 )
 def test_hard_contact(tmp_path, flags, motions, stiff):
     """Forces, overlaps and motions shall fulfil the conditions of hard contact and balance the loads."""
@@ -137,7 +137,7 @@ def test_load_away_from_the_contact(tmp_path):
     assert said.startswith("motion 0: a load works on it, but no contact can push")
 
 
-@pytest.mark.parametrize("seed", [7, pytest.param(8, marks=pytest.mark.long)])
+@pytest.mark.parametrize("seed", [7, 8])
 def test_kernel_saves_products(tmp_path, seed):
     """The kernel of each contact shall need half the diagonal's products, with motions too."""
     problem = Problem(seed, sizes=(60, 60), motions=4)

@@ -190,7 +190,6 @@ class TestFrames:
 
 
 class TestMovie:
-    @pytest.mark.long
     def test_the_player(self, film):
         """The page shall hold every frame, ask nothing of the network, and tell in words what it shows."""
         page, frames = (film / "movie.html").read_text(), read_run(film).summary["newton"] + 1
@@ -199,7 +198,6 @@ class TestMovie:
         check_page(page)
         assert player.extract(page).count("<script") == 2
 
-    @pytest.mark.long
     def test_the_gif(self, film):
         from PIL import Image
 
@@ -207,7 +205,6 @@ class TestMovie:
         with Image.open(film / "movie.gif") as picture:
             assert picture.n_frames >= frames
 
-    @pytest.mark.long
     def test_speed_and_single_frames(self, film, tmp_path, capsys):
         """Twice the speed, half the time; a frame alone as SVG, the same bytes again; no such frame is refused."""
         from PIL import Image
@@ -226,7 +223,6 @@ class TestMovie:
         assert main(["movie", "--frame", "99", "--out", str(tmp_path), str(film)]) == 2
         assert "allowed: 1 to" in capsys.readouterr().err
 
-    @pytest.mark.long
     def test_make_movie(self, tmp_path):
         """`make movie` shall make the run and its movie."""
         package = tree(tmp_path / "package")
@@ -303,7 +299,6 @@ def test_hostile_files_of_a_tree(tmp_path, capsys, name, content, words):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.long
 def test_senseless_parameters(block, capsys, tmp_path, monkeypatch):
     """Numbers that no run would write shall be refused or drawn, never end in a traceback."""
     monkeypatch.setattr(doctor, "versions", dict)
@@ -408,7 +403,7 @@ class TestReport:
         "scene, flags, source, names",
         [
             ("hertz-line", [], "Hertz", ["half-width", "greatest pressure"]),
-            pytest.param("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"], marks=pytest.mark.long),
+            ("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"]),
             ("flat-punch", PUNCH, "flat punch", ["pressure in the middle"]),
             ("wavy", [*WAVY, "-force", 31.41592654], "Westergaard", ["greatest pressure"]),
         ],
@@ -432,7 +427,6 @@ class TestReport:
 
 @pytest.mark.skipif(browser.CHROMIUM is None, reason="no chromium, chromium-browser or google-chrome on the PATH")
 class TestInABrowser:
-    @pytest.mark.long
     def test_the_report(self, results, film, tmp_path):
         """No error, no request, every picture loaded; the player plays."""
         with browser.Browser(tmp_path) as chromium:
@@ -491,7 +485,6 @@ def test_compare_prints_the_differences(paper, brief, tmp_path, capsys):
     assert len({len(line.rstrip()) for line in lines if line.startswith(("force", "pressureMax"))}) == 1
 
 
-@pytest.mark.long
 def test_every_figure_at_once(tmp_path, capsys):
     """`figures` shall draw what can be drawn, and list what is missing with what it needs."""
     out = tmp_path / "figures"
@@ -527,7 +520,6 @@ class TestDoctor:
         assert done.stderr == ""
         return done.returncode, done.stdout
 
-    @pytest.mark.long
     def test_everything_is_there(self):
         code, stdout = self.examine(ROOT)
         assert code == 0, stdout
@@ -554,7 +546,6 @@ class TestDoctor:
         assert code == 1 and re.search(r"^MISSING +plugin gmsh +cannot be loaded", stdout, re.M)
 
 
-@pytest.mark.long
 def test_pictures_of_a_run(tmp_path, capsys):
     """A run's own pictures shall be shown with it, where they have been drawn; captions lean on no other."""
     folder = tmp_path / "results/disc"

@@ -77,15 +77,9 @@ CASES = [
     ["patch-test-3d"],
     ["patch-test-3d", "-order", 2, "-lower", 3, "-upper", 4],
 ]
-QUICK = {(8, 2)}
-RUNS = [
-    pytest.param(CASES[k], ranks, marks=[] if (k, ranks) in QUICK else [pytest.mark.long])
-    for k in range(len(CASES))
-    for ranks in (1, 2, 3)
-]
+RUNS = [(case, ranks) for case in CASES for ranks in (1, 2, 3)]
 
 
-@pytest.mark.long
 @built
 @pytest.mark.parametrize("case, ranks", RUNS)
 def test_same_answer(case, ranks, tmp_path):
@@ -117,7 +111,6 @@ sys.exit(code)
 
 
 @built
-@pytest.mark.long
 def test_products_are_freed(tmp_path):
     """Two ranks: what PETSc's products of matrices keep is freed; the peak falls, no digit changes, PETSc is silent."""
     peaks, found = [], []
@@ -179,10 +172,7 @@ LEAN = [
 
 
 @built
-@pytest.mark.parametrize(
-    "free, options, code, told, lean",
-    [pytest.param(*row, marks=[] if row[0] == 7.3e6 else [pytest.mark.long]) for row in LEAN],
-)
+@pytest.mark.parametrize("free, options, code, told, lean", LEAN)
 def test_lean_levels(free, options, code, told, lean, tmp_path):
     """Two ranks: levels take less memory where the usual way does not fit, and the run says so; an option decides."""
     package = tree(tmp_path / "package")
@@ -206,7 +196,6 @@ def test_lean_levels(free, options, code, told, lean, tmp_path):
     )
 
 
-@pytest.mark.long
 @built
 def test_load_series(tmp_path):
     """Two ranks write one series, whose last row is the direct engine's."""
@@ -222,7 +211,6 @@ def test_load_series(tmp_path):
         assert other[:6] == pytest.approx(one[:6], rel=1e-5)
 
 
-@pytest.mark.long
 @built
 def test_new_meshes(tmp_path):
     """An accuracy asked for: a new matrix for each mesh, and as good an answer as the direct engine's."""
@@ -242,13 +230,9 @@ REFUSED = [
     (1, "adhesive-sphere-3d", ["-solver", "multigrid"], "law that falls"),
     (2, "sphere-on-block", ["-accuracy", 0.01], "-accuracy"),
     (1, "sphere-on-block", ["-solver", "multigrid", "-order", 4], "-order"),
-    pytest.param(2, "disc-on-block", ["-order", 4], "scenes in space", marks=pytest.mark.long),
-    pytest.param(
-        2, "sphere-on-block", ["-solver", "direct"], "-solver direct runs on one process", marks=pytest.mark.long
-    ),
-    pytest.param(
-        2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa", marks=pytest.mark.long
-    ),
+    (2, "disc-on-block", ["-order", 4], "scenes in space"),
+    (2, "sphere-on-block", ["-solver", "direct"], "-solver direct runs on one process"),
+    (2, "sphere-on-block", ["-kapa", 1, "-solver", "multigrid"], "did you mean -kappa"),
 ]
 
 
@@ -263,7 +247,6 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.long
 @built
 def test_words_reach_several_processes_as_they_are(tmp_path):
     """No shell shall read the flags of a run on several processes again, whose engine needs no flag."""
@@ -289,7 +272,6 @@ def test_plugin_in_a_cache(tmp_path):
     assert code == 0, output
 
 
-@pytest.mark.long
 @built
 @pytest.mark.parametrize(
     "program, flags, allowed",
@@ -323,10 +305,7 @@ PARTS = [
 
 
 @built
-@pytest.mark.parametrize(
-    "case, ways, flags, ranks",
-    [pytest.param(*PARTS[k], marks=[] if k == 1 else [pytest.mark.long]) for k in range(len(PARTS))],
-)
+@pytest.mark.parametrize("case, ways, flags, ranks", PARTS)
 def test_case(case, ways, flags, ranks, tmp_path):
     """Two boxes, turned: the direct engine's pressures, forces and motions, on any number of processes."""
     matrix = turn_in_space(1)
@@ -381,7 +360,6 @@ def test_case_that_turns_is_refused(tmp_path):
 
 
 @built
-@pytest.mark.long
 def test_engine_chosen_by_size(tmp_path):
     """Beyond 50 000 unknowns of P1 the engine is multigrid, said in one line."""
     flags = ["-order", 1, "-vtu", 0, "-estimate", 0, "-tol", 1e-3, "-verbose", 1, "-out", tmp_path / "out"]
@@ -441,7 +419,6 @@ def test_tie(tmp_path):
     assert multigrid["pressureMax"] == pytest.approx(direct["pressureMax"], rel=1e-8)
 
 
-@pytest.mark.long
 @built
 def test_killed_rank(tmp_path):
     """A rank that dies ends the run, with mpiexec's word; the next run into the same folder finds its way.

@@ -113,7 +113,6 @@ def test_first_cell(books, tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("lab", LABS)
-@pytest.mark.long
 def test_runs(lab, tmp_path):
     """A notebook shall run in a folder of the package: no error, and its commands' pictures in it."""
     nbformat, nbclient = (pytest.importorskip(name) for name in ("nbformat", "nbclient"))

@@ -8,25 +8,15 @@ import campaign
 import pytest
 import stability
 import tables
-from freefem import data, short_of
+from freefem import cases_of, data
 from page_numbers import PAGES, ROOT, differing, like, renewed, run, units
 
 TEXTS = {path: path.read_text() for path in PAGES}
 OF_ALL = [(path, unit) for path, text in TEXTS.items() for unit in units(text)]
-QUICK = ("labs/2-newton", "labs/3-threshold", "labs/4-own-law", "labs/6-sphere", "labs/10-friction")
+NAMES = [f"{path.relative_to(ROOT)} {unit.command.split(' ', 1)[-1]}" for path, unit in OF_ALL]
 
 
-def cases():
-    """A parameter a run; all but the first of some pages are long."""
-    seen = set()
-    for path, unit in OF_ALL:
-        short = any(folder in str(path) for folder in QUICK) and path not in seen
-        seen.add(path)
-        name = f"{path.relative_to(ROOT)} {unit.command.split(' ', 1)[-1]}"
-        yield pytest.param(path, unit, id=name, marks=[] if short else [pytest.mark.long])
-
-
-@pytest.mark.parametrize("path, unit", list(cases()))
+@pytest.mark.parametrize("path, unit", OF_ALL, ids=NAMES)
 def test_page(path, unit):
     """`make numbers` would change nothing."""
     assert [f"{old} is now {new}" for _, _, old, new in differing(TEXTS[path], unit)] == []
@@ -85,8 +75,7 @@ def as_if(item, further):
     return {name: "" if value is None else str(value) for name, value in {**row, **dict.fromkeys(further, 7)}.items()}
 
 
-@pytest.mark.parametrize("name", short_of(["paper", "newton-map"], SAMPLED))
-@pytest.mark.long
+@pytest.mark.parametrize("name", cases_of(["paper", "newton-map"], SAMPLED))
 def test_sample_of_a_campaign(name, tmp_path):
     """Six of the runs that a table is made of, three of a short test, shall give the cells that stand there."""
     file, made = tables.TABLES[name]

@@ -5,11 +5,10 @@ import os
 import freefem
 import numpy as np
 import pytest
-from freefem import ROOT, execute, run, run_in, script, short_of
+from freefem import ROOT, cases_of, execute, run, run_in, script
 
 PUNCH = ROOT / "edp/examples/punch"
 LAW = "law power kappa 1e3 m 3 d0 -0.05"
-LONG = pytest.mark.long
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +45,6 @@ def spoilt(mesh, folder, how):
     return folder / "spoilt.msh"
 
 
-@pytest.mark.long
 def test_own_mesh(mesh, tmp_path):
     """A mesh of the user's shall be solved, by two methods to one force, near the example's finer one's."""
     ours, paper = (
@@ -78,7 +76,7 @@ def shrink(lines, size):
 # ---------------------------------------------------------------- pairing along the normals
 
 
-@pytest.mark.parametrize("kappa", [1e-2, 1e6, 1e30, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 1e3, 1e12))])
+@pytest.mark.parametrize("kappa", [1e-2, 1e6, 1e30, *(k for k in (1, 1e3, 1e12))])
 def test_rounds(kappa):
     """The force of two meshed bodies shall stand still within 7 rounds and 25 linearisations, whatever kappa."""
     done = run("meshed-disc", "-distance", "exact", "-points", "segment", "-kappa", kappa, "-h", 0.5, "-tol", 1e-8)
@@ -88,7 +86,6 @@ def test_rounds(kappa):
     assert abs(done.summary["masterForceX"]) < 1e-3 * done.force
 
 
-@pytest.mark.long
 def test_small_loads_need_no_refreshing():
     """For a load that hardly deforms or tilts anything the true distance shall be the linear one."""
     flags = ["-force", 0, "-gap", 0.01, "-u0", 0.0105, "-reach", 0.3, "-h", 0.03, "-tol", 1e-9]
@@ -99,7 +96,7 @@ def test_small_loads_need_no_refreshing():
 
 @pytest.mark.parametrize(
     "scene, u0",
-    [("two-cylinders", 12), ("disc-on-block", 50), pytest.param("two-cylinders", 100, marks=pytest.mark.long)],
+    [("two-cylinders", 12), ("disc-on-block", 50), ("two-cylinders", 100)],
 )
 def test_contact_that_gets_lost(scene, u0, tmp_path):
     """A load too large for the true distance shall end with code 20 and say so, not with a contact that is no more."""
@@ -115,7 +112,7 @@ def test_contact_that_gets_lost(scene, u0, tmp_path):
     "law, flags, further",
     [
         ("", [], []),
-        pytest.param("law exponential p0 0.02 beta 50 d0 -0.05", [], [], marks=pytest.mark.long),
+        ("law exponential p0 0.02 beta 50 d0 -0.05", [], []),
         ("", ["-points", "nodal"], ["-points", "nodal", "-start", "none"]),
     ],
     ids=["default", "exponential", "nodal"],
@@ -140,9 +137,7 @@ def opened(folder, mesh, *flags, **given):
     return done
 
 
-@pytest.mark.parametrize(
-    "method", ["paper", *(pytest.param(name, marks=pytest.mark.long) for name in ("xnewton", "newton", "incremental"))]
-)
+@pytest.mark.parametrize("method", ["paper", *(name for name in ("xnewton", "newton", "incremental"))])
 def test_points_without_a_master_by_every_method(mesh, tmp_path, method):
     """The same, whichever way it is solved."""
     pushed = opened(tmp_path / "pushed", mesh, u0=1e6)
@@ -174,7 +169,7 @@ NODAL = ["-points", "nodal"]
 OTHERS = [("contact", lambda x: x < 0.5, NODAL), *(("master", lambda x: abs(x) < 1, more) for more in ([], NODAL))]
 
 
-@pytest.mark.parametrize("curve, keep, points", short_of([("contact", lambda x: x > 0.5, [])], OTHERS))
+@pytest.mark.parametrize("curve, keep, points", cases_of([("contact", lambda x: x > 0.5, [])], OTHERS))
 def test_contact_cut_off(mesh, tmp_path, curve, keep, points):
     """Contact that reaches the end of a curve that stops in the middle of the body's side shall be said."""
     short = spoilt(mesh, tmp_path, narrow(curve, keep))
@@ -192,12 +187,12 @@ OVER = ["-reach", 2, "-u0", 1.5, "-h", 0.5]
     "scene, flags, said",
     [
         ("disc-on-block", OVER, True),
-        pytest.param("disc-on-block", [*OVER, "-geometry", "axisymmetric"], True, marks=LONG),
+        ("disc-on-block", [*OVER, "-geometry", "axisymmetric"], True),
         ("disc-on-block", ["-geometry", "axisymmetric", "-h", 0.5], False),  # the axis is no end
         ("two-cylinders", ["-reach", 0.5, "-h", 0.2], True),
         ("confined-block", ["-law", "exponential"], False),
         ("rough", ["-force", 200, "-h", 0.2, "-modes", 20], False),
-        pytest.param("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False, marks=LONG),
+        ("wavy", ["-u0", 3, "-geometry", "axisymmetric"], False),
         ("sphere-on-plane", ["-patch", 0.8, "-h", 0.2], True),
     ],
 )
@@ -211,7 +206,6 @@ def test_ends(scene, flags, said):
     assert bool(done.summary["warnings"]) is said
 
 
-@pytest.mark.long
 def test_no_force_before_touch():
     """Curved bodies a hair apart shall not press: the gap is that of the circles, not its mean over an element."""
     for order, u0, touch in ((1, 0.09999, False), (2, 0.09999, False), (1, 0.1001, True)):

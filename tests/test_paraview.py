@@ -71,7 +71,7 @@ class Grid:
         "axis",
         "bodies",
         "space P2",
-        *(pytest.param(name, marks=pytest.mark.long) for name in ("plane", "space")),
+        *(name for name in ("plane", "space")),
     ],
 )
 def made(request, tmp_path_factory):

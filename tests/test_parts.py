@@ -489,7 +489,7 @@ def test_turned_contact(tmp_path):
 HELD = 'clamp bottom\nsymmetry "upper left"\nforce "upper top" 0 -5\nobstacle right plane 3.2 0 -1 0 move {} 0\n'
 
 
-@pytest.mark.parametrize("flags", [(), pytest.param(("-distance", "exact"), marks=pytest.mark.long)])
+@pytest.mark.parametrize("flags", [(), ("-distance", "exact")])
 def test_held_point(tmp_path, flags):
     """A wall against a clamped block: its clamped corner is refused, left out, or carries what the law says."""
     mesh, layer = stack(), "obstacle left plane -0.2 0 1 0 move 0.25 0 law power kappa 100 m 2 d0 -0.01\n"
@@ -523,7 +523,7 @@ def test_held_on_both_sides(tmp_path):
     "case, gap, flags",
     [
         ('move "upper top" 0 0.1', 0.1, ()),
-        pytest.param('symmetry "upper left"', 0, ("-distance", "exact"), marks=pytest.mark.long),
+        ('symmetry "upper left"', 0, ("-distance", "exact")),
         ('move "upper top" -1 200', 200, ("-distance", "exact")),
     ],
 )
@@ -543,7 +543,6 @@ def test_gap_left_of_an_interference(tmp_path):
     assert "nothing presses on anything: the least gap left is 0.0043: the loads part bodies" in run.stdout
 
 
-@pytest.mark.long
 def test_large_rotation(tmp_path):
     """A body that turns by so much that linearised rotations show: said, by methods that know no others."""
     turned = "rotate bottom {} 0 {}\nobstacle top plane 0 9 0 -1\n"
@@ -633,7 +632,6 @@ def boxes(matrix=UNTURNED):
     return cube(mesh, cells=(3, 5, 2), at=(0, 0, 1), prefix="upper ", name="upper").text(matrix)
 
 
-@pytest.mark.long
 def test_turned_contact_in_space(tmp_path):
     """A box that lies free on another one, one side on a symmetry plane, turned: the same counts and pressures."""
     case = STACK + 'clamp bottom\nsymmetry "upper left"\npressure "upper top" 2\n'
@@ -681,7 +679,7 @@ def punch(folder, *flags, exchanged=(), size=0.3, expect=0):
     return solve(folder, geo.replace("size = {0.1,", f"size = {{{size},"), case, *flags, expect=expect)
 
 
-@pytest.mark.parametrize("upper", [pytest.param(False, marks=pytest.mark.long), True])
+@pytest.mark.parametrize("upper", [False, True])
 def test_gap_vertical(tmp_path, upper):
     """A gap along the vertical is the arcs' difference at the same abscissa, also of a slave that faces down."""
     exchanged = [("contact contact master", "contact master contact")] if upper else []
@@ -695,7 +693,6 @@ def test_gap_vertical(tmp_path, upper):
     assert found["gap"] == pytest.approx(14.1 - np.sqrt(64 - x**2) - np.sqrt(1600 - x**2) + 34, abs=2e-6)
 
 
-@pytest.mark.long
 def test_gap_vertical_forces(tmp_path):
     """Vertical gaps have vertical forces, whose work is the energy; normals give nearly the same."""
     step = 1e-3
@@ -711,7 +708,6 @@ def test_gap_vertical_forces(tmp_path):
     assert along_normals.force != pytest.approx(runs[1].force, rel=1e-5)
 
 
-@pytest.mark.long
 def test_gap_vertical_in_space(tmp_path):
     """A box on a box: the flat contact's pressure, by gaps along z and by another method."""
     case = STACK.replace('"upper bottom"', '"upper bottom" gap vertical') + 'clamp bottom\nmove "upper top" 0 0 -0.1\n'
@@ -745,7 +741,6 @@ def test_gap_is_refused(tmp_path, text, words):
     assert words in solve(tmp_path, stack(), case, expect=10).stdout
 
 
-@pytest.mark.long
 def test_states_change_nothing(tmp_path):
     """The pictures of the steps shall leave the steps as they are."""
     plain, drawn = (
@@ -754,7 +749,6 @@ def test_states_change_nothing(tmp_path):
     assert drawn.force == plain.force and drawn.newton == plain.newton
 
 
-@pytest.mark.long
 def test_methods(tmp_path):
     """Every method of a scene's shall find the same pressures; with -steps some load only grazes."""
     flags = ("-order", 1, "-tol", 1e-9)
@@ -841,7 +835,7 @@ def test_space_in_the_plane(tmp_path):
     assert (code, why) == (0, "")
 
 
-@pytest.mark.parametrize("load", ["force 0 -{}", pytest.param("move 0 -{}", marks=pytest.mark.long)])
+@pytest.mark.parametrize("load", ["force 0 -{}", "move 0 -{}"])
 def test_work_of_an_obstacle(tmp_path, load):
     """The energy's slope is the force on an obstacle that is moved, and minus the approach of one that is pushed."""
     mesh = block(Mesh(), cells=(60, 10)).text()

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, run_in, script, short_of
+from freefem import FREEFEM, ROOT, cases_of, execute, run_in, script
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from text_boxes import faults
@@ -34,7 +34,7 @@ RUNS = {
     params=[
         "plane",
         "space",
-        *(pytest.param(name, marks=pytest.mark.long) for name in ("axis", "two bodies", "several contacts")),
+        *(name for name in ("axis", "two bodies", "several contacts")),
     ],
 )
 def made(request, tmp_path_factory):
@@ -66,8 +66,7 @@ def figure(command, folder, scale=1.0, slide=False):
     return drawn
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("command", ["state", pytest.param("stress", marks=pytest.mark.long)])
+@pytest.mark.parametrize("command", ["state", "stress"])
 def test_written(case, command, capsys):
     """A run shall be drawn into its own folder, as PDF and PNG, and the next run shall remove both."""
     assert main([command, str(case)]) == 0
@@ -80,14 +79,13 @@ def test_written(case, command, capsys):
 WAYS = [(state, False)]
 
 
-@pytest.mark.parametrize(("command", "slide"), short_of(WAYS, [(state, True), (stress, False), (stress, True)]))
+@pytest.mark.parametrize(("command", "slide"), cases_of(WAYS, [(state, True), (stress, False), (stress, True)]))
 def test_any_run(made, command, slide):
     """A run of any scene shall be drawn, in a column or on a slide, with no text cut or on another one."""
     assert faults(figure(command, made, slide=slide)) == []
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("slide", [False, pytest.param(True, marks=pytest.mark.long)])
+@pytest.mark.parametrize("slide", [False, True])
 def test_every_contact_from_near(case, slide):
     """Each contact of the roller shall have a panel with the scale of its pressure and where the arc length begins."""
     drawn = figure(stress, case, slide=slide)
@@ -136,7 +134,6 @@ def test_pressure_of_a_case(case):
     assert len(run.summary["units"]) == 2
 
 
-@pytest.mark.long
 def test_pull_is_drawn(tmp_path):
     """Attraction shall be drawn as a pull: the curve goes down to the least pressure, on the axes."""
     adhesive = run_in(ROOT, script("adhesive-sphere"), "-order", 1, out=tmp_path / "run")
@@ -146,7 +143,6 @@ def test_pull_is_drawn(tmp_path):
     assert min(np.min(line.get_ydata()) for line in axes.lines) == least > axes.get_ylim()[0]
 
 
-@pytest.mark.long
 def test_check(case, capsys):
     """What -check 1 has read shall be drawn: each boundary group of the case file with its role."""
     assert main(["check", str(case)]) == 0

@@ -3,15 +3,14 @@
 import numpy as np
 import pytest
 import reference
-from freefem import ROOT, flag_lists, refusal, run_in, short_of
+from freefem import ROOT, cases_of, flag_lists, refusal, run_in
 
 STIFF = ["-order", 4, "-h", 2, "-reach", 6.95, "-corners", 0.05, "-estimate", 0, "-vtu", 0]
 SHORT = [(1e9, 1)]
 EVERY = [(1e9, 0), (1e12, 0), (1e12, 1)]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("kappa, half", short_of(SHORT, EVERY))
+@pytest.mark.parametrize("kappa, half", cases_of(SHORT, EVERY))
 def test_stiff_law(kappa, half, tmp_path):
     """The half-width that is found shall be within 2 %, and the force within 2e-6; without a node there it is not."""
     flags = ["-kappa", kappa, "-half", half, *STIFF]
@@ -41,8 +40,7 @@ OTHERS = flag_lists(
 )
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("flags", short_of(OTHERS[1:2], [OTHERS[0], *OTHERS[2:]]), ids=str)
+@pytest.mark.parametrize("flags", cases_of(OTHERS[1:2], [OTHERS[0], *OTHERS[2:]]), ids=str)
 def test_other_contacts(flags, tmp_path):
     """Off the middle, under a force, of few elements, about an axis: within 3 % of the half-width that results."""
     done = run_in(ROOT, "edp/main.edp", *flags, "-ends", "auto", "-vtu", 0, "-estimate", 0, out=tmp_path / "out")

@@ -167,7 +167,7 @@ def test_what_a_run_is_made_of(tmp_path):
         assert "unknown" in identity()
 
 
-@pytest.mark.parametrize("drawn", [False, pytest.param(True, marks=pytest.mark.long)])
+@pytest.mark.parametrize("drawn", [False, True])
 def test_installed(tmp_path, drawn):
     """make install shall put a starter in place that runs and draws from any folder; make uninstall takes all away."""
     prefix, stage, here = tmp_path / "a prefix", tmp_path / "stage", tmp_path / "here"
@@ -194,7 +194,6 @@ def test_installed(tmp_path, drawn):
 FIGURES = ["tests/test_postprocess.py", "tests/test_pictures.py", "tests/test_hertz_figures.py"]
 
 
-@pytest.mark.long
 @pytest.mark.skipif(sys.version_info >= (3, 12), reason="numpy 1.24 is for Python up to 3.11")
 def test_oldest_numpy_and_matplotlib(tmp_path):
     """Every figure shall be drawn by the oldest versions within the bounds, Debian 12's."""

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import plasticity
 import pytest
-from freefem import ROOT, part, short_of, table
+from freefem import ROOT, cases_of, part, table
 from test_paraview import Grid
 from test_parts import UNTURNED, Mesh, block, cube, turn, vector
 
@@ -78,7 +78,7 @@ def hill(c, r, unloaded):
 CASES = [(1.5, True), (1.5, False), (1.98, False), (1.98, True)]
 
 
-@pytest.mark.parametrize("c, unloaded", short_of(CASES[:1], CASES))
+@pytest.mark.parametrize("c, unloaded", cases_of(CASES[:1], CASES))
 def test_tube(tmp_path, c, unloaded):
     """A thick tube under pressure, near its collapse, and without it again: Hill's stresses within 1e-3 of Y."""
     case = "state axisymmetric\nbody tube E 1000 nu 0.49\nplastic tube 1 0\nsymmetry bottom\nsymmetry top\n"
@@ -96,7 +96,6 @@ def test_tube(tmp_path, c, unloaded):
     assert run.factorisations <= 2
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("sphere, exact, within", [(True, 1.60, 0.02), (False, 1.79, 0.03)])
 def test_first_yield(sphere, exact, within):
     """The greatest pressure at first yield: 1.60 Y below a sphere, 1.79 Y below a cylinder, by von Mises."""
@@ -105,7 +104,6 @@ def test_first_yield(sphere, exact, within):
     assert before < exact * (1 + within) and after > exact * (1 - within)
 
 
-@pytest.mark.long
 def test_hardness():
     """A sphere deep in an ideally plastic block: a mean pressure of 2.8 to 3 Y."""
     row = plasticity.hardness(0.06, 8, 300)
@@ -135,7 +133,6 @@ def test_guided_loads(tmp_path, load):
         assert all(np.abs(guide["force"]).max() < 1e-5 for guide in run.summary["guides"])
 
 
-@pytest.mark.long
 def test_unloading(tmp_path):
     """The first unloading is elastic, with the stiffness 2 E* a of a flat punch, a as far as the mesh tells it."""
     folder = ROOT / "edp/examples/brinell"
@@ -185,7 +182,7 @@ def flattened(folder, state, steps, *flags):
     return part(folder, DISC, case, "-estimate", 0, *flags)
 
 
-@pytest.mark.parametrize("state", short_of(["strain"], ["strain", "axisymmetric"]))
+@pytest.mark.parametrize("state", cases_of(["strain"], ["strain", "axisymmetric"]))
 def test_energies(tmp_path, state):
     """Work is what is stored and dissipated, to the steps' error, also with curved elements."""
     off = []
@@ -197,7 +194,6 @@ def test_energies(tmp_path, state):
     assert off[0] < 0.15 and off[1] < 0.2 * off[0]
 
 
-@pytest.mark.long
 def test_errors_of_the_steps(tmp_path):
     """The errors that fewer steps tell shall cover a path with many more steps, and cost no second factorisation."""
     fine = flattened(tmp_path / "fine", "axisymmetric", 48).summary
@@ -218,7 +214,6 @@ def test_errors_of_the_steps(tmp_path):
     assert odd["dissipatedError"] is None and "multiple of four" in odd["loadStepsError"]
 
 
-@pytest.mark.long
 def test_turned_and_rescaled(tmp_path):
     """The same problem turned by a right angle, and in other units: the same strains."""
     case = "body block E {E} nu 0.3\nplastic block {Y} {H}\nclamp bottom\nleg 2\n"
@@ -237,7 +232,6 @@ def test_turned_and_rescaled(tmp_path):
     assert found[0][0] > 1e-3
 
 
-@pytest.mark.long
 def test_press_fit(tmp_path):
     """Rings that only contact holds, one of which yields: as about an axis, where two rectangles stand for them."""
     bodies = "body inner E 210e3 nu 0.3\nbody outer E 210e3 nu 0.3\nplastic outer 12 1000\n"
@@ -268,7 +262,6 @@ def test_heavily_loaded(tmp_path):
     assert run.backsolves < 2.5 * entry["iterations"] + 2 * run.points
 
 
-@pytest.mark.long
 def test_grid():
     """A problem of the campaign: the force over that at first yield, as another program has it on another mesh."""
     row = plasticity.grid_row(True, 0.01, 20, 10)
@@ -317,7 +310,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("number", short_of([0, 1, 2], range(len(REFUSED))))
+@pytest.mark.parametrize("number", cases_of([0, 1, 2], range(len(REFUSED))))
 def test_refused(tmp_path, number):
     """What does not go with plasticity is refused in one line by its name, and nothing is written."""
     given = [*REFUSED][number]

@@ -5,7 +5,7 @@ import json
 import access
 import pytest
 from browser import CHROMIUM, Browser
-from freefem import run, short_of
+from freefem import cases_of, run
 
 from postprocess.__main__ import main
 
@@ -48,8 +48,7 @@ DISC = [
 ]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("problem, method, kappa, m, threshold", short_of(DISC[3:4], DISC))
+@pytest.mark.parametrize("problem, method, kappa, m, threshold", cases_of(DISC[3:4], DISC))
 def test_disc(problem, method, kappa, m, threshold, page):
     """The paper's test: models, steps and force shall be the package's."""
     h = 0.5 if problem == "disc41" else 0.25
@@ -73,7 +72,7 @@ def test_proximal(page):
         assert abs(ours["newton"] - theirs.newton) <= 1
 
 
-@pytest.mark.parametrize("method, kappa, m", short_of(BLOCK[:1], BLOCK))
+@pytest.mark.parametrize("method, kappa, m", cases_of(BLOCK[:1], BLOCK))
 def test_block(method, kappa, m, page):
     """The confined block: steps and pressure shall be the package's."""
     start = ["-T0", "d0"] if method == "paper" else []
@@ -84,7 +83,6 @@ def test_block(method, kappa, m, page):
     assert 20 * ours["force"] == pytest.approx(theirs.force, rel=1e-9)
 
 
-@pytest.mark.long
 def test_keys_and_steps(made, tmp_path):
     """Steps go forward and back by keys and buttons, and the pictures follow; tasks tell well from not."""
     with Browser(tmp_path) as browser:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, short_of
+from freefem import ROOT, cases_of, run
 from matplotlib.figure import Figure
 from text_boxes import faults
 
@@ -236,7 +236,6 @@ def draw(name, *folders):
 
 
 class TestFigures:
-    @pytest.mark.long
     @pytest.mark.parametrize("name", ["figure1", "thresholds"])
     def test_the_same_bytes_again(self, runs, tmp_path, name):
         for folder in ("one", "two"):
@@ -248,7 +247,7 @@ class TestFigures:
     DRAWN = "figure1 meshed, figure2 rigid incremental, thresholds newton, thresholds rigid d0".split(", ")
     ALSO = "figure1 rigid, figure1 apart, convergence rigid d0 newton incremental".split(", ")
 
-    @pytest.mark.parametrize("case", short_of(DRAWN, ALSO))
+    @pytest.mark.parametrize("case", cases_of(DRAWN, ALSO))
     def test_drawn(self, runs, case):
         name, *folders = case.split()
         assert faults(draw(name, *(runs[folder] for folder in folders))) == []
@@ -291,7 +290,6 @@ class TestFigures:
         assert 1e-4 < np.nanmax(below.lines[0].get_ydata()) < 0.1
         assert "interpolated" in below.get_title(loc="right")
 
-    @pytest.mark.long
     def test_figure2_refuses_another_problem(self, runs, broken):
         folder = broken("incremental")
         summary = read_run(folder).summary

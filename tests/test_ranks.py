@@ -34,12 +34,7 @@ CASES = {
     "halved twice": ["sphere-on-block", "-h", 4, "-layers", 1, "-order", 1, "-refine", 2, "-patch", 6],
     "series": ["sphere-on-block", "-h", 1.2, "-layers", 2, "-order", 1, "-history", 1, "-steps", 3],
 }
-QUICK = {("loads P1", 3)}
-RUNS = [
-    pytest.param(name, ranks, marks=[] if (name, ranks) in QUICK else [pytest.mark.long])
-    for name in CASES
-    for ranks in (2, 3)
-]
+RUNS = [(name, ranks) for name in CASES for ranks in (2, 3)]
 
 
 def solved(ranks, folder, scene, *flags):
@@ -88,7 +83,6 @@ def test_same_answer(name, ranks, tmp_path):
     assert np.array_equal(surfaces[0].cells, surfaces[1].cells)
 
 
-@pytest.mark.long
 @built
 def test_halved_edges(tmp_path):
     """Eight tetrahedra for one: volume and labels are kept, and the force is that of a gmsh mesh of half the size."""
@@ -141,7 +135,6 @@ def test_edges_that_are_not_halved(scene, flags, words, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.long
 @built
 def test_pieces_that_do_not_fit(tmp_path):
     """An index whose pieces are elsewhere, missing or cut off is refused."""
@@ -157,7 +150,6 @@ def test_pieces_that_do_not_fit(tmp_path):
 
 
 @built
-@pytest.mark.long
 def test_whole_mesh_where_parts_do_not_go(tmp_path):
     """What needs the whole mesh says so, and has it on each process."""
     flags = ["-h", 2, "-layers", 1, "-order", 1, "-states", 1, "-estimate", 0]
@@ -167,7 +159,6 @@ def test_whole_mesh_where_parts_do_not_go(tmp_path):
 
 
 @built
-@pytest.mark.long
 def test_more_processes_than_parts(tmp_path):
     """A mesh with too few vertices is refused: one line, code 10, nothing written."""
     flags = ["-h", 6, "-layers", 1, "-order", 1, "-grading", 80, "-out", tmp_path / "out"]
@@ -177,7 +168,6 @@ def test_more_processes_than_parts(tmp_path):
 
 
 @built
-@pytest.mark.long
 def test_less_memory_on_each_process(tmp_path):
     """Under a limit of each process that ends a run on one process, a run on four has the answer, with its error."""
     flags = ["-order", 1, "-h", 0.17, "-kappa", 1e9, "-vtu", 0, "-solver", "multigrid", "-out", tmp_path / "out"]

@@ -54,8 +54,7 @@ CASES = {
     "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
     "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),
 }
-QUICK = {"floats"}
-RUNS = [pytest.param(name, marks=[] if name in QUICK else [pytest.mark.long]) for name in CASES]
+RUNS = list(CASES)
 
 
 FLAT = ((1, 0.017), (2, 0), (2, 1), (2, 2), (0, 2.013))  # axis, place
@@ -231,7 +230,7 @@ CROSSED = {
 
 
 @built
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name == "three")) for name in CROSSED])
+@pytest.mark.parametrize("name", CROSSED)
 def test_loads_across_cuts(name, tmp_path):
     """Two boxes with inner nodes that a process does not have: the direct engine's answers, works and errors."""
     ranks, case, flags = CROSSED[name]
@@ -309,7 +308,6 @@ def test_preload_across_cuts(tmp_path):
 
 
 @built
-@pytest.mark.long
 def test_same_curved_case(tmp_path):
     """A ball of second order: elements that follow its surface, on all processes alike."""
     ranks = 4
@@ -334,7 +332,6 @@ PRESSED = "body dome E 1000 nu 0.3 density 2\nclamp base\nobstacle skin plane 0 
 
 
 @built
-@pytest.mark.long
 @pytest.mark.parametrize("load", ["expand dome 1e-4 10", "spin dome 3 about 0.1 0.2 0 axis 0 0 1", "weight dome 5 0 0"])
 def test_loads_of_curved_elements(load, tmp_path):
     """Integrals over elements that follow a surface: the direct engine's answers and errors."""
@@ -347,7 +344,6 @@ def test_loads_of_curved_elements(load, tmp_path):
 
 
 @built
-@pytest.mark.long
 def test_whole_mesh_for_what_parts_do_not_know(tmp_path):
     """States are written by one process, which then has the mesh, and says so."""
     boxes(tmp_path)

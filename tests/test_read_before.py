@@ -50,7 +50,7 @@ def test_taken(first):
     [
         ("a.case", "0 -0.011", "0 -0.012"),
         ("a.case", "grip box 0.9 0.9 3  3.1 3.1 3.02", "grip plane 1 0 0  1 0 0"),
-        pytest.param("a.case", "size contact 0.7", "size contact 0.6", marks=pytest.mark.long),
+        ("a.case", "size contact 0.7", "size contact 0.6"),
         ("a.geo", "0, 0, 0, 4, 4, 2", "0, 0, 0, 4, 5, 2"),
     ],
     ids=["number", "group", "size", "geometry"],

@@ -10,7 +10,7 @@ import subprocess
 import numpy as np
 import pages
 import pytest
-from freefem import FREEFEM, MULTIGRID, ROOT, TIMEOUT, environment, execute, run, run_in, scenes, script, short_of, tree
+from freefem import FREEFEM, MULTIGRID, ROOT, TIMEOUT, cases_of, environment, execute, run, run_in, scenes, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
 
@@ -93,7 +93,6 @@ def test_every_scene_is_documented():
         assert quoted(path) == [script(quoted(name)[0])]
 
 
-@pytest.mark.long
 def test_tables_from_the_programs():
     """Tables that are made from heads, -help and runs shall be up to date, and every key of theirs have its meaning."""
     assert not pages.stale(), "make pages"
@@ -246,11 +245,7 @@ def make(folder, *words, timeout=TIMEOUT):
 
 @pytest.mark.parametrize(
     "line",
-    [
-        line if "NP=" not in line else pytest.param(line, marks=pytest.mark.long)
-        for line in commands()
-        if line.startswith("make run")
-    ],
+    [line for line in commands() if line.startswith("make run")],
 )
 def test_make_run_commands(line, package):
     """The runs by make on the pages shall end with results in the scene's folder; on a coarse mesh."""
@@ -263,7 +258,6 @@ def test_make_run_commands(line, package):
     assert (package / "results" / (scene[1] if scene else "disc-on-block") / "xnewton" / "summary.json").exists()
 
 
-@pytest.mark.long
 @pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
 def test_make_builds_the_plugin(tmp_path):
     """A run on two processes shall build the plugin that it needs."""
@@ -275,8 +269,7 @@ def test_make_builds_the_plugin(tmp_path):
 DOORS = dict(zip(("first", "teach", "paper", "parts"), fences(README, "sh"), strict=True))
 
 
-@pytest.mark.parametrize("door", short_of(["first", "teach", "parts"], DOORS))
-@pytest.mark.long
+@pytest.mark.parametrize("door", cases_of(["first", "teach", "parts"], DOORS))
 def test_doors(door, package):
     """The README's commands shall run as they are written, one after the other."""
     said = ""
@@ -312,7 +305,6 @@ def test_doors(door, package):
             assert json.loads((package / f"results/paper/{name}/summary.json").read_text())["newton"] == int(count)
 
 
-@pytest.mark.long
 def test_make_figures():
     """`make figures` shall make every figure of the page, by runs whose flags their scripts know."""
     code, said = execute(["make", "-n", "-B", *DONE, "figures"], ROOT)

@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from freefem import environment, flag_lists, listing, run_in, short_of, tree
+from freefem import cases_of, environment, flag_lists, listing, run_in, tree
 
 DISC, TWO_BODIES, BLOCK = "edp/main.edp", "edp/scenes/meshed-disc.edp", "edp/scenes/confined-block.edp"
 
@@ -47,7 +47,7 @@ CASES = [((DISC, BLOCK, DISC, BLOCK, TWO_BODIES)[place % 5], *case) for place, c
 QUICK = [case for case in CASES if LAST[case[1], case[3]] == case[2]]
 
 
-@pytest.mark.parametrize("script, flag, value, allowed", short_of(QUICK, CASES))
+@pytest.mark.parametrize("script, flag, value, allowed", cases_of(QUICK, CASES))
 def test_refused_by_every_scene(package, script, flag, value, allowed):
     """A scene shall refuse the value in one line that names flag, value and what is allowed."""
     method = [] if flag in ("-method", "-T0") else ["-method", "newton"]

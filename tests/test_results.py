@@ -20,8 +20,6 @@ from test_two_bodies import confined
 
 from postprocess import closed_forms as forms
 
-pytestmark = pytest.mark.long
-
 FIGURE = r"[−+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?: %)?"
 
 

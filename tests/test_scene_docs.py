@@ -442,19 +442,7 @@ def value(done, quantity):
     return done.summary[name]
 
 
-SLOW = ("adhesive-sphere", "adhesive-sphere-3d", "adhesive-cylinder", "two-spheres", "sphere-on-plane", "flat-punch")
-SLOW_TOO = "-force 31.4159265", "-E1 1e9", "-R1 40", "-modes 16", "-force 8 ", "meshed-disc", "hertz-line", "rolling"
-SLOW_TOO += "fretting-bodies", "fretting-3d"  # their scenes' other commands are short
-
-
-def is_long(scene, command):
-    return scene in SLOW or any(words in command for words in SLOW_TOO)
-
-
-@pytest.mark.parametrize(
-    "scene, command, expected",
-    [pytest.param(*each, id=each[1], marks=[pytest.mark.long] if is_long(*each[:2]) else []) for each in EXPERIMENTS],
-)
+@pytest.mark.parametrize("scene, command, expected", EXPERIMENTS, ids=[each[1] for each in EXPERIMENTS])
 def test_numbers(scene, command, expected):
     """The command shall give the table's numbers, and its references be those computed here from the flags alone."""
     done = result(command)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from freefem import ROOT, run, run_in, script, short_of
+from freefem import ROOT, cases_of, run, run_in, script
 
 from postprocess import figures, style
 from postprocess.__main__ import main
@@ -45,7 +45,6 @@ def balls(tmp_path_factory):
 # ---------------------------------------------------------------- in space
 
 
-@pytest.mark.long
 def test_section(balls):
     """The section by y = 0 shall be as large as two quarters of a disc, its outline as long as theirs."""
     grid = read_grid(balls.folder / "solution.vtu")
@@ -58,7 +57,6 @@ def test_section(balls):
     assert lengths.sum() == pytest.approx(2 * (np.pi / 2 + 2) * 10, rel=0.01)
 
 
-@pytest.mark.long
 def test_stress_below_the_contact(balls):
     """Its greatest value in the section shall be Hertz's 0.62 p0, half a radius below the surface."""
     pieces, stress, _ = cut(read_grid(balls.folder / "solution.vtu"), 1e-4)
@@ -71,7 +69,7 @@ def test_stress_below_the_contact(balls):
 HARD_SPHERE = "sphere-on-block", ["-law", "signorini", "-h", 1.2, "-layers", 1]
 
 
-@pytest.mark.parametrize("scene, flags", short_of([HARD_SPHERE], [("sphere-on-plane", ["-h", 0.3, "-layers", 2])]))
+@pytest.mark.parametrize("scene, flags", cases_of([HARD_SPHERE], [("sphere-on-plane", ["-h", 0.3, "-layers", 2])]))
 def test_sphere(tmp_path, scene, flags):
     """The figure of a contact in space shall have its section, and the obstacle where it is rigid."""
     done = run_in(ROOT, script(scene), *flags, "-d0", 0, "-estimate", 0, out=tmp_path / "run")
@@ -118,7 +116,6 @@ def test_spoilt_grids(balls, tmp_path, capsys, spoil, words):
 # ---------------------------------------------------------------- closed forms
 
 
-@pytest.mark.long
 def test_patch():
     """Nodal overlaps shall be 15 % off in the plane and 33 % in space, averaged ones exact to 1e-9."""
     runs = [
@@ -136,7 +133,6 @@ def test_patch():
     assert np.abs(segment.collections[0].get_array()).max() < 1e-7
 
 
-@pytest.mark.long
 def test_punch():
     """Hard contact shall follow the closed form to 1 % inside, a soft layer fall short of it at the corner."""
     figure = draw("punch", run("flat-punch", *PUNCH, "-law", "signorini"), run("flat-punch", *PUNCH, "-kappa", 1e3))
@@ -152,7 +148,6 @@ def test_punch():
     assert slope == pytest.approx(-0.5, abs=0.01)
 
 
-@pytest.mark.long
 def test_waves():
     """Inside the contacts the difference from Westergaard's shall be below 1 % of p*, before and after they merge."""
     runs = [run("wavy", *WAVY, "-force", force) for force in (31.41592654, 94.24777961)]
@@ -163,7 +158,6 @@ def test_waves():
     assert merging_pressure(read_run(runs[0].folder)) == pytest.approx(np.pi)
 
 
-@pytest.mark.long
 def test_rigid():
     """The differences from the rigid disc shall fall with the ratio of the moduli, slope -1 to 0.01."""
     discs = [run("meshed-disc", *DISC, "-Eratio", ratio) for ratio in (1e2, 1e4, 1e6)]
@@ -175,7 +169,6 @@ def test_rigid():
         assert difference[-1] < 1e-6
 
 
-@pytest.mark.long
 def test_hertz_error():
     """Errors over h, axisymmetric: radius with slope 2 (P1), pressure with 1; P2 smaller than P1 everywhere."""
     runs = [run("disc-on-block", *SPHERE, "-order", order, "-h", h) for order in (1, 2) for h in (0.2, 0.1, 0.05)]
@@ -237,7 +230,6 @@ def test_spoilt_parameters(tmp_path, capsys, name, scene, flags, change, words):
     assert words in error and error.count("\n") == 1
 
 
-@pytest.mark.long
 def test_other_points_are_refused(tmp_path, capsys):
     """A meshed disc on another mesh than the rigid one's shall be refused."""
     runs = [run("disc-on-block", *DISC), *(run("meshed-disc", "-h", h, "-tol", 1e-11) for h in (0.5, 2))]

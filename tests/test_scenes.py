@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import LAW, OPEN, ROOT, WALL, named, run, run_in, script, short_of
+from freefem import LAW, OPEN, ROOT, WALL, cases_of, named, run, run_in, script
 from test_paraview import Grid
 
 DISC, TWO_BODIES, BLOCK = "disc-on-block", "meshed-disc", "confined-block"
@@ -26,12 +26,10 @@ def exact_state(kappa, m):
     return s, CONFINED * (U0 - GAP - D0 - s) / HEIGHT
 
 
-@pytest.mark.parametrize(
-    "method", ["paper", "paper from d0", pytest.param("newton", marks=pytest.mark.long), "incremental"]
-)
+@pytest.mark.parametrize("method", ["paper", "paper from d0", "newton", "incremental"])
 @pytest.mark.parametrize(
     "order, kappa, m",
-    short_of([(2, 1, 1.1), (1, 1e3, 20), (2, 1e12, 1.05)], [(1, 1e3, 3), (2, 1e6, 3.3), (1, 1e12, 3)]),
+    cases_of([(2, 1, 1.1), (1, 1e3, 20), (2, 1e12, 1.05)], [(1, 1e3, 3), (2, 1e6, 3.3), (1, 1e12, 3)]),
 )
 def test_confined_block(method, order, kappa, m):
     """Under a flat wall the confined block shall be in the uniform state known exactly, to 1e-10."""
@@ -200,8 +198,8 @@ MESHED = [flags for flags in EXTREMES if flags != ["-R", "0.6"]]  # smaller than
 @pytest.mark.parametrize(
     "scene, flags",
     [
-        *(pytest.param(DISC, flags, marks=[pytest.mark.long] if flags in MILD else []) for flags in EXTREMES),
-        *(pytest.param(TWO_BODIES, flags, marks=[] if flags in HARSH[:2] else pytest.mark.long) for flags in MESHED),
+        *((DISC, flags) for flags in EXTREMES),
+        *((TWO_BODIES, flags) for flags in MESHED),
     ],
     ids=named,
 )

@@ -248,7 +248,6 @@ def test_creepage(tmp_path):
 # ---------------------------------------------------------------- meshes
 
 
-@pytest.mark.long
 def test_plane_mesh_in_space(tmp_path):
     """A plane geometry, a plane mesh file, and both checked only: parts-3d.edp names the script for them."""
     code, _ = execute(
@@ -261,7 +260,6 @@ def test_plane_mesh_in_space(tmp_path):
         assert "the mesh is plane, it has no volumes: use edp/parts.edp" in said and said.count("\n") == 1
 
 
-@pytest.mark.long
 def test_gmsh_at_work(tmp_path):
     """After five seconds of gmsh the run says what is meshed, and how many elements are expected; not before."""
     (tmp_path / "bin").mkdir()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from freefem import part, run, short_of
+from freefem import cases_of, part, run
 from test_parts import UNTURNED, Mesh, block, cube, turn_in_space, vector
 from test_states import PLACES, TENSOR, E, line_of
 
@@ -99,7 +99,7 @@ OPINIONS = {
 SLOW = "two-cylinders", "wavy"
 
 
-@pytest.mark.parametrize("name", short_of([name for name in OPINIONS if name not in SLOW], SLOW))
+@pytest.mark.parametrize("name", cases_of([name for name in OPINIONS if name not in SLOW], SLOW))
 def test_one_order_more(name):
     """On the same mesh elements of one order more give other numbers: within both errors, which are not far more."""
     scene = name.split()[0]

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import part, short_of
+from freefem import cases_of, part
 from shapes import moved
 from test_moments import fit
 from test_parts import STEEL, Mesh, block, cube, turn, turn_in_space, vector
@@ -63,7 +63,7 @@ def test_sector_in_two_phases(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("degrees", "times"), short_of([(60, 6), (120, None)], [(60, 6), (120, None), (45, 8), (36, 10), (72, None)])
+    ("degrees", "times"), cases_of([(60, 6), (120, None)], [(60, 6), (120, None), (45, 8), (36, 10), (72, None)])
 )
 def test_whole_of_a_sector(tmp_path, degrees, times):
     """A press fit's pressure is Lame's in each sector; the whole has a sector's load so many times, if images close."""

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, execute, part, short_of, snippet, told
+from freefem import ROOT, cases_of, data, execute, part, snippet, told
 from test_parts import Mesh, block
 from test_surfaces import ring
 
@@ -84,7 +84,6 @@ Physical Curve("rim")={3:4};Physical Surface("disc")={1};
 HEAVY = "body disc E 1000 nu 0.3\nobstacle rim plane 0 -1 0 1\nweight disc 0 -1\n"
 
 
-@pytest.mark.long
 def test_corners(tmp_path):
     """A curve's sides, however few, are no corners; those of a body are, and of a fillet's ends none."""
     case = RINGS + "contact bore pin\n"
@@ -134,7 +133,7 @@ def coarse(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "kind, order, most", short_of([("msh", 1, 0.4), ("msh", 2, 0.02), ("geo", 2, 0.01)], [("msh", 4, 0.02)])
+    "kind, order, most", cases_of([("msh", 1, 0.4), ("msh", 2, 0.02), ("geo", 2, 0.01)], [("msh", 4, 0.02)])
 )
 def test_few_sides(tmp_path, coarse, kind, order, most):
     """Of circles of 8 sides the force is within what is said; a geometry is known better than a bare file."""
@@ -169,7 +168,6 @@ def test_coarse_weight(tmp_path):
     assert 20 < float(share) < 1000 * abs(force["value"] / np.pi - 1)
 
 
-@pytest.mark.long
 def test_geometry_again(tmp_path):
     """With a .geo file new meshes are of the geometry: a disc's weight, and how far it has gone."""
     summary, force, _ = run(tmp_path, DISC, HEAVY, "-accuracy", 1e-3)

@@ -235,7 +235,6 @@ def test_units_and_vectors():
     assert vector(None) == "–" and rounded(0.0, 0.5) == "0.00 ± 0.50"
 
 
-@pytest.mark.long
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
 def test_on_paper(whole, tmp_path):
     """In a browser: no complaint, nothing wider than A4, and one page when it is printed."""

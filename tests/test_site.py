@@ -89,7 +89,6 @@ def found(browser, folder, word):
     return page.evaluate("[...document.querySelectorAll('ul.search li a')].map(link => link.textContent)")
 
 
-@pytest.mark.long
 @needs_chromium
 def test_small_site(tmp_path):
     """Two pages, one of them cut in three: links, a picture, an equation that is drawn, search from a folder."""
@@ -120,7 +119,6 @@ SHOWN = (
 )
 
 
-@pytest.mark.long
 def test_site(tmp_path):
     """The whole site shall be built: Sphinx's warnings and dead links end it; some of its pages are for everyone."""
     assert documents.build(tmp_path / "site") == 0

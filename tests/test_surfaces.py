@@ -53,7 +53,6 @@ def rings(edges, ratio=1.31, gap=0.05, phase=0.1, mesh=None, tag="", at=0.0):
     return ring(mesh, 7, 10, round(ratio * edges), 3, f"inner{tag}", (f"hole{tag}", f"pin{tag}"), phase, at)
 
 
-@pytest.mark.long
 def test_gap_of_circles(tmp_path):
     """From meshed circles the gap shall be that of the circles, the error falling like h^6; from facets it does not.
 
@@ -234,7 +233,7 @@ PATCH = data("surfaces/patch.case")
 
 @pytest.mark.parametrize(
     "order, matrix",
-    [(1, MIRROR @ turn(1)), (4, turn(2.5)), pytest.param(2, MIRROR, marks=pytest.mark.long)],
+    [(1, MIRROR @ turn(1)), (4, turn(2.5)), (2, MIRROR)],
     ids=["P1 mirrored", "P4 turned", "P2 mirrored"],
 )
 def test_patch(tmp_path, order, matrix):
@@ -262,8 +261,8 @@ clamp rim
 @pytest.mark.parametrize(
     "load, flags",
     [
-        pytest.param("weight inner", [], marks=pytest.mark.long),
-        pytest.param("weight inner", ["-points", "nodal"], marks=pytest.mark.long),
+        ("weight inner", []),
+        ("weight inner", ["-points", "nodal"]),
         ("move hole", ["-distance", "exact"]),
     ],
     ids=["linear", "nodal", "exact"],
@@ -286,7 +285,7 @@ def test_turned(tmp_path, load, flags):
     np.testing.assert_allclose(energies, energies[0], rtol=1e-9)
 
 
-@pytest.mark.parametrize("order, h, points", [(1, 1, "nodal"), pytest.param(2, 0.5, "segment", marks=pytest.mark.long)])
+@pytest.mark.parametrize("order, h, points", [(1, 1, "nodal"), (2, 0.5, "segment")])
 def test_true_distance_has_an_energy(order, h, points):
     """With the true distance the energy's derivative in the approach shall be the force, to 1e-6 (here 1e-8)."""
 
@@ -301,7 +300,6 @@ def test_true_distance_has_an_energy(order, h, points):
     assert slope - third == pytest.approx(here["force"], rel=1e-8)
 
 
-@pytest.mark.long
 def test_two_meshes_tend_to_the_rigid_disc():
     """The stiffer the meshed disc, the nearer the rigid one's force under the true distance, like 1/Eratio."""
     exact = ["-h", 0.5, "-distance", "exact", "-order", 2, "-tol", 1e-10]

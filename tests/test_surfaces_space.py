@@ -76,7 +76,7 @@ def plane(group, point, normal, move=None):
 
 @pytest.mark.parametrize(
     "order, distance",
-    [pytest.param(1, "linear", marks=pytest.mark.long), pytest.param(2, "exact", marks=pytest.mark.long)],
+    [(1, "linear"), (2, "exact")],
 )
 def test_turned_ball(tmp_path, order, distance):
     """A ball that only three pairs of planes hold, turned: the same counts, but for one product, results to 1e-9."""
@@ -251,7 +251,6 @@ EXACT = ["-distance", "exact", "-h", 0.5, "-layers", 1]
 LAYER = ["-law", "power", "-kappa", 100, "-m", 2, "-d0", -0.05, "-tol", 1e-11]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("order, points", [(1, "nodal"), (2, "segment")])
 def test_distance_has_an_energy(order, points):
     """With the true distance the force shall be the derivative of the energy: Simpson's rule to 1e-9."""
@@ -268,7 +267,6 @@ def test_distance_there_and_back():
     assert run("two-spheres", *flags, "-force", pushed.force).approach == pytest.approx(0.5, rel=1e-9)
 
 
-@pytest.mark.long
 def test_distance_about_an_axis():
     """A rigid sphere on a block in space and on a cylinder of the same area: one force to 1 %."""
     flags = ["-distance", "exact", "-law", "signorini", "-depth", 40]
@@ -279,8 +277,7 @@ def test_distance_about_an_axis():
     assert square.force == pytest.approx(circle.force, rel=0.01)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("order", [2, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("order", [2, 1])
 def test_turned_cylinders(tmp_path, order):
     """Crossed cylinders with symmetries and a force, turned: the same counts, but for one product, results to 1e-9."""
     example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders.geo"
@@ -304,7 +301,6 @@ def test_turned_cylinders(tmp_path, order):
     np.testing.assert_allclose(other.contact["pressure"], one.contact["pressure"], atol=1e-9 * one.pressureMax)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("ratio, extent, growth", [(1, 6, 0.5), (4, 5, 0.5), (10, 3.5, 0.8)])
 def test_crossed_cylinders(tmp_path, ratio, extent, growth):
     """Radii of 1:1 to 1:10: Hertz's semi-axes and greatest pressure within 1 %, elements of b/10."""

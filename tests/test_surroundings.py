@@ -1,6 +1,5 @@
 """Runs in their surroundings: languages, folders shared with other runs and other files, kills, disks without room."""
 
-import functools
 import json
 import os
 import platform
@@ -12,19 +11,20 @@ import time
 
 import numpy as np
 import pytest
+from accounts import shared
 from freefem import (
     FAST,
     FREEFEM,
     PLUGIN_SAYS,
     ROOT,
     being_written,
+    cases_of,
     environment,
     execute,
     files,
     interruptible,
     listing,
     run_in,
-    short_of,
     snippet,
     table,
     tree,
@@ -86,7 +86,7 @@ def mesh(tmp_path_factory):
     """The example's two bodies on larger elements, as a mesh of the user's: FILE.msh of a size."""
     folder = tmp_path_factory.mktemp("mesh")
 
-    @functools.cache
+    @shared
     def make(size):
         text = (ROOT / f"{PUNCH}.geo").read_text()
         assert "size = {0.1," in text
@@ -117,7 +117,6 @@ def comma(tmp_path_factory):
     return env
 
 
-@pytest.mark.long
 def test_comma_locale(mesh, comma, tmp_path):
     """A mesh of the user's, gmsh's meshes and the laws' tables shall be read alike in a language with commas."""
     env = {**comma, "LC_ALL": "de_DE.UTF-8"}
@@ -140,7 +139,7 @@ def test_comma_locale(mesh, comma, tmp_path):
 # ---------------------------------------------------------------- side by side
 
 
-@pytest.mark.parametrize("trials", [1, pytest.param(20, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [1, 20])
 def test_four_runs_in_one_new_folder(tmp_path, trials):
     """Runs that begin together in folders of one parent that is not there yet shall not disturb each other."""
     for trial in range(trials):
@@ -152,7 +151,7 @@ def test_four_runs_in_one_new_folder(tmp_path, trials):
         assert sorted(path.name for path in parent.iterdir()) == list("abcd")
 
 
-@pytest.mark.parametrize("trials", [2, pytest.param(20, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [2, 20])
 def test_two_runs_into_one_folder(tmp_path, trials):
     """Of two runs into one folder both shall be done, one after the other, or one refused; its files are one run's."""
     out, refusals = tmp_path / "out", 0
@@ -236,7 +235,7 @@ def test_publishing_of_a_killed_run(tmp_path):
     assert being_written(tmp_path).count("contact.csv") == 1 and "summary.json" not in files(tmp_path)
 
 
-@pytest.mark.parametrize("trials", [1, pytest.param(5, marks=pytest.mark.long)])
+@pytest.mark.parametrize("trials", [1, 5])
 def test_one_mesh_made_by_four_runs(tmp_path, trials):
     """Runs that need the same mesh at the same time shall each get it, whole."""
     for trial in range(trials):
@@ -251,7 +250,6 @@ def test_one_mesh_made_by_four_runs(tmp_path, trials):
 # ---------------------------------------------------------------- the user's own files, odd names
 
 
-@pytest.mark.long
 def test_files_of_the_user_stay(tmp_path):
     """A run shall remove what a run has written into the folder, with the movie drawn from it, and nothing else."""
     own = ["notes.vtu", "notes.tmp", "state-99.vtu", "mine.gif", "axis.csv"]
@@ -392,7 +390,6 @@ def slow_gmsh(tmp_path):
     return environment(PATH=f"{folder}:{os.environ['PATH']}"), folder / "began"
 
 
-@pytest.mark.long
 def test_gmsh_ends_with_its_run(tmp_path, slow_gmsh):
     """gmsh shall end with the run that needs the mesh, and nothing of either be left, or be gone with the next run."""
     env, began = slow_gmsh
@@ -486,8 +483,7 @@ def interrupted_series(*words, cwd=ROOT, rows=4):
     time.sleep(0.3)  # a table that was just being moved into place still is
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("method", ["xnewton", pytest.param("paper", marks=pytest.mark.long)])
+@pytest.mark.parametrize("method", ["xnewton", "paper"])
 def test_series_counts_go_on(tmp_path, method):
     """An interrupted series shall end with the forces and counts of one that was not."""
     flags = ["-method", method, "-h", 1, "-order", 1, "-history", 1, "-steps", 12, "-vtu", 0, "-estimate", 0]
@@ -506,7 +502,6 @@ def test_series_counts_go_on(tmp_path, method):
     assert whole.newton > resumed.newton == len(resumed.history)
 
 
-@pytest.mark.long
 def test_series_of_another_problem(tmp_path):
     """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
     package = tree(tmp_path / "package")
@@ -532,7 +527,6 @@ def test_series_of_another_problem(tmp_path):
         assert again.newton == len(again.history), what
 
 
-@pytest.mark.long
 def test_series_that_is_complete(tmp_path):
     """A complete series shall be begun anew; a run without one, or one that fails at once, shall keep none of it."""
     flags = ["-method", "newton", "-h", 5, "-history", 1, "-steps", 3, "-vtu", 0, "-estimate", 0]
@@ -547,7 +541,7 @@ def test_series_that_is_complete(tmp_path):
     assert files(out) == ["adaptations.csv", "contact.csv", "history.csv", "summary.json"]
 
 
-@pytest.mark.parametrize("scene", short_of(["disc-on-block"], ["two-cylinders", "hertz-line", "meshed-disc"]))
+@pytest.mark.parametrize("scene", cases_of(["disc-on-block"], ["two-cylinders", "hertz-line", "meshed-disc"]))
 def test_series_of_the_exact_distance(tmp_path, scene):
     """A load series with the true distance shall end where one step does, its steps in the table."""
     flags = ["-distance", "exact", "-order", 1, "-estimate", 0, "-vtu", 0, "-h", 2]

@@ -1,13 +1,13 @@
 """The chapters of edp/theory/ against runs, and against the compliance of real scenes, formed column by column."""
 
-import functools
 import math
 import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, run, scene_text, short_of, snippet, told
+from accounts import shared
+from freefem import ROOT, cases_of, data, run, scene_text, snippet, told
 
 CHAPTERS = {path.name: path.read_text() for path in sorted((ROOT / "edp/theory").glob("*.md"))}
 MODELS = ROOT / "tests/test_theory_models.py"  # of the chapters on sequences of models
@@ -30,7 +30,7 @@ class Problem:
 def problem(tmp_path_factory):
     """problem(scene, flags): made once; P1 unless -order is among the flags, as in freefem.run()."""
 
-    @functools.cache
+    @shared
     def made(scene, *flags):
         flags = flags if "-order" in flags else (*flags, "-order", 1)
         folder = tmp_path_factory.mktemp("theory")
@@ -64,7 +64,7 @@ def dual_norm(C, e):
     return math.sqrt(e @ np.linalg.solve(C, e))
 
 
-@pytest.mark.parametrize("m", [*(pytest.param(m, marks=pytest.mark.long) for m in (2, 3)), 10])
+@pytest.mark.parametrize("m", [*(m for m in (2, 3)), 10])
 def test_distance_to_hard_contact(problem, m):
     """||q0 - q||_C shall be at most kappa^(-1/m) ||p0^(1/m)||_(1/C), not far below, and fall at that rate."""
     scene = problem(DISC, "-h", 0.5)
@@ -154,7 +154,7 @@ MORE = [(DISC, flags, 0.75, 1.25) for flags in (("-h", 0.5), ("-h", 0.25), ("-h"
 MORE += [(SPHERE, ("-h", 1.5, "-layers", 2, "-order", 2), 0.5, 1.25)]
 
 
-@pytest.mark.parametrize("scene, flags, low, high", short_of(SPECTRA, MORE))
+@pytest.mark.parametrize("scene, flags, low, high", cases_of(SPECTRA, MORE))
 def test_preconditioned_spectrum(problem, scene, flags, low, high):
     """The fitted kernel shall be positive definite, and the eigenvalues of M^-1 C lie near 1 whatever the mesh."""
     made = problem(scene, *flags)
@@ -163,7 +163,6 @@ def test_preconditioned_spectrum(problem, scene, flags, low, high):
     assert low < values[0] and values[-1] < high
 
 
-@pytest.mark.long
 def test_local_stiffness(problem):
     """k shall be 1/(C_ii w_i) within a factor of 4."""
     for scene, flags, high in (

@@ -5,12 +5,12 @@ elements; laws of any stiffness, tables with flat pieces among them. States of m
 that what is tested is the theory and not an inner loop.
 """
 
-import functools
 from itertools import pairwise
 
 import conditioning
 import numpy as np
 import pytest
+from accounts import shared
 from condensed import (
     Problem,
     ball,
@@ -101,7 +101,7 @@ def drawn(seed, count, draw):
     return found
 
 
-COUNTS = [pytest.param(60, id="few"), pytest.param(1000, id="many", marks=pytest.mark.long)]
+COUNTS = [pytest.param(60, id="few"), pytest.param(1000, id="many")]
 
 
 def first_thresholds(rng, problem, law):
@@ -131,12 +131,12 @@ def worked_out(seed, count, model, **laws):
     return [item for item in drawn(seed, count, draw) if item]
 
 
-@functools.cache
+@shared
 def walls(count):
     return worked_out(1, count, "wall")
 
 
-@functools.cache
+@shared
 def tangents(count):
     return worked_out(2, count, "linear", convex=True)
 
@@ -395,7 +395,7 @@ def test_the_ball(count):
     assert np.median(closer) < 1.1
 
 
-@functools.cache
+@shared
 def paper_test():
     """K, the contact points' unknowns and the condensed problem of the paper's test, P1, h = 0.5, from FreeFEM."""
     return conditioning.assembled(conditioning.FLAGS)
@@ -405,7 +405,7 @@ MODELS = [(1e3, 3), (1e9, 3), (1e3, 10)]
 ALL = [(kappa, m) for kappa in (1.0, 1e3, 1e6, 1e9) for m in (1.5, 2, 3, 10, 20)]
 
 
-@pytest.mark.parametrize("laws", [MODELS, pytest.param(ALL, marks=pytest.mark.long)], ids=["few", "many"])
+@pytest.mark.parametrize("laws", [MODELS, ALL], ids=["few", "many"])
 def test_the_least_bound_is_near_the_error(laws):
     """On the paper's test the least of overlap, force and gap shall be within 2 of the error, of all four 1.6."""
     *_, problem = paper_test()

@@ -11,7 +11,7 @@ import foreign
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
-from freefem import FREEFEM, ROOT, data, execute, part, short_of
+from freefem import FREEFEM, ROOT, cases_of, data, execute, part
 from test_parts import Mesh, block, turn, vector
 from test_turning import rotation
 
@@ -79,14 +79,12 @@ def test_few_sides(rings_run):
     rings_run.holds("contacts.0.normalForce", LAME)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("flags", [["-order", 4], ["-accuracy", 1e-3]])
 def test_few_sides_otherwise(go, flags):
     """The same with P4, and with new meshes."""
     go(rings(), RINGS, *flags).holds("contacts.0.normalForce", LAME)
 
 
-@pytest.mark.long
 def test_quadratic_sides(go):
     """Sides through true middles are not the circle either."""
     go(rings(2), RINGS + "pressure rest 0\n", "-accuracy", 1e-3).holds("contacts.0.normalForce", LAME)
@@ -107,7 +105,6 @@ def test_weight(go):
     go(disc(), DISC_ON_PLANE).holds("contacts.0.force", np.pi)
 
 
-@pytest.mark.long
 def test_gear(go):
     """1884.5 by an independent code on the true outline."""
     geo = (ROOT / "tests/data/gear-pair.geo").read_text()
@@ -129,7 +126,6 @@ def test_named_boundaries(go):
     told.holds("contacts.0.normalForce", LAME)
 
 
-@pytest.mark.long
 def test_true_kinks(go):
     """A true polygon of 11 sides: nothing is cut off."""
     part = drawn("polygon 2")
@@ -154,7 +150,7 @@ def column(order, sides=12):
     return sketch.text(LIFTED)
 
 
-@pytest.mark.parametrize("order, sides", short_of([(1, 5)], [(1, 12), (2, 12), (2, 40)]))
+@pytest.mark.parametrize("order, sides", cases_of([(1, 5)], [(1, 12), (2, 12), (2, 40)]))
 def test_column(go, order, sides):
     """nu = 0: E strain everywhere, times the circle's area; geometry or mesh tells five sides from a pentagon."""
     told = go(column(order, sides), COLUMN, space=True)
@@ -164,7 +160,6 @@ def test_column(go, order, sides):
     assert told.summary["contacts"][0]["pressureMax"] == pytest.approx(5, rel=1e-5) and not told.summary["warnings"]
 
 
-@pytest.mark.long
 def test_accuracy_of_a_column(go):
     """Its circles have 12 sides on every mesh: that is said, and no digits are claimed."""
     told = go(column(1), COLUMN, "-accuracy", 1e-5, space=True, expect=21)
@@ -184,7 +179,6 @@ def test_true_prism(go):
     assert said < 1e-5
 
 
-@pytest.mark.long
 def test_press_fit_in_space(go):
     part = drawn("press fit in space 1")
     told = go(part.geo(Draw(order=2)), part.case, space=True)
@@ -269,7 +263,6 @@ def test_edge(go):
     assert foreign.SINGULAR.search(told.warnings)
 
 
-@pytest.mark.long
 def test_edge_in_space(go):
     """A cube on a block, quarters, nu near 0.5."""
     geo = data("truth/quarters.geo")
@@ -301,7 +294,7 @@ PULLED = "body plate E 1000 nu 0.3\nobstacle right plane AWAY\nclamp left\nstres
 
 
 @pytest.mark.parametrize(
-    "sides, space", short_of([("lines", False), *product(SIDES, [True])], product(SIDES, (False, True)))
+    "sides, space", cases_of([("lines", False), *product(SIDES, [True])], product(SIDES, (False, True)))
 )
 def test_kink_without_bound(go, sides, space):
     """A re-entrant corner of 204 degrees has no bound; a smooth curve of the same depth, of few sides, has one."""
@@ -370,7 +363,6 @@ def test_clamped_rim_of_unnamed_sides(go):
     assert one["vonMises"] == pytest.approx(10, rel=0.1)
 
 
-@pytest.mark.long
 def test_kink_on_a_mirror(go):
     """Half of a kink, a line at 102 degrees to a mirror, has no bound; a coarse hole at 90 to it has one."""
     case = "body plate E 1000 nu 0.3\nobstacle pulled plane 10 0 -1 0\nsymmetry below\nsymmetry side\n"
@@ -392,10 +384,9 @@ def test_kink_on_a_mirror(go):
 ON_WIDER = data("truth/on-wider.geo")
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     "contact, nose",
-    short_of([("foot face", "sharp"), ("face foot", "round")], [("face foot", "sharp"), ("foot face", "round")]),
+    cases_of([("foot face", "sharp"), ("face foot", "round")], [("face foot", "sharp"), ("foot face", "round")]),
 )
 def test_opposite_a_corner(go, contact, nose):
     """Both bodies' stresses have no bound where a block's corner presses on a wider one, and have one below a nose."""
@@ -419,7 +410,7 @@ PINNED = "body pin E 200e3 nu 0.3\nbody plate E 200e3 nu 0.3\ncontact hole skin\
 
 @pytest.mark.parametrize(
     "named, weight, code, warned",
-    short_of([("3, 4", 1000, 0, True)], [("1, 4", 1000, 0, False), ("3, 4", 5000, 20, True), ("1:4", 1000, 0, False)]),
+    cases_of([("3, 4", 1000, 0, True)], [("1, 4", 1000, 0, False), ("3, 4", 5000, 20, True), ("1:4", 1000, 0, False)]),
 )
 def test_half_a_pin(go, named, weight, code, warned):
     """The half that is pressed is enough; a pin that leaves through what is unnamed is said first, or ends the run."""
@@ -546,7 +537,7 @@ def test_pie(go):
     go(pie(), "body disc E 1000 nu 0.3\nobstacle rim circle 0 0 R 1.001 inside\nweight disc 0 -1\n")
 
 
-@pytest.mark.parametrize("sides", short_of([8], [60]))
+@pytest.mark.parametrize("sides", cases_of([8], [60]))
 def test_coincident_nodes(go, sides):
     """Many nodes in one place; on few points an indefinite kernel: a press fit of 1e-7 between coarse circles."""
     sketch = Sketch(Draw())
@@ -559,7 +550,6 @@ def test_coincident_nodes(go, sides):
     assert go(sketch.text(), RINGS).summary["converged"]
 
 
-@pytest.mark.long
 def test_ball_in_space(go):
     """The same in space: the ball's rotations are held by few points."""
     part = drawn("ball in space 2")
@@ -574,7 +564,6 @@ def blocks(size):
     return sketch.named(base=[low[0]], floor=[low[2]], sole=[up[0]], head=[up[2]])
 
 
-@pytest.mark.long
 def test_nearly_incompressible(go):
     case = "body low E 1000 nu {0}\nbody up E 1000 nu {0}\ncontact sole floor\nclamp base\nmove head 0 -0.01\n"
     far, near = (go(blocks(0.5), case.format(nu), "-order", 4).numbers["contacts.0.force"] for nu in (0.49, 0.4999))
@@ -637,7 +626,7 @@ def test_quarter(go):
     assert normal > 1 and force == pytest.approx(normal, rel=1e-2)
 
 
-@pytest.mark.parametrize("name", short_of(["plank 2"], ["plank 1"]))
+@pytest.mark.parametrize("name", cases_of(["plank 2"], ["plank 1"]))
 def test_plank_rolls(name, tmp_path):
     """A plank that leans on one round foot, or on none yet, shall roll on to the other, not from point to point."""
     part = next(part for part in parts(2) if part.name == name)
@@ -671,7 +660,7 @@ BOLT = (
 )
 
 
-@pytest.mark.parametrize("f", [pytest.param(1, marks=pytest.mark.long), 1.5])
+@pytest.mark.parametrize("f", [1, 1.5])
 def test_fillet_of_a_right_angle(go, f):
     """Normals at the fillet's end are parallel to the seat: gaps along them are no gaps of the true distance."""
     told = go(bolt_head(f), BOLT, "-distance", "exact")
@@ -679,7 +668,6 @@ def test_fillet_of_a_right_angle(go, f):
     assert told.numbers["loads.0.way"][0] > 0.0205
 
 
-@pytest.mark.long
 def test_rounds_to_and_fro(go):
     """A disc on two others between two walls: a round overshoots more than the one before."""
     sketch = Sketch(Draw())

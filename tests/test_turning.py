@@ -76,7 +76,6 @@ def test_equal_sectors(solve):
             assert "finite rotations" not in stdout and "linearised" not in stdout
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("contact", ["rim top", "top rim"])
 def test_master_or_slave(solve, contact):
     """An elliptic ring that turns above a block, as its slave and as its master: as drawn turned."""
@@ -102,10 +101,9 @@ def test_loads_and_supports(solve):
     assert told["bodies"][0]["reaction"] == pytest.approx(true["bodies"][0]["reaction"], rel=1e-9)
 
 
-SLOW = [pytest.param(flags, marks=pytest.mark.long) for flags in ((), ("-distance", "exact"))]
+SLOW = [flags for flags in ((), ("-distance", "exact"))]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("flags", [("-order", 1), *SLOW])
 def test_skew_axis(solve, flags):
     """A box in space turned about a skew axis against a sphere: force, error and reactions of the box drawn turned."""
@@ -124,7 +122,6 @@ def test_skew_axis(solve, flags):
     assert turned == pytest.approx(1.7 * np.array(axis) / np.linalg.norm(axis), abs=0.02)
 
 
-@pytest.mark.long
 def test_lever_at_rest(solve):
     """A plank that tilts until both feet stand: statics where it stands, and how far its weight has gone."""
     geo = PLANK.replace("0.02}", "0.004}")
@@ -143,7 +140,6 @@ def test_lever_at_rest(solve):
     assert way["way"]["value"] == pytest.approx(down, rel=2e-3)
 
 
-@pytest.mark.long
 def test_rod_in_a_bowl(solve):
     """It leans on a rim: two points bear it, the next have hardly a lever; where they bear is in the errors."""
     r, half, rim, length, tilt = 5, 0.2, 0.5, 10, 0.5
@@ -166,7 +162,6 @@ def test_rod_in_a_bowl(solve):
     assert any("way of weight rod, counted from the first touch, is" in text for text in summary["warnings"])
 
 
-@pytest.mark.long
 def test_pushed_group(solve):
     """A body that turns and has a force on a group: it follows along the force as it is, in one step or three."""
     case = "body block E 100 nu 0.3\nobstacle bottom circle 1.785 0.209 R 1\nforce right -2 0\n{} left {}\n"
@@ -191,7 +186,6 @@ def test_refused(solve):
 GEAR = (ROOT / "tests/data/gear-pair.geo", "units mm MPa\nbody pinion E 206e3 nu 0.3\nbody wheel E 206e3 nu 0.3\n")
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("angle", [-0.1, 0.1])
 def test_gears(solve, angle):
     """A pair of teeth rolls: the moments' ratio, the same in one step as in ten, eight linearisations a step."""
@@ -218,7 +212,6 @@ def series(folder):
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
-@pytest.mark.long
 def test_hook_in_and_out(solve, tmp_path):
     """A hook that slides over a bump, on to points that nothing faced at first, shall press, and be free at the end."""
     case = "body hook E 2800 nu 0.39\nbody catch E 2800 nu 0.39\ncontact nose bump\nclamp root\nmove base -4.8 0\n"
@@ -236,7 +229,7 @@ SNAP = "units mm MPa\nstate stress\nbody hook E 2600 nu 0.35\nbody latch E 2600 
 SNAP += "size nose 0.1\nsize edge {}\ncontact nose edge {}\nmove root 1.8 0\n"
 
 
-@pytest.mark.parametrize("edge", [0.1, pytest.param(0.03, marks=pytest.mark.long)])
+@pytest.mark.parametrize("edge", [0.1, 0.03])
 def test_hook_on_an_edge(solve, tmp_path, edge):
     """A hook that bends far beyond what faced it: a beam's force; each gap is the distance to the edge's round shape.
 
@@ -283,8 +276,7 @@ def slab(matrix=None):
     return mesh.text() if matrix is None else mesh.text(matrix)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("turns", [0, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("turns", [0, 1])
 def test_dragged_in_space(solve, tmp_path, turns):
     """A cylinder dragged over elements of a block between mirrors: hardly a force, steady energy, turned the same."""
     case = "body block E 100 nu 0.3\nbody cylinder E 100 nu 0.3\ncontact btop cbottom interference 0.03\n"

@@ -6,15 +6,8 @@ import pytest
 import screens
 from test_readme import is_rule, quoted
 
-QUICK = "1-first-run"
 
-
-def run_of(page):
-    return pytest.param(page, id=page.stem, marks=[] if page.stem == QUICK else pytest.mark.long)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("page", [run_of(page) for page in screens.PAGES])
+@pytest.mark.parametrize("page", screens.PAGES, ids=lambda page: page.stem)
 def test_commands(page, tmp_path):
     """Commands of a page shall run as they stand, one after the other, and print its screens: `make numbers`."""
     for script, new in screens.outputs(page, screens.package(tmp_path / "package")):

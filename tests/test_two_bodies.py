@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from freefem import named, run, short_of, table
+from freefem import cases_of, named, run, table
 
 TIGHT = ["-tol", 1e-11]
 XNEWTON, PAPER = ["-method", "xnewton"], ["-method", "paper", "-eps", 1e-12]
@@ -22,7 +22,7 @@ def confined(kappa, m, d0, push, lengths, moduli):
 
 @pytest.mark.parametrize(
     "method, order, ratio",
-    short_of(
+    cases_of(
         [(XNEWTON, 1, 1e9), (XNEWTON, 2, 1e-6), (PAPER, 1, 1e-6), (PAPER, 2, 1)],
         itertools.product((XNEWTON, PAPER), (1, 2), (1, 1e-6, 1e9)),
     ),
@@ -49,7 +49,6 @@ def hertz(force, r1, r2, e1, e2, nu=0.3):
     return a, 2 * force / (np.pi * a)
 
 
-@pytest.mark.long
 def test_exchange_of_slave_and_master():
     """Exchanging slave and master shall change the force by less than the discretisation error does."""
     flags = ["-method", "xnewton", "-tol", 1e-9, "-force", 0, "-u0", 0.4, "-h", 0.2]
@@ -59,8 +58,7 @@ def test_exchange_of_slave_and_master():
     assert abs(other.force - one.force) <= 2 * abs(finer.force - one.force)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("ratio", [pytest.param(1, marks=pytest.mark.long), 1.37])
+@pytest.mark.parametrize("ratio", [1, 1.37])
 def test_interface_of_equal_cylinders(ratio):
     """Two equal cylinders shall meet in a plane half-way: flat to 1e-3 of the height that the arc loses there."""
     done = run("two-cylinders", "-force", 0, "-u0", 0.4, "-h", 0.05, "-ratio", ratio, "-corners", 0, "-states", 1)
@@ -80,7 +78,7 @@ MEETING = {"patch-test": [], "two-cylinders": ["-h", 0.2], "meshed-disc": ["-h",
 
 @pytest.mark.parametrize(
     "scene, points",
-    short_of(
+    cases_of(
         [("patch-test", "nodal"), ("two-cylinders", "nodal"), ("meshed-disc", "segment")],
         itertools.product(MEETING, ("nodal", "segment")),
     ),
@@ -110,8 +108,7 @@ def test_meshed_disc_counts():
     assert run("meshed-disc", "-method", "paper", "-h", 0.5).summary["newtonPerAdaptation"] == [6, 4, 2]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("kappa", [pytest.param(1e3, marks=pytest.mark.long), 1e9])
+@pytest.mark.parametrize("kappa", [1e3, 1e9])
 def test_many_contacts(kappa):
     """Wavy and rough surfaces: many separate contacts, to plain Newton's answer."""
     for scene, flags in (("wavy", ["-u0", 0.7, "-h", 0.4]), ("rough", ["-h", 0.4, "-modes", 40])):

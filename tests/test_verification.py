@@ -9,7 +9,7 @@ from freefem import FREEFEM, ROOT, execute
 
 CASES, TEXT = verification.cases(), verification.PAGE.read_text()
 SHORT = [name for name, case in CASES.items() if not case.get("long")]
-LONG = [pytest.param(name, marks=pytest.mark.long) for name in CASES if name not in SHORT]
+LONG = [name for name in CASES if name not in SHORT]
 
 
 def told(name):
@@ -69,7 +69,6 @@ def test_large_strains_in_cb1():
     assert large < published < linear
 
 
-@pytest.mark.long
 def test_hertz_by_the_force_of_two_spheres():
     """The pressure of SSNV104 is that of Hertz for the force of the run, to 0.3 %."""
     case = CASES["ssnv104"]

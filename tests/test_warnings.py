@@ -18,16 +18,12 @@ SENSIBLE = [
     ("hertz-line", []),
     ("meshed-disc", []),
     ("patch-test", []),
-    pytest.param("rough", [], marks=pytest.mark.long),
-    pytest.param("two-cylinders", [], marks=pytest.mark.long),
-    pytest.param("wavy", [], marks=pytest.mark.long),
-    pytest.param(
-        "flat-punch",
-        ["-a", 1, "-force", 20, "-order", 2, "-h", 0.05, "-grading", 160, "-law", "signorini"],
-        marks=pytest.mark.long,
-    ),
+    ("rough", []),
+    ("two-cylinders", []),
+    ("wavy", []),
+    ("flat-punch", ["-a", 1, "-force", 20, "-order", 2, "-h", 0.05, "-grading", 160, "-law", "signorini"]),
     ("patch-test-3d", []),
-    pytest.param("sphere-on-plane", [], marks=pytest.mark.long),
+    ("sphere-on-plane", []),
 ]
 
 
@@ -68,7 +64,6 @@ def test_waves_that_the_mesh_cannot_carry(tmp_path, scene, flags, allowed):
     assert flags[0] in line and allowed in line.split("allowed", 1)[1]
 
 
-@pytest.mark.long
 def test_waves_that_the_mesh_carries_poorly():
     """Between 4 and 8 points a wave the run shall say so; the force is then off by more than with 16."""
     flags = ["-u0", 0.7, "-kappa", 1e9]
@@ -92,7 +87,7 @@ def rough_height(x, modes, seed=1, hurst=0.8, rms=0.1, width=40):
     return height * rms / np.sqrt(np.sum(size**2) / 2)
 
 
-@pytest.mark.parametrize("modes, seed", [(16, 1), pytest.param(64, 7, marks=pytest.mark.long)])
+@pytest.mark.parametrize("modes, seed", [(16, 1), (64, 7)])
 def test_rough_top_does_not_depend_on_the_mesh(modes, seed):
     """The gap at a point shall be a function of x alone: counted from the profile's own highest point, to 1e-9."""
     dense = np.linspace(-20, 20, 400 * modes + 1)
@@ -134,7 +129,6 @@ def hertz_greatest(force, radius=10, modulus=100 / 0.91):
     return (6 * force * modulus**2 / (np.pi**3 * radius**2)) ** (1 / 3)
 
 
-@pytest.mark.long
 def test_few_points_in_space():
     """A contact of a point or a few shall be said: its greatest pressure is far from Hertz's."""
     done = run("sphere-on-plane", "-h", 0.5)
@@ -154,7 +148,6 @@ def test_few_points_in_the_plane():
     assert f"{np.sum(sizes < 6)} of {len(sizes)} places of contact" in text
 
 
-@pytest.mark.long
 def test_jumping_pressure():
     """A fine, stiff slave against a coarse, soft master: the pressure jumps, and the run says so with the cure."""
     done = run("two-cylinders", "-E1", 1e5, "-h", 0.1)
@@ -260,10 +253,7 @@ PIN_IN_HOLE = data("warnings/pin-in-hole.geo")
 TRUE_CIRCLES = 227.1  # greatest pressure, from the true circles' gap, another code
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    "pin, said", [("0.15", False), ("0.37", True), pytest.param("0.6", True, marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("pin, said", [("0.15", False), ("0.37", True), ("0.6", True)])
 def test_facets(tmp_path, pin, said):
     """A pressure that facets spoil shall be said; one that they do not is near that of the true circles, and is not."""
     case = "body lower E 2.1e5 nu 0.3\nbody upper E 2.1e5 nu 0.3\ncontact contact master gap vertical\nclamp clamped\n"

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from freefem import ROOT, execute, part, short_of
+from freefem import ROOT, cases_of, execute, part
 from test_parts import Mesh, block, cube, read, stack
 
 from postprocess.closed_forms import plane_modulus
@@ -71,7 +71,6 @@ def test_stack(tmp_path):
     assert run.summary["wear"]["contacts"][0]["coefficient"] == 2e-3
 
 
-@pytest.mark.long
 def test_punch(tmp_path):
     """A flat punch: the volume is k F s; at last the pressure is uniform, the profile that of the loaded surface."""
     run = part(tmp_path, PUNCHED.format(size=0.25), FLAT.format("", 400, 20))
@@ -94,7 +93,6 @@ def test_punch(tmp_path):
     )  # a half-plane's
 
 
-@pytest.mark.long
 def test_ball(tmp_path):
     """A stiff ball: h = sqrt(k F s/(pi R)), in ten steps and in a hundred; the error holds their difference."""
     runs = [part(tmp_path / f"{n}", PUNCHED.format(size=0.1), BALL.format(1000, n)) for n in (8, 80)]
@@ -109,7 +107,6 @@ def test_ball(tmp_path):
     )
 
 
-@pytest.mark.long
 def test_goes_on(tmp_path):
     """A run from the profile of another one ends as one run of all cycles; on another mesh the volume stays."""
     whole = part(tmp_path / "whole", PUNCHED.format(size=0.5), FLAT.format("", 40, 8), "-tol", 1e-10)
@@ -126,7 +123,6 @@ def test_goes_on(tmp_path):
     assert other.summary["wear"]["stepsError"].startswith("not known: an odd number of wear steps")
 
 
-@pytest.mark.long
 def test_two_contacts(tmp_path):
     """Only the contact with wear loses material; the screen says what wears, wear.csv has a row for each."""
     case = HELD + "obstacle top plane 0 20 0 -1 force 0 -50 wear 1e-4 slide 10\n"
@@ -144,7 +140,6 @@ def test_two_contacts(tmp_path):
     assert picture[0] == 0 and (run.folder / "wear.png").exists(), picture[1]
 
 
-@pytest.mark.long
 def test_other_units(tmp_path):
     """In millimetres and in metres, and with an interference in place of a motion, the depths are the same lengths."""
     case = "state axisymmetric\nbody block E {} nu 0.3\nclamp bottom\nsymmetry left\n"
@@ -159,7 +154,6 @@ def test_other_units(tmp_path):
             assert worn(other)[key]["value"] == pytest.approx(scale * worn(run)[key]["value"], rel=limit), (name, key)
 
 
-@pytest.mark.long
 def test_in_space(tmp_path):
     """A confined box in space: as the column; its profile is read back on the same mesh only."""
     case = "body block E 100 nu 0.3\nsymmetry left\nsymmetry right\nsymmetry front\nsymmetry back\nsymmetry bottom\n"
@@ -237,7 +231,7 @@ COMBINED = [
 ]
 
 
-@pytest.mark.parametrize("case, flags, words", short_of(COMBINED[-1:], COMBINED))
+@pytest.mark.parametrize("case, flags, words", cases_of(COMBINED[-1:], COMBINED))
 def test_combinations(tmp_path, case, flags, words):
     """What is not solved together with wear is refused by name, and nothing is written."""
     (tmp_path / "other.csv").write_text("overlap,pressure\n0,0\n")
@@ -247,7 +241,7 @@ def test_combinations(tmp_path, case, flags, words):
 
 @pytest.mark.parametrize(
     "row, words",
-    short_of(
+    cases_of(
         [("0,0,1.5,2,0,x", "allowed: worn.csv of a run")],
         [
             ("0,0,1.5,2,0,x", "allowed: worn.csv of a run"),
@@ -281,7 +275,6 @@ CYCLE = (
 )
 
 
-@pytest.mark.long
 def test_partial_slip(tmp_path):
     """A cycle wears as Cattaneo and Mindlin have it, k times pressure times slip; the volume is k/mu energy."""
     run = part(tmp_path, FRETTED.format(size=0.08), FRETTING.format(100, 1) + CYCLE, "-estimate", 0)
@@ -301,7 +294,6 @@ def test_partial_slip(tmp_path):
     assert worn(run)["slide"] is None and "error of the wear steps not known" in run.stdout
 
 
-@pytest.mark.long
 def test_fretting_steps(tmp_path):
     """The slip zone loses its pressure; the steps' error holds the difference; too long a step stops the run."""
     mesh, cycles = FRETTED.format(size=0.16), 4000
@@ -319,7 +311,6 @@ def test_fretting_steps(tmp_path):
     assert "cycles is too long for this mesh: use cycles 400000 steps " in long.stdout
 
 
-@pytest.mark.long
 def test_slip_in_space(tmp_path):
     """A box that slides as a whole, in space and in the plane: k p times the slip, and k/mu times the energy."""
     case = "body block E 100 nu 0.3\nclamp bottom\ncycles 10 steps 1\n"

@@ -9,7 +9,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, data, execute, part, short_of
+from freefem import FREEFEM, ROOT, cases_of, data, execute, part
 from shapes import polygon
 
 from postprocess.__main__ import main
@@ -157,11 +157,7 @@ def test_inp_refused(tmp_path, old, new, said):
 # ---------------------------------------------------------------- geometries
 
 
-LONG = [pytest.param(kind, marks=pytest.mark.long) for kind in ("step", "stp", "brep", "geo")]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("kind", ["iges", *LONG])
+@pytest.mark.parametrize("kind", "iges step stp brep geo".split())
 def test_geometries(tmp_path, kind):
     """What CAD writes is meshed as it is, its groups picked in the case file: the same of each kind."""
     if kind == "iges":
@@ -179,7 +175,6 @@ def test_geometries(tmp_path, kind):
     assert areas == pytest.approx({**AREAS, "top": 16})
 
 
-@pytest.mark.long
 def test_faces_that_meet_become_two(tmp_path):
     """Bodies that share a face are one part, until "between" asks for their faces: then each has its own nodes."""
     mesh = gmsh(tmp_path, "a.brep", JOINED, "-0")
@@ -199,7 +194,6 @@ def test_plane_geometry(tmp_path):
     assert areas == pytest.approx({"top": 4, "base": 4, "round": 2 * np.pi}, rel=0.01)
 
 
-@pytest.mark.long
 def test_what_no_group_has_is_left_out(tmp_path):
     """One body alone needs no group; of several those of no group are left out, which is said."""
     mesh = gmsh(tmp_path, "a.step", BOXES, "-0")
@@ -237,7 +231,6 @@ def cad(tmp_path_factory):
     return gmsh(tmp_path_factory.mktemp("cad"), "a.step", BOXES, "-0")
 
 
-@pytest.mark.long
 def test_files_that_are_none(tmp_path, cad):
     """What is no geometry, has no body or no groups, a size for a mesh: one line each."""
     (tmp_path / "a.step").write_text("no geometry")
@@ -278,7 +271,7 @@ WORDS = {
 }
 
 
-@pytest.mark.parametrize("word", short_of(list(WORDS)[::4], WORDS))
+@pytest.mark.parametrize("word", cases_of(list(WORDS)[::4], WORDS))
 def test_words(tmp_path, word, cad):
     """What an engineer looks for leads to what there is, and says what that does."""
     code, why, *_ = readable(tmp_path, cad, f"{word} base\n" + NAMED.format("0"))
@@ -288,8 +281,7 @@ def test_words(tmp_path, word, cad):
 # ---------------------------------------------------------------- solved
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("drawn", [False, pytest.param(True, marks=pytest.mark.long)])
+@pytest.mark.parametrize("drawn", [False, True])
 def test_shown_without_a_case(tmp_path, cad, drawn):
     """-check 1 shows a geometry without a case file: each face with its number; two commands lead to the picture."""
     out = tmp_path / "out"
@@ -304,7 +296,6 @@ def test_shown_without_a_case(tmp_path, cad, drawn):
         assert (out / "check/faces.png").exists() and not (out / "check/check.png").exists()
 
 
-@pytest.mark.long
 def test_step_solved(tmp_path, cad):
     """Of a STEP file to forces: those of the same bodies out of a mesh of bricks, as far as these meshes tell."""
     forces = []

@@ -33,7 +33,7 @@ ENDIFMACRO
 """
 PROGRAM = """#!/bin/sh
 log={logs}/$$
-echo "# $PYTEST_CURRENT_TEST" > "$log"
+echo "# ${{READS_FOR:-$PYTEST_CURRENT_TEST}}" > "$log"
 exec 9>> "$log"
 exec {program} "$@"
 """
