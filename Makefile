@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab test test-long test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab choice test test-long test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -499,6 +499,9 @@ tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipp
 # As root, with debootstrap. CONTACT_SYSTEMS=folder keeps the trees; SYSTEMS="trixie noble" chooses.
 test-systems: | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README's commands, make test, the same numbers
 	@{ $(FIND_PYTHON); } && PYTEST_ARGS='$(PYTEST_ARGS)' TESTS='$(TESTS)' $$python tests/systems.py $(SYSTEMS)
+
+choice: $(VENV)/dev.stamp | system ## find for an hour what each test costs and reaches, and choose the quick tests anew (tests/long.txt)
+	@$(PYTHON) tests/campaigns/choose.py measure && $(PYTHON) tests/campaigns/choose.py
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests

@@ -5,6 +5,7 @@
 `tree(folder)` copies the package, for tests that must not disturb this one's results and meshes.
 """
 
+import contextlib
 import fcntl
 import hashlib
 import json
@@ -42,7 +43,7 @@ CONTACT_COLUMNS += tuple("contact chain along normalX normalY".split())
 SPACE_COLUMNS = ("x", "y", "z", *CONTACT_COLUMNS[2:], "normalZ")
 FRICTION_COLUMNS = "shear slip slide shearX shearY shearZ slipX slipY slipZ".split()
 MOVED = "two-bodies"  # no scene: a script that says what took its place
-TIMEOUT = 280  # seconds; a run that hangs is a failure, not a hanging suite
+DEFAULT_RUN = float(os.environ.get("DEFAULT_RUN", "0.5"))  # CPU seconds of a default run here: run.py
 
 
 def scenes():
@@ -56,6 +57,14 @@ def script(scene):
     if "/" in scene:
         return f"tests/data/{scene}.edp"
     return "edp/main.edp" if scene == "disc-on-block" else f"edp/scenes/{scene}.edp"
+
+
+def patience(runs):
+    """Wall seconds after which what takes so many default runs hangs, on a machine that does eight things at a time."""
+    return 8 * runs * DEFAULT_RUN
+
+
+TIMEOUT = patience(150)
 
 
 def environment(**changes):
@@ -147,6 +156,26 @@ def flag_lists(text):
 def interruptible():
     """A preexec_fn: Ctrl-C works as in a terminal; a job in the background is started with it ignored."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def interrupt(command, far_enough, cwd=ROOT, env=None):
+    """Start a command and kill it, with all that it has started, once far_enough() holds.
+
+    It runs behind everything else, so that it does not end while this process waits for its turn; one that did is begun
+    again.
+    """
+    quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "start_new_session": True}
+    quiet |= {"cwd": cwd, "env": environment() if env is None else env, "preexec_fn": lambda: os.nice(19)}
+    for _ in range(5):
+        process = subprocess.Popen(list(map(str, command)), **quiet)
+        end = time.monotonic() + TIMEOUT
+        while process.poll() is None and not far_enough() and time.monotonic() < end:
+            time.sleep(0.005)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        if process.wait() == -signal.SIGKILL:
+            return
+    raise AssertionError("the command ended before it could be killed")
 
 
 def execute(command, cwd=ROOT, env=None):
@@ -281,8 +310,8 @@ def tree(folder):
     return folder
 
 
-def wait_for(what, seconds=60):
-    end = time.monotonic() + seconds
+def wait_for(what, runs=30):
+    end = time.monotonic() + patience(runs)
     while not what():
         assert time.monotonic() < end
         time.sleep(0.005)

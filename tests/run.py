@@ -51,9 +51,8 @@ def start() -> float:
         return statistics.median(cpu(*FREEFEM, script.name) for _ in range(3))
 
 
-def report(used: float, accounts: Path, dearest: int) -> str:
+def report(used: float, unit: float, accounts: Path, dearest: int) -> str:
     """What the tests took: `used` CPU seconds in default runs, the share of FreeFEM's starts, the dearest tests."""
-    unit = default_run()
     rows = [json.loads(line) for line in accounts.read_text().splitlines()] if accounts.exists() else []
     starts = sum(row["starts"] for row in rows)
     text = f"{used / unit:.0f} default runs of {unit:.3f} CPU s"
@@ -70,17 +69,19 @@ def report(used: float, accounts: Path, dearest: int) -> str:
 def main(words: list[str]) -> int:
     if words[0] == "--report":
         minutes = re.findall(r"(\d+)m([\d.]+)s", Path(words[1]).read_text().splitlines()[1])
-        print(report(sum(60 * int(m) + float(s) for m, s in minutes), Path(words[2]), 20))
+        print(report(sum(60 * int(m) + float(s) for m, s in minutes), default_run(), Path(words[2]), 20))
         return 0
     expression, *rest = words
-    before, codes = children(), []
+    unit, codes = default_run(), []
+    before = children()
     with tempfile.TemporaryDirectory() as folder:
         own = Path(folder, "accounts")
+        env = {**os.environ, "ACCOUNTS": str(own), "DEFAULT_RUN": str(unit)}
         for kind, how in (("not ranks", ["-n", str(WORKERS), "--dist", "worksteal"]), ("ranks", [])):
             command = [sys.executable, "-m", "pytest", "-q", "-m", f"({expression}) and {kind}", *how, *rest]
-            codes.append(subprocess.run(command, env={**os.environ, "ACCOUNTS": str(own)}).returncode)
+            codes.append(subprocess.run(command, env=env).returncode)
         used = children() - before
-        print(report(used, own, 0))
+        print(report(used, unit, own, 0))
         if os.environ.get("ACCOUNTS") and own.exists():
             with Path(os.environ["ACCOUNTS"]).open("a") as file:
                 file.write(own.read_text())

@@ -1,12 +1,22 @@
 """Surfaces that attract: the law, the stable step, paths with jumps, against closed forms and an independent code."""
 
 import re
-import subprocess
-import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, cases_of, environment, flag_text, run, run_in, script, snippet, table, told
+from freefem import (
+    FREEFEM,
+    ROOT,
+    cases_of,
+    flag_text,
+    interrupt,
+    run,
+    run_in,
+    script,
+    snippet,
+    table,
+    told,
+)
 from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
 from postprocess import style
@@ -359,12 +369,8 @@ def test_path_goes_on(tmp_path):
     given += ["-estimate", 0]
     whole, rows, _ = follow(1)
     again, words = tmp_path / "again", [*FREEFEM, script(SPHERE), *map(flag_text, given), "-vtu", "0"]
-    running = subprocess.Popen([*words, "-out", again], cwd=ROOT, env=environment(), stdout=subprocess.DEVNULL)
-    ended = time.monotonic() + 60
-    while time.monotonic() < ended and not ((again / "path.csv").exists() and len(table(again / "path.csv")) > 5):
-        time.sleep(0.01)
-    running.kill()
-    running.wait()
+    path = again / "path.csv"
+    interrupt([*words, "-out", again], lambda: path.exists() and len(table(path)) > 5)
     kept = len(table(again / "path.csv"))
     done = run_in(ROOT, script(SPHERE), *given, "-vtu", 0, out=again)
     # the state that is gone on from is in place before the table: a kill in between leaves it one ahead

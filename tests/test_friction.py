@@ -1,15 +1,25 @@
 """Coulomb's friction: counts, closed forms, energies, symmetries, legs of a case, what is refused."""
 
-import os
 import re
-import signal
-import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, cases_of, data, execute, flag_text, part, run, run_in, snippet, table, told
+from freefem import (
+    FREEFEM,
+    ROOT,
+    cases_of,
+    data,
+    execute,
+    flag_text,
+    interrupt,
+    part,
+    run,
+    run_in,
+    snippet,
+    table,
+    told,
+)
 from shapes import moved, polygon
 from test_parts import UNTURNED, Mesh, block, turn
 
@@ -597,11 +607,7 @@ def goes_on(folder, command, rows_before, steps):
     code, stdout = execute([*command, folder / "whole"])
     assert code == 0, stdout
     rows = folder / "cut" / "series.csv"
-    begun = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "start_new_session": True}
-    with subprocess.Popen([*command, str(folder / "cut")], **begun) as process:
-        while process.poll() is None and not (rows.exists() and rows.read_text().count("\n") > rows_before):
-            time.sleep(0.01)
-        os.killpg(process.pid, signal.SIGKILL)
+    interrupt([*command, folder / "cut"], lambda: rows.exists() and rows.read_text().count("\n") > rows_before)
     code, stdout = execute([*command, folder / "cut"])
     assert code == 0 and re.search(rf"goes on after step \d+ of {steps}", stdout), stdout
     for name in ("series.csv", "contact.csv"):

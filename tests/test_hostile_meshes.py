@@ -7,14 +7,14 @@ import time
 from pathlib import Path
 
 import pytest
-from freefem import FREEFEM, ROOT, Run, environment, wait_for
+from freefem import FREEFEM, ROOT, Run, environment, patience, wait_for
 from shapes import polygon
 
 NAMES = {"clamped": 11, "contact": 12, "master": 13, "pushed": 14, "free": 15, "lower": 21, "upper": 22}
 SURFACES = ("lower", "upper")
 MEMORY = 4 << 30  # bytes of address space
 RESIDENT = 2 << 20  # kB
-SECONDS = 60
+SECONDS = patience(30)
 FLAGS = ["-order", "1", "-tol", "1e-11", "-vtu", "0", "-estimate", "0"]
 CASE = """body lower E 100 nu 0.3
 body upper E 100 nu 0.3

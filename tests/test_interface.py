@@ -18,6 +18,7 @@ from freefem import (
     execute,
     files,
     listing,
+    patience,
     plotted,
     run_in,
     script,
@@ -285,7 +286,7 @@ def test_what_is_echoed(word, tmp_path):
     (tmp_path / "a.case").write_text(f"{word} x\n")
     punch = ["edp/parts.edp", "-mesh", "edp/examples/punch/punch.geo", "-case", str(tmp_path / "a.case")]
     for words in (punch, [script(DISC), "-h", word[:3000]], [script(DISC), f"-{word[:3000]}", "1"]):
-        done = subprocess.run([*FREEFEM, *words], cwd=ROOT, stdout=subprocess.PIPE, timeout=20)
+        done = subprocess.run([*FREEFEM, *words], cwd=ROOT, stdout=subprocess.PIPE, timeout=patience(10))
         assert done.returncode == 10 and done.stdout.count(b"\n") == 1, done.stdout
         assert b"\033" not in done.stdout and len(done.stdout) < 7000
 
@@ -305,7 +306,7 @@ def test_pipes(tmp_path):
         (["edp/parts.edp", *words, tmp_path / "no.case"], "a control character"),
         ([script(DISC), "-law", "table", "-table", tmp_path / "it's a pipe"], "it's a pipe: cannot be read"),
     ):
-        done = subprocess.run([*FREEFEM, *command], cwd=ROOT, capture_output=True, text=True, timeout=30)
+        done = subprocess.run([*FREEFEM, *command], cwd=ROOT, capture_output=True, text=True, timeout=patience(15))
         assert done.returncode == 10 and done.stdout.count("\n") == 1 and said in done.stdout, done.stdout
 
 
@@ -330,7 +331,7 @@ def test_no_room_for_a_mesh(words, tmp_path):
         stdout=subprocess.PIPE,
         text=True,
         preexec_fn=lambda: no_room_beyond(500),
-        timeout=100,
+        timeout=patience(50),
     )
     assert done.returncode == 30, done.stdout
     assert done.stdout.splitlines()[-1].startswith("out of disk: "), done.stdout
@@ -346,7 +347,7 @@ def test_folder_moved_during_a_run(flags, tmp_path):
         while not (tmp_path / "out/.run/.written").exists() and running.poll() is None:
             time.sleep(0.01)
         (tmp_path / "out").rename(tmp_path / "other")
-        said = running.communicate(timeout=100)[0]
+        said = running.communicate(timeout=patience(50))[0]
     assert running.returncode == 30 and "could not be written whole" in said.splitlines()[-1], said
     assert files(tmp_path / "other") == [] and not (tmp_path / "out").exists()
 
@@ -369,7 +370,7 @@ def test_disk_full(tmp_path, limit, flags):
         stderr=subprocess.STDOUT,
         text=True,
         preexec_fn=lambda: no_room_beyond(limit),
-        timeout=100,
+        timeout=patience(50),
     )
     assert done.returncode not in (0, 10, 20), done.stdout
     assert "could not be written whole" in done.stdout

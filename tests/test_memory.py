@@ -8,13 +8,13 @@ import time
 
 import pytest
 from accounts import shared
-from freefem import MULTIGRID, ROOT, cases_of, data, environment, flag_text, script, snippet
+from freefem import MULTIGRID, ROOT, TIMEOUT, cases_of, data, environment, flag_text, script, snippet
 
 EXAMPLES = ROOT / "edp" / "examples"
 built = MULTIGRID.exists()
 
 
-def within(megabytes, *command, threads=1, folder=None, longest=250):
+def within(megabytes, *command, threads=1, folder=None, longest=TIMEOUT):
     """(exit code, output, seconds) of a run in so much address space; None: in as much as there is."""
 
     def limit():

@@ -17,7 +17,7 @@ import browser
 import freefem
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, run, run_in, script, tree
+from freefem import FREEFEM, ROOT, execute, patience, run, run_in, script, tree
 from matplotlib.animation import FFMpegWriter
 from test_scene_figures import WAVY
 from text_boxes import faults
@@ -516,7 +516,9 @@ class TestDoctor:
     def examine(self, folder, **environment):
         """Exit code and output of the check with a bare Python: no module beyond the standard ones."""
         command = [self.SYSTEM, "-I", "-S", str(folder / "postprocess" / "doctor.py")]
-        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=120)
+        done = subprocess.run(
+            command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=patience(60)
+        )
         assert done.stderr == ""
         return done.returncode, done.stdout
 

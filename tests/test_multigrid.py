@@ -16,7 +16,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from freefem import MULTIGRID, ROOT, Run, environment, execute, flag_text, run, run_in, script, snippet, told, tree
+from freefem import (
+    MULTIGRID,
+    ROOT,
+    Run,
+    environment,
+    execute,
+    flag_text,
+    patience,
+    run,
+    run_in,
+    script,
+    snippet,
+    told,
+    tree,
+)
 from test_parts import Mesh, cube, turn_in_space, vector
 
 pytestmark = pytest.mark.ranks
@@ -437,7 +451,7 @@ def test_killed_rank(tmp_path):
         victim = process_of_rank(1, str(tmp_path / "out"))
     assert victim is not None
     os.kill(victim, signal.SIGKILL)
-    output, _ = running.communicate(timeout=120)
+    output, _ = running.communicate(timeout=patience(60))
     assert running.returncode not in (0, 10, 20)
     assert "rank 1" in output
     code, output = on_ranks(1, name, *flags, "-h", 1.2, "-layers", 2)

@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, listing, plotted, run_in, script, tree
+from freefem import FREEFEM, ROOT, environment, execute, listing, patience, plotted, run_in, script, tree
 
 BLOCK, DISC = script("confined-block"), script("disc-on-block")
 QUICK = ["-h", 2, "-order", 1, "-vtu", 0, "-estimate", 0]
@@ -41,7 +41,7 @@ def places():
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
-            timeout=200,
+            timeout=patience(100),
             **user,
         )
         return done.returncode, done.stdout + done.stderr

@@ -6,7 +6,7 @@ import re
 import subprocess
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, run, run_in, script
+from freefem import FREEFEM, ROOT, environment, execute, patience, run, run_in, script
 from pages import scripts, told
 from test_examples import example
 
@@ -283,7 +283,7 @@ def test_gmsh_at_work(tmp_path):
             expected,
             "-2",
         ]
-        done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=patience(30))
         assert (done.returncode, done.stdout) == (5, said)
 
 

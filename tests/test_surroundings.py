@@ -7,7 +7,6 @@ import resource
 import shutil
 import signal
 import subprocess
-import time
 
 import numpy as np
 import pytest
@@ -22,8 +21,10 @@ from freefem import (
     environment,
     execute,
     files,
+    interrupt,
     interruptible,
     listing,
+    patience,
     run_in,
     snippet,
     table,
@@ -56,7 +57,7 @@ def start(*words, cwd=ROOT, env=None):
 
 def ended(process):
     """(exit code, output) of such a run."""
-    stdout = process.communicate(timeout=100)[0]
+    stdout = process.communicate(timeout=patience(50))[0]
     return process.returncode, stdout.replace(PLUGIN_SAYS, "", 1)
 
 
@@ -440,7 +441,7 @@ def limited_run(package, script, limit, *flags):
         stderr=subprocess.STDOUT,
         text=True,
         preexec_fn=no_room(limit),
-        timeout=100,
+        timeout=patience(50),
     )
     return done.returncode, done.stdout
 
@@ -463,24 +464,9 @@ def test_no_place_for_a_mesh(tmp_path):
 
 
 def interrupted_series(*words, cwd=ROOT, rows=4):
-    """Kill a load series once it has written some rows; one that was quicker, on a busy machine, is begun again."""
-    out = words[words.index("-out") + 1]
-
-    def far_enough():
-        return process.poll() is not None or ((out / "series.csv").exists() and len(table(out / "series.csv")) >= rows)
-
-    for _ in range(5):
-        process = start(*words, cwd=cwd)
-        try:
-            wait_for(far_enough)
-        finally:
-            process.kill()
-            process.wait()
-            process.stdout.close()
-        if process.returncode == -signal.SIGKILL:
-            break
-    assert process.returncode == -signal.SIGKILL
-    time.sleep(0.3)  # a table that was just being moved into place still is
+    """Kill a load series once it has written some rows."""
+    series = words[words.index("-out") + 1] / "series.csv"
+    interrupt([*FREEFEM, *words], lambda: series.exists() and len(table(series)) >= rows, cwd)
 
 
 @pytest.mark.parametrize("method", ["xnewton", "paper"])
