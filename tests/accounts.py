@@ -82,7 +82,7 @@ class Frame:
             self.log.unlink()
         row = {"label": self.label, "cpu": used - self.inner, "starts": starts, "outcome": self.outcome}
         row |= {"uses": sorted(self.uses), "reads": sorted(filter(None, map(source, self.reads)))}
-        with (base / "accounts").open("a") as file:
+        with (base / f"accounts-{os.getpid()}").open("a") as file:
             file.write(json.dumps(row) + "\n")
 
 
@@ -192,7 +192,7 @@ def digest(name):
 
 def tools():
     """The programs that runs stand on, and the plugins."""
-    found = [sys.version]
+    found = [sys.version, digest("tests/accounts.py")]
     for path in [*map(shutil.which, TOOLS), *sorted((ROOT / "build").glob("*.so"))]:
         found += [f"{path} {os.stat(path).st_size} {os.stat(path).st_mtime}"] if path else []
     return hashlib.sha256("\n".join(found).encode()).hexdigest()[:16]
@@ -215,44 +215,60 @@ def read_by(rows):
     return every
 
 
-def remember(config, rows):
-    """Add the tests that passed to those that need not run again."""
-    if not os.environ.get("LD_PRELOAD") or not hasattr(config, "cache"):
-        return
+@functools.cache
+def state(reads):
+    """Of the files, tuple of names, that a test reads: changes with each of them."""
+    return hashlib.sha256("".join(map(digest, reads)).encode()).hexdigest()[:16]
+
+
+def known(config):
+    """{test: (what it read, in which state)} of those that passed with these tools."""
+    if not hasattr(config, "cache") or not os.environ.get("LD_PRELOAD"):
+        return None
     kept = config.cache.get("unchanged", {})
     if kept.get("tools") != tools():
-        kept = {"tools": tools(), "tests": {}}
-    every, late = read_by(rows), {}
+        return {}
+    sets = [tuple(kept["files"][k] for k in numbers) for numbers in kept["sets"]]
+    return {name: (sets[number], was) for name, (number, was) in kept["tests"].items()}
+
+
+def remember(config, rows):
+    """Add the tests that passed to those that need not run again."""
+    tests = known(config)
+    if tests is None:
+        return
     digest.cache_clear()
+    state.cache_clear()
+    every = read_by(rows)
+
+    @functools.cache
+    def touched(name):
+        path = ROOT / name
+        return path.is_file() and path.stat().st_mtime_ns > BEGAN
+
     for row in rows:
         name = row["label"]
-        if "::" not in name or name.startswith(("fixture", "call", "run", "module")):
+        if "::" not in name or name.startswith(("fixture ", "call ", "module ")):
             continue
-        kept["tests"].pop(name, None)
-        if row["outcome"] != "passed":
-            continue
+        tests.pop(name, None)
         file = name.split("::")[0]
         reads = every(name) | every(f"module {file}") | {file} | imports(file) | set(ALWAYS)
-        for read in reads:
-            path = ROOT / read
-            late.setdefault(read, read != EVERYTHING and path.is_file() and path.stat().st_mtime_ns > BEGAN)
-        if not any(late[read] for read in reads):
-            kept["tests"][name] = {read: digest(read) for read in sorted(reads)}
+        if row["outcome"] == "passed" and not any(map(touched, reads)):
+            reads = tuple(sorted(reads))
+            tests[name] = reads, state(reads)
+    files = {name: k for k, name in enumerate(sorted({name for reads, _ in tests.values() for name in reads}))}
+    sets = {reads: k for k, reads in enumerate(sorted({reads for reads, _ in tests.values()}))}
+    kept = {"tools": tools(), "files": list(files), "sets": [[files[name] for name in reads] for reads in sets]}
+    kept["tests"] = {name: [sets[reads], was] for name, (reads, was) in tests.items()}
     config.cache.set("unchanged", kept)
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
-    if not hasattr(config, "cache") or not os.environ.get("LD_PRELOAD"):
-        return
-    kept = config.cache.get("unchanged", {})
-    if kept.get("tools") != tools():
-        return
-    known, left_out = kept["tests"], []
-    for item in items:
-        reads = known.get(item.nodeid)
-        if reads and all(digest(name) == was for name, was in reads.items()):
-            left_out.append(item)
+    tests = known(config) or {}
+    left_out = [
+        item for item in items if item.nodeid in tests and state(tests[item.nodeid][0]) == tests[item.nodeid][1]
+    ]
     if left_out:
         config.hook.pytest_deselected(items=left_out)
         gone = set(left_out)
@@ -331,9 +347,10 @@ def pytest_sessionfinish(session):
         return
     if unchanged and session.exitstatus == pytest.ExitCode.NO_TESTS_COLLECTED:
         session.exitstatus = pytest.ExitCode.OK
-    if base is None or not (base / "accounts").exists():
+    files = [] if base is None else sorted(base.glob("accounts-*"))
+    rows = [json.loads(line) for file in files for line in file.read_text().splitlines()]
+    if not rows:
         return
-    rows = [json.loads(line) for line in (base / "accounts").read_text().splitlines()]
     remember(session.config, rows)
     if os.environ.get("ACCOUNTS"):
         with open(os.environ["ACCOUNTS"], "a") as file:

@@ -13,6 +13,7 @@ are named in tests/long.txt, one a line: a test, or a function with all its case
 import heapq
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -20,7 +21,6 @@ from collections import defaultdict
 from pathlib import Path
 
 from executed import copy_tree, instrument, programs, take_marks
-from mutants import SEE_NO_NUMBER
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results").absolute() / "choice"
@@ -28,6 +28,10 @@ BUDGET = 700  # default runs of the tests' own; collecting and starting the work
 WORTH = (1.0, 0.4, 0.2, 0.1)  # of a line that is reached for the first time, the second, ...
 PYTHON = 0.5  # a line of Python, over a statement of the scripts
 FUNCTION = 3.0  # a test function of which no case has been taken
+SEE_NO_NUMBER = re.compile(  # of a run: tests of files, pages, pictures and words
+    "campaign|contracts|foreign|hertz_figures|hostile_meshes|house|interface|kit|lint_edp|makefile|meaning|movie_report|"
+    "notebooks|options|paraview|pictures|places|play|postprocess|readme|refusals|scene_docs|scene_figures|site|surroundings"
+)
 COVERAGE = """[run]
 source = postprocess
 data_file = {folder}/python
@@ -63,7 +67,7 @@ def measure() -> None:
     (FOLDER / "statements.json").write_text(json.dumps(statements))
     (FOLDER / "coveragerc").write_text(COVERAGE.format(folder=FOLDER))
     (FOLDER / "plugin").mkdir()
-    for name in ("choose", "executed", "mutants", "same", "campaign"):  # not the campaign that is called coverage
+    for name in ("choose", "executed"):  # not the campaign that is called coverage
         shutil.copy(ROOT / f"tests/campaigns/{name}.py", FOLDER / "plugin")
     env = programs(tree) | {"ACCOUNTS": str(FOLDER / "accounts"), "COVERAGE_PROCESS_START": str(FOLDER / "coveragerc")}
     env |= {"PYTHONPATH": f"{FOLDER / 'plugin'}:{tree / 'tests'}"}
@@ -95,11 +99,14 @@ def reached_python() -> dict[str, set]:
 class Test:
     """What a test costs and reaches, itself and by what it shares with others."""
 
-    def __init__(self, name, row, every, scripts, python):
-        self.name, self.cpu, self.uses = name, row["cpu"], closure(row["uses"], every)
+    def __init__(self, name, every, scripts, python):
+        row = every[name]
+        self.name, self.cpu, self.outcome, self.uses = name, row["cpu"], row["outcome"], closure(row["uses"], every)
+        self.whole = self.cpu + sum(every[label]["cpu"] for label in self.uses)
         labels = {name, *self.uses}
         blind = SEE_NO_NUMBER.search(name.split("::")[0].split("/")[-1].removeprefix("test_"))
-        self.reaches = {("s", k) for label in labels for k in scripts.get(label, ()) if not blind}
+        self.statements = set() if blind else {k for label in labels for k in scripts.get(label, ())}
+        self.reaches = {("s", k) for k in self.statements}
         self.reaches |= {("p", *line) for label in labels for line in python.get(label, ())}
         self.function = name.split("[")[0]
 
@@ -126,7 +133,7 @@ def read_tests() -> tuple[dict, list]:
     scripts = {label: set(numbers) for label, numbers in json.loads((FOLDER / "reached.json").read_text()).items()}
     python = reached_python()
     names = [name for name in every if "::" in name and not name.startswith(("fixture ", "run ", "call "))]
-    return every, [Test(name, every[name], every, scripts, python) for name in names]
+    return every, [Test(name, every, scripts, python) for name in names]
 
 
 def choose(every: dict, tests: list, budget: float) -> set[str]:
@@ -167,6 +174,17 @@ def choose(every: dict, tests: list, budget: float) -> set[str]:
         print(f"{sum(count[line] > 0 for line in some)} of {len(some)} {word}")
     print(f"{len(taken)} of {len(tests)} tests, {spent:.0f} CPU s")
     return taken
+
+
+def statements() -> list:
+    """As executed.py numbers them."""
+    return json.loads((FOLDER / "statements.json").read_text())
+
+
+def long_tests(names) -> set[str]:
+    """Those of these tests that tests/long.txt names."""
+    named = set((ROOT / "tests/long.txt").read_text().splitlines())
+    return {name for name in names if name in named or name.split("[")[0] in named}
 
 
 def write_long(tests: list, taken: set[str]) -> None:

@@ -3,11 +3,11 @@
 Statements that the short runs of SCENES and PARTS execute are drawn by a seed, and one thing in each is changed: a
 sign, a factor, a term left out, an index, a comparison, an earlier stop. It is no mutant if FreeFEM does not read it,
 or if no result of these runs differs by more than TOLERANCE of its scale; what moves only counts or words is kept
-apart. On the others the default tests run that execute the statement, quick ones first, until one fails. Which those
-are is found once, in a copy with marks (executed.py): a test that fails in it falls on any change of a source.
+apart. On the others the tests run that execute the statement, until one fails: those of `make test`, quick ones first,
+then the others. Which those are `choose.py measure` has found for these sources.
 A row each in results/mutants/, in a file for these sources, where the campaign goes on; `again` repeats those that
 survived; FOLDER/: only statements below edp/FOLDER/, in a file of its own. Not drawn: programs in sh and awk, labs,
-plugins. JOBS: how many at a time, 2.
+plugins. JOBS: how many at a time, 2. SEED: of the draw.
 """
 
 import csv
@@ -23,25 +23,21 @@ from collections import Counter, defaultdict
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import choose
 import same
 from campaign import FREEFEM, RESULTS_FOLDER, ROOT, script_of, sources_digest
-from executed import STRING, copy_tree, instrument, marking, programs, take_marks
+from executed import STRING, copy_tree, instrument, programs, take_marks
 
 FOLDER = RESULTS_FOLDER / "mutants"
 COLUMNS = "number file line kind old new state by seconds".split()
 JOBS = int(os.environ.get("JOBS", "2"))
-SEED = 37
+SEED = os.environ.get("SEED", "53")
 TOLERANCE = 1e-7
 NO_RESULT = re.compile(  # counts, and words
     r"\.(adaptations|newton\w*|factorisations|backsolves|iterations|kernelNewton|estimates\.backsolves|used|rounds|"
     r"warnings|message|notEstimated|estimates\.(refine|wasted|worst))\b"
 )
-AT_ONCE = 6  # test files whose statements are found in one go
 TEST_SECONDS = 1500  # of a mutant's tests: what takes longer stays open
-SEE_NO_NUMBER = re.compile(
-    "campaign|contracts|foreign|hertz_figures|hostile_meshes|house|interface|kit|lint_edp|makefile|meaning|movie_report|"
-    "notebooks|options|paraview|pictures|places|play|postprocess|readme|refusals|scene_docs|scene_figures|site|surroundings"
-)
 SCENES = """disc-on-block -h 1
 disc-on-block -h 1 -order 1 -method paper
 disc-on-block -h 1 -geometry axisymmetric -force 80
@@ -182,19 +178,16 @@ class Tree:
         (out / "end.json").write_text(json.dumps({"code": code, "said": said, "last": []}))
         return code, text
 
-    def test(self, tests: list[str], files: list[str]) -> list:
-        """[test, outcome, seconds] of these tests in this order until one fails; without: of all, in a marked copy."""
+    def test(self, tests: list[str]) -> list:
+        """[test, outcome, seconds] of these tests in this order until one fails."""
         (self.folder / ".tests.json").write_text(json.dumps(tests))
         outcomes = self.folder / ".outcomes"
         outcomes.write_text("")
         env = {"PYTHONPATH": str(self.folder / "tests/campaigns"), "MUTANTS": str(self.folder)}
-        env |= {} if tests else marking(self.folder)
-        how = ["-x"] if tests else ["-n", JOBS, "--dist", "worksteal"]
-        command = [sys.executable, "-m", "pytest", "-q", "-p", "mutants", "-p", "no:cacheprovider", *how]
+        files = sorted({test.split("::")[0] for test in tests})
+        command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "mutants", "-p", "no:cacheprovider", "-m", ""]
         base = self.folder / ".base"
-        self.start(
-            [TEST_SECONDS if tests else 36000, *command, "--basetemp", base, *files], base.with_suffix(".log"), env
-        )
+        self.start([TEST_SECONDS, *command, "--basetemp", base, *files], base.with_suffix(".log"), env)
         shutil.rmtree(base, ignore_errors=True)
         return [json.loads(line) for line in outcomes.read_text().splitlines()]
 
@@ -213,46 +206,19 @@ def pytest_collection_modifyitems(config, items):
         items[:] = sorted((item for item in items if item.nodeid in place), key=lambda item: place[item.nodeid])
 
 
-def pytest_runtest_setup(item):
-    """In the marked copy each test makes its own runs: else only the first that asks for one would be known."""
-    import freefem
-
-    if Path(os.environ["MUTANTS"], ".executed").exists():
-        freefem.stored.cache_clear()
-        freefem.STORE = Path(os.environ["MUTANTS"], ".base", f"runs-{os.getpid()}-{time.time()}")
-
-
 def pytest_runtest_logreport(report):
     if report.when == "call" or report.outcome != "passed":
         with Path(os.environ["MUTANTS"], ".outcomes").open("a") as file:
             file.write(json.dumps([report.nodeid, report.outcome, report.duration]) + "\n")
 
 
-def map_tests(tree: Tree, files: list[str]) -> dict[str, dict]:
-    """By file and test that passes: its seconds, its statements; those of a module's fixtures are all its tests'."""
-    outcomes = tree.test([], [f"tests/{name}" for name in files])
-    failed = {name for name, outcome, _ in outcomes if outcome == "failed"}
-    of_test, of_file = defaultdict(set), defaultdict(set)
-    for label, numbers in take_marks(tree.folder):
-        test = label.rsplit(" ", 1)[0]
-        (of_file[test.split("::")[0]] if "(setup)" in label else of_test[test]).update(numbers)
-    found = {name: {} for name in files}
-    for name, outcome, seconds in outcomes:
-        file = name.split("::")[0]
-        numbers = of_test[name] | of_file[file]
-        if outcome == "passed" and name not in failed and numbers:
-            found[file.removeprefix("tests/")][name] = [seconds, sorted(numbers)]
-    return found
-
-
-def executed(runs: dict[str, list[str]]) -> tuple[list, dict[str, list], dict[str, list]]:
-    """Statements, those of each run, those of each test with its seconds; found once for these sources and tests."""
+def executed(runs: dict[str, list[str]]) -> tuple[list, dict[str, list], dict[str, set]]:
+    """Statements, those of each run, and those of each test in the order in which tests are tried."""
     kept, digest = FOLDER / "executed.json", sources_digest(ROOT)
     found = json.loads(kept.read_text()) if kept.exists() else {}
-    folder = FOLDER / "marked"
     if found.get("sources") != digest:
-        tree, plain = Tree(folder), Tree(FOLDER / "plain")
-        found = {"sources": digest, "statements": instrument(tree.folder), "runs": {}, "tests": {}}
+        tree, plain = Tree(FOLDER / "marked"), Tree(FOLDER / "plain")
+        found = {"sources": digest, "statements": list(map(list, instrument(tree.folder))), "runs": {}}
         env = programs(tree.folder)
         for name, words in runs.items():
             codes = plain.run(name, words)[0], tree.run(name, words, env)[0]
@@ -260,20 +226,11 @@ def executed(runs: dict[str, list[str]]) -> tuple[list, dict[str, list], dict[st
             assert codes[0] == codes[1]
             found["runs"][name] = sorted(set().union(*(numbers for _, numbers in take_marks(tree.folder))))
         kept.write_text(json.dumps(found))
-    tree = Tree(folder, anew=False)
-    files = [path for path in sorted((ROOT / "tests").glob("test_*.py")) if not SEE_NO_NUMBER.fullmatch(path.stem[5:])]
-    texts = {path.name: path.read_text() for path in files}
-    stale = [name for name, text in texts.items() if found["tests"].get(name, [""])[0] != text]
-    for first in range(0, len(stale), AT_ONCE):
-        some = stale[first : first + AT_ONCE]
-        shutil.rmtree(tree.folder / "tests")
-        shutil.copytree(ROOT / "tests", tree.folder / "tests", ignore=shutil.ignore_patterns("__pycache__"))
-        for name, tests in map_tests(tree, some).items():
-            found["tests"][name] = [texts[name], tests]
-        kept.write_text(json.dumps(found))
-        print(f"tests mapped: {' '.join(some)}", flush=True)
-    tests = {test: of for name in texts for test, of in found["tests"][name][1].items()}
-    return found["statements"], found["runs"], dict(sorted(tests.items(), key=lambda item: item[1][0]))
+    assert choose.statements() == found["statements"], "the sources have changed since choose.py measure"
+    tests = [test for test in choose.read_tests()[1] if test.outcome == "passed" and test.statements]
+    long = choose.long_tests(test.name for test in tests)
+    tests.sort(key=lambda test: (test.name in long, test.whole))
+    return found["statements"], found["runs"], {test.name: test.statements for test in tests}
 
 
 # ---------------------------------------------------------------- a mutant
@@ -320,8 +277,8 @@ def judge(tree: Tree, number: int, pool: list, runs: dict[str, list[str]], known
             break
         state = "no result" if moved else state
     if state == "survived":
-        tests = [test for test, (_, numbers) in of_tests.items() if marks & set(numbers)]
-        outcomes = tree.test(tests, sorted({test.split("::")[0] for test in tests})) if tests else []
+        tests = [test for test, numbers in of_tests.items() if marks & numbers]
+        outcomes = tree.test(tests) if tests else []
         failed = [test for test, outcome, _ in outcomes if outcome == "failed"]
         state = "killed" if failed else "open" if len({row[0] for row in outcomes}) < len(tests) else state
         by = failed[0] if failed else by
