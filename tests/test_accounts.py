@@ -1,0 +1,126 @@
+"""What tests cost and read: a test that passed runs again only when something that it read has changed."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import accounts
+import pytest
+import run as runner
+from freefem import ROOT, TIMEOUT
+
+OF_PLAIN_PYTHON = "conftest.py accounts.py reads.c freefem.py text_boxes.py data/tell.edp".split()
+TESTS = """
+import subprocess
+
+import pytest
+from accounts import shared
+from freefem import ROOT
+
+
+@shared
+def text():
+    return subprocess.run(["cat", ROOT / "edp/laws/one.idp"], capture_output=True, text=True).stdout
+
+
+@pytest.fixture(scope="module")
+def two():
+    return (ROOT / "edp/laws/two.idp").read_text()
+
+
+@pytest.mark.parametrize("k", [1, 2])
+def test_by_a_cached_call(k):
+    assert text() == "1"
+
+
+@pytest.mark.parametrize("k", [1, 2])
+def test_by_a_fixture(two, k):
+    assert two == "2"
+
+
+def test_by_a_shell():
+    assert subprocess.run(["sh", "-c", "cat edp/laws/t*"], cwd=ROOT, capture_output=True).stdout == b"2"
+
+
+def test_of_nothing():
+    pass
+
+
+def test_unwatched():
+    subprocess.run(["true"], env={})
+"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    """The tests' own tools in a folder with two files to read."""
+    folder = tmp_path / "package"
+    (folder / "tests/data").mkdir(parents=True)
+    for name in OF_PLAIN_PYTHON:
+        shutil.copy(ROOT / "tests" / name, folder / "tests" / name)
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    shutil.copytree(ROOT / "edp/case/without", folder / "edp/case/without")
+    shutil.copytree(ROOT / "postprocess", folder / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "edp/laws").mkdir()
+    (folder / "tests/long.txt").touch()
+    (folder / "tests/test_some.py").write_text(TESTS)
+    for name, text in (("one", "1"), ("two", "2")):
+        (folder / f"edp/laws/{name}.idp").write_text(text)
+    return folder
+
+
+def ran(package):
+    """Names of the tests that ran, and how they ended."""
+    env = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST", "READS", "LD_PRELOAD"))}
+    command = [sys.executable, "-m", "pytest", "-v", "--basetemp", package.parent / "base"]
+    done = subprocess.run(command, cwd=package, env=env, capture_output=True, text=True, timeout=TIMEOUT)
+    return dict(re.findall(r"::test_(\S+) (\w+)", done.stdout)), done
+
+
+@pytest.mark.skipif(not (shutil.which("gcc") or shutil.which("cc")), reason="no C compiler")
+def test_what_has_not_changed(package):
+    """Cached calls, fixtures and programs count for all who use them; what fails or escapes is run each time."""
+    every, done = ran(package)
+    assert set(every.values()) == {"PASSED"} and len(every) == 7, done.stdout
+    again, done = ran(package)
+    assert again == {} and done.returncode == 0 and "7 tests passed before" in done.stdout, done.stdout
+    (package / "edp/laws/one.idp").write_text("1 ")
+    again, _ = ran(package)
+    assert again == {"by_a_cached_call[1]": "FAILED", "by_a_cached_call[2]": "FAILED", "unwatched": "PASSED"}
+    (package / "edp/laws/one.idp").write_text("1")
+    (package / "edp/laws/two.idp").write_text("3")
+    again, _ = ran(package)
+    assert set(again) == set(every) - {"of_nothing"}
+    assert [name for name, end in again.items() if end == "FAILED"] == [
+        "by_a_fixture[1]",
+        "by_a_fixture[2]",
+        "by_a_shell",
+    ]
+
+
+def test_what_stands_for_what():
+    """Compiled Python stands for its source, a mesh for its geometry; results and builds count for nothing."""
+    for name, expected in (
+        ("postprocess/__pycache__/output.cpython-311.pyc", "postprocess/output.py"),
+        ("meshes/generated/block_depth0.5_left0.2.msh", "meshes/block.geo"),
+        ("results/a/summary.json", None),
+        ("build/fast.so", None),
+        (".git/index", accounts.EVERYTHING),
+        ("edp/main.edp", "edp/main.edp"),
+    ):
+        assert accounts.source(name) == expected
+    assert {"tests/freefem.py", "postprocess", "tests/campaigns/campaign.py"} <= accounts.imports(
+        "tests/test_campaign.py"
+    )
+
+
+def test_report(tmp_path):
+    """Costs of a label are added up over workers, the dearest come first."""
+    rows = tmp_path / "accounts"
+    each = (("a", 1, 2), ("b", 3, 0), ("a", 4, 1))
+    rows.write_text("".join(f'{{"label": "{name}", "cpu": {cpu}, "starts": {starts}}}\n' for name, cpu, starts in each))
+    first, *dearest = runner.report(100, 0.5, rows, 2).splitlines()
+    assert first.startswith("200 default runs of 0.500 CPU s; 3 starts of FreeFEM")
+    assert [line.split() for line in dearest] == [["10", "a"], ["6", "b"]]
