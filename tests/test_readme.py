@@ -201,7 +201,7 @@ def test_freefem_commands(line, tmp_path):
     if "-h" in words:
         words[words.index("-h") + 1] = "2"
     words += ["-h", "2"] if "multigrid" in words else ["-h", "0.2"] if "-legs" in words else []
-    words += ["-set", "size", "0.4"] if "-case" in words else []
+    words += ["-set", "size", "1" if "clip.case" in line else "0.4"] if "-case" in words else []
     if "bodies.msh" in words:
         (made,) = [shlex.split(line) for line in commands() if line.startswith("gmsh")]
         assert execute([word if word != "bodies.msh" else tmp_path / word for word in made], ROOT)[0] == 0
@@ -258,12 +258,14 @@ def test_make_run_commands(line, package):
     assert (package / "results" / (scene[1] if scene else "disc-on-block") / "xnewton" / "summary.json").exists()
 
 
-@pytest.mark.skipif(not MULTIGRID.exists(), reason="the plugin is not built: make mpi")
 def test_make_builds_the_plugin(tmp_path):
-    """A run on two processes shall build the plugin that it needs."""
+    """A run on two processes shall first build the plugin that it needs, one on one process shall not."""
     folder = tree(tmp_path / "package")
-    code, stdout = make(folder, "-o", "petsc", "run", "SCENE=sphere-on-block", "NP=2", "ARGS=-h 2")
-    assert code == 0 and (folder / "build" / MULTIGRID.name).exists(), stdout
+    code, stdout = make(folder, "-n", "-o", "petsc", "run", "SCENE=sphere-on-block", "NP=2", "ARGS=-h 2")
+    built, ran = stdout.find("ff-c++ -mpi"), stdout.find("mpiexec -n 2 ")
+    assert code == 0 and 0 < built < ran, stdout
+    code, stdout = make(folder, "-n", "run", "SCENE=sphere-on-block")
+    assert code == 0 and "ff-c++ -mpi" not in stdout and "FreeFem++" in stdout, stdout
 
 
 DOORS = dict(zip(("first", "teach", "paper", "parts"), fences(README, "sh"), strict=True))
