@@ -137,7 +137,7 @@ def test_words_of_the_page():
 
 # ---------------------------------------------------------------- solved by both
 
-SIZES = {"shrink-fit": 12, "bolted-sleeve": 0.8, "taper": 2, "ball-in-groove": 0.12, "lug": 2}
+SIZES = {"shrink-fit": 12, "bolted-sleeve": 0.8, "taper": 3, "ball-in-groove": 0.16, "lug": 3}
 
 
 @needs_ccx
