@@ -399,7 +399,7 @@ friction: $(VENV)/run.stamp | system ## the part of make stability with friction
 	@$(PYTHON) tests/campaigns/friction.py
 
 coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
-	@$(PYTHON) tests/campaigns/coverage.py
+	@$(PYTHON) tests/campaigns/covered.py
 	@$(PYTHON) tests/campaigns/foreign.py
 
 conditioning: $(VENV)/run.stamp | system ## condition of plain Newton's tangent and its steps, into results/conditioning/

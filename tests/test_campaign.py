@@ -7,7 +7,7 @@ import sys
 import bench
 import campaign
 import conditioning
-import coverage
+import covered
 import models
 import peers
 import peers_condensed
@@ -98,8 +98,8 @@ def campaigns(tmp_path_factory):
     lists = {f"bench/{name}": (cases(campaign.ROOT), columns) for name, (cases, columns, *_) in bench.PARTS.items()}
     lists["bench/peers"] = peers.cases(), peers.COLUMNS
     lists["bench/condensed"] = peers_condensed.cases(), peers.COLUMNS
-    lists["coverage/coverage"] = coverage.cases(), coverage.COLUMNS
-    lists["coverage/space"] = coverage.cases_in_space(), coverage.COLUMNS
+    lists["coverage/coverage"] = covered.cases(), covered.COLUMNS
+    lists["coverage/space"] = covered.cases_in_space(), covered.COLUMNS
     lists["stability/stability"] = stability.cases(), stability.COLUMNS
     lists["models/models"] = models.cases(), models.COLUMNS
     for name, (cases, further) in lists.items():

@@ -151,7 +151,7 @@ def choose(every: dict, tests: list, budget: float) -> set[str]:
     def cost(test) -> float:
         return max(test.cpu + sum(every[label]["cpu"] for label in test.uses - paid), 1e-3)
 
-    heap = [(-gain(test) / cost(test), k) for k, test in enumerate(tests)]
+    heap = [(-gain(test) / cost(test), k) for k, test in enumerate(tests) if test.outcome == "passed"]
     heapq.heapify(heap)
     while heap:
         _, k = heapq.heappop(heap)
@@ -188,14 +188,17 @@ def long_tests(names) -> set[str]:
 
 
 def write_long(tests: list, taken: set[str]) -> None:
-    cases = defaultdict(list)
+    """The tests that are not taken; what has not been measured, or failed in the copy, stays where it is."""
+    cases, before = defaultdict(list), set((ROOT / "tests/long.txt").read_text().splitlines())
+    measured = {test.name for test in tests}
+    left = {test.name for test in tests if test.outcome == "passed"} - taken
+    left |= long_tests(test.name for test in tests if test.outcome != "passed")
     for test in tests:
         cases[test.function].append(test.name)
-    lines = []
-    for function, names in sorted(cases.items()):
-        left = sorted(set(names) - taken)
-        lines += [function] if len(left) == len(names) else left
-    (ROOT / "tests/long.txt").write_text("".join(f"{line}\n" for line in lines))
+    lines = {name for name in before - measured if name not in cases}
+    for function, names in cases.items():
+        lines |= {function} if left.issuperset(names) else left.intersection(names)
+    (ROOT / "tests/long.txt").write_text("".join(f"{line}\n" for line in sorted(lines)))
 
 
 def main(words: list[str]) -> int:

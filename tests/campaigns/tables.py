@@ -15,7 +15,7 @@ import bench
 import calculix_parts
 import campaign
 import conditioning
-import coverage
+import covered
 import models
 import peers
 import peers_condensed
@@ -30,8 +30,8 @@ Rows = list[dict[str, str]]
 LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
     f"bench/{name}": part[0] for name, part in bench.PARTS.items()
 }
-LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": coverage.cases}
-LISTS |= {"coverage/space": coverage.cases_in_space, "conditioning/conditioning": conditioning.cases}
+LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": covered.cases}
+LISTS |= {"coverage/space": covered.cases_in_space, "conditioning/conditioning": conditioning.cases}
 LISTS |= {"models/models": models.cases, "bench/condensed": peers_condensed.cases}
 LISTS |= {"bench/calculix-parts": calculix_parts.cases}
 # name: (CSV below results/, its rows to the table)
@@ -59,8 +59,8 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "counts": ("stability/stability", stability.parts_table),
     "checks": ("stability/stability", lambda rows: stability.checks_table(stability.checks(rows))),
     "methods": ("stability/stability", stability.methods_table),
-    "coverage": ("coverage/coverage", lambda rows: coverage.table(coverage.judged(rows))),
-    "coverage-space": ("coverage/space", lambda rows: coverage.table(coverage.judged(rows))),
+    "coverage": ("coverage/coverage", lambda rows: covered.table(covered.judged(rows))),
+    "coverage-space": ("coverage/space", lambda rows: covered.table(covered.judged(rows))),
     "conditioning": ("conditioning/conditioning", conditioning.results_table),
     "models": ("models/models", models.table),
     "laws": ("stability/stability", stability.laws_table),
