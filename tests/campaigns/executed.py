@@ -39,7 +39,7 @@ exec {program} "$@"
 """
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 # What begins a line and is no statement, or one that a mark cannot stand before.
-CONTINUED = r"else\b|[-+*/?:&|<>=.)\x22{}]|IFMACRO|ENDIFMACRO|include|load|func"
+CONTINUED = r"else\b|catch\b|[-+*/?:&|<>=.)\x22{}]|IFMACRO|ENDIFMACRO|include|load|func"
 READERS = "readTwin|readUnless|optionHook|everyOption|eachOption|withOptions|optionLaws"
 NONE = re.compile(rf"({CONTINUED}|{READERS}|macro|\w+#)")
 NONE_IN_MACRO = re.compile(rf"({CONTINUED}|varf)")
