@@ -196,7 +196,7 @@ MAKE_COMMANDS = sorted({line for line in [*commands(), *quoted(README + MANUAL +
 def test_freefem_commands(line, tmp_path):
     """FreeFEM's commands shall run, on a coarse mesh and with a value for each placeholder."""
     words = [str(VALUES.get(word, word)) for word in shlex.split(line)]
-    assert words[: len(FREEFEM)] == FREEFEM
+    assert "-nw" not in words and "-v" not in words  # no flag is needed
     if "multigrid" in words and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
     if "-h" in words:
