@@ -14,6 +14,7 @@ from postprocess.results import ResultsError, Run, brief, is_number
 from postprocess.tree import Tree, read_bytes, read_png
 from postprocess.words import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
 
+NAMED = 6  # failures that the page's first lines name
 HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
 
 CAMPAIGNS = {
@@ -54,6 +55,16 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
     sentences = [f"{converged} of {len(tree.runs)} runs converged."] if tree.runs else []
     if found:
         sentences.append(f"{sum(check.passed for check in found)} of {len(found)} comparisons with a reference pass.")
+    failed = [
+        f"{tree.name(run.path)} ({each.name} {each.difference:+.1%})"
+        for run, several in verdicts
+        for each in several
+        if not each.passed
+    ]
+    failed += [f"{tree.name(run.path)} (not converged)" for run in tree.runs if not run.summary["converged"]]
+    if failed:
+        more = f" and {len(failed) - NAMED} more" if len(failed) > NAMED else ""
+        sentences.append(f"Failed: {', '.join(failed[:NAMED])}{more}.")
     newest = max((run.path / "summary.json").stat().st_mtime for run in tree.runs) if tree.runs else None
     if newest is not None:
         when = datetime.datetime.fromtimestamp(newest, datetime.UTC)

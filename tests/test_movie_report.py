@@ -408,6 +408,9 @@ class TestReport:
         "scene, flags, source, names",
         [
             ("hertz-line", [], "Hertz", ["half-width", "greatest pressure"]),
+            ("hertz-line", ["-geometry", "stress"], "Hertz", ["half-width", "greatest pressure"]),
+            ("hertz-line", ["-geometry", "axisymmetric", "-force", 10], "Hertz", ["radius", "greatest pressure"]),
+            ("flat-punch", [*PUNCH, "-geometry", "axisymmetric"], "flat punch", ["pressure in the middle"]),
             pytest.param("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"], marks=pytest.mark.long),
             ("flat-punch", PUNCH, "flat punch", ["pressure in the middle"]),
             ("wavy", [*WAVY, "-force", 31.41592654], "Westergaard", ["greatest pressure"]),
@@ -423,6 +426,17 @@ class TestReport:
             assert not replace(each, value=0.9 * each.value).passed
         assert checks(loaded(found.path, parameters={"law": "power"})) == []
         assert checks(loaded(found.path, parameters={"force": 0})) == []
+        assert checks(loaded(found.path, parameters={"traction": 1})) == []
+
+    def test_the_first_lines_name_what_failed(self, brief, tmp_path):
+        """A wrong number and a run that did not converge shall stand by name at the top of the page."""
+        for name, change in (("wrong", {"force": 160.0}), ("open", {"converged": False})):
+            shutil.copytree(brief, tmp_path / "results" / name)
+            file = tmp_path / "results" / name / "summary.json"
+            file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+        assert main(["report", "--out", str(tmp_path / "r.html"), str(tmp_path / "results")]) == 0
+        top = (tmp_path / "r.html").read_text().partition("<main")[0]
+        assert "Failed: wrong (force +6.6%), open (not converged)." in top
 
     def test_nothing_to_report(self, tmp_path, capsys):
         assert "holds no run and no figure" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path)
