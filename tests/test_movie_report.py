@@ -10,6 +10,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -361,7 +362,7 @@ class TestReport:
         """One page, complete in itself: figures, movie, references, runs by scene, campaign, machine, commands."""
         page = (results / "report" / "index.html").read_text()
         seen = check_page(page).seen
-        assert len(seen["img"]) == 2
+        assert len(seen["img"]) == 3
         assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
         for words in ("150.02947", "22.559747", "4.927623", "make results/figures/convergence.pdf", "make bench"):
             assert words in page
@@ -438,6 +439,20 @@ class TestReport:
         top = (tmp_path / "r.html").read_text().partition("<main")[0]
         assert "Failed: wrong (force +6.6%), open (not converged)." in top
 
+    def test_error_against_run_time(self, tmp_path):
+        """The report shall draw the paper's test over CPU seconds and over the seconds that a person waits."""
+        for h in (2, 1):
+            began = time.monotonic()
+            flags = ("-method", "newton", "-h", h, "-order", 1, "-half", 1, "-estimate", 0, "-vtu", 0)
+            made = run_in(ROOT, script("disc-on-block"), *flags, out=tmp_path / "results" / f"h-{h}").summary
+            # its own clock, the first start included, which finds out that the option is needed
+            passed = time.monotonic() - began
+            assert 0.7 * passed < made["seconds"]["waited"] <= passed + 0.02
+        assert main(["report", "--out", str(tmp_path / "r.html"), str(tmp_path / "results")]) == 0
+        part = (tmp_path / "r.html").read_text().partition('<section id="accuracy"')[2].partition("</section>")[0]
+        error = abs(made["force"] / PAPER[1000, 3]["force"] - 1)
+        assert "data:image/png" in part and f"{error:.1e}" in part and f"{made['seconds']['waited']:.3g}" in part
+
     def test_nothing_to_report(self, tmp_path, capsys):
         assert "holds no run and no figure" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path)
         assert "no such folder" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path / "nowhere")
@@ -452,7 +467,7 @@ class TestInABrowser:
         with browser.Browser(tmp_path) as chromium:
             page = chromium.open(results / "report" / "index.html")
             page.wait("[...document.images].every(image => image.complete && image.naturalWidth > 0)")
-            assert page.evaluate("document.images.length") == 2
+            assert page.evaluate("document.images.length") == 3
             page.evaluate("document.querySelector('[aria-label=\"Increase speed\"]').click()")
             before = page.evaluate("document.querySelector('.animation img').src.length")
             page.evaluate("document.querySelector('[aria-label=Play]').click()")

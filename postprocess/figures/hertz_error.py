@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from postprocess import style
-from postprocess.references import CIRCLES, LINES, about_axis, hertz, in_circle, prescribed_force, scene_of
+from postprocess.references import CIRCLES, LINES, about_axis, hertz, prescribed_force, scene_of
 from postprocess.results import ResultsError, Run
 
 RUNS = (2, None)
