@@ -469,7 +469,11 @@ movie: $(VENV)/run.stamp | system ## show the method at work: make movie [SCENE=
 	case $$code in 0|20) ;; *) echo "FreeFem++ ended with code $$code: no movie"; exit $$code;; esac; \
 	$(PYTHON) -m postprocess movie --out $(MOVIE) $(MOVIE) && exit $$code
 
-report: $(VENV)/run.stamp | system ## one page of everything that has been run: results/report/index.html
+report: $(VENV)/run.stamp | system ## one page of everything that has been run, with errors against run times: results/report/index.html
+	@for method in xnewton newton paper; do for order in 1 2; do for h in 1 0.5 0.25; do \
+	  run=$(RESULTS)/accuracy/$$method-P$$order-$$h; \
+	  test -e $$run/summary.json || $(FREEFEM) edp/main.edp -method $$method -order $$order -h $$h -vtu 0 -estimate 0 -out $$run >/dev/null || exit 1; \
+	done; done; done
 	@$(PYTHON) -m postprocess report --out $(RESULTS)/report/index.html $(RESULTS)
 
 doctor: ## say what is installed, what is missing and how to get it

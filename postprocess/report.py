@@ -1,19 +1,23 @@
 """The report: one page of everything that has been run, from a tree of results."""
 
 import datetime
+import io
 import platform
+from dataclasses import replace
 
 import matplotlib
 import numpy as np
 
 from postprocess import doctor, figures, page, player, style
 from postprocess.campaign import CONVERGED, Campaign, Row, good, number
+from postprocess.figures import cost
 from postprocess.page import Markup, element, folded, joined, section, table
-from postprocess.references import Check, checks
+from postprocess.references import PAPER, Check, checks, paper_test
 from postprocess.results import ResultsError, Run, brief, is_number
 from postprocess.tree import Tree, read_bytes, read_png
 from postprocess.words import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
 
+NAMED = 6  # failures that the page's first lines name
 HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
 
 CAMPAIGNS = {
@@ -39,6 +43,7 @@ def build(tree: Tree) -> str:
         section("figures", "Figures", *(figure(path, pictures[path]) for path in own)) if own else "",
         section("movies", "Movies", *(movie(tree, path, part) for path, part in movies.items())) if movies else "",
         section("references", "Results against references", *references(tree, verdicts)) if tree.runs else "",
+        section("accuracy", "Error against run time", *accuracy(tree)) if tree.runs else "",
         section("runs", "Runs", *scenes(tree)) if tree.runs else "",
         *campaigns,
         section("machine", "Machine and versions", machine()),
@@ -54,11 +59,22 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
     sentences = [f"{converged} of {len(tree.runs)} runs converged."] if tree.runs else []
     if found:
         sentences.append(f"{sum(check.passed for check in found)} of {len(found)} comparisons with a reference pass.")
+    failed = [
+        f"{tree.name(run.path)} ({each.name} {each.difference:+.1%})"
+        for run, several in verdicts
+        for each in several
+        if not each.passed
+    ]
+    failed += [f"{tree.name(run.path)} (not converged)" for run in tree.runs if not run.summary["converged"]]
+    if failed:
+        more = f" and {len(failed) - NAMED} more" if len(failed) > NAMED else ""
+        sentences.append(f"Failed: {', '.join(failed[:NAMED])}{more}.")
     newest = max((run.path / "summary.json").stat().st_mtime for run in tree.runs) if tree.runs else None
     if newest is not None:
         when = datetime.datetime.fromtimestamp(newest, datetime.UTC)
         sentences.append(f"Newest run: {when:%Y-%m-%d %H:%M} UTC.")
-    names = {"figures": "Figures", "movies": "Movies", "references": "References", "runs": "Runs"}
+    names = {"figures": "Figures", "movies": "Movies", "references": "References", "accuracy": "Error against run time"}
+    names |= {"runs": "Runs"}
     names |= {name: title for name, (title, _, _) in CAMPAIGNS.items()} | {"machine": "Machine and versions"}
     there = [name for name in names if any(f'<section id="{name}"' in part for part in parts)]
     links = joined(element("li", element("a", names[name], href=f"#{name}")) for name in there)
@@ -155,6 +171,42 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
         return [words, element("p", "No run so far is one of these.")]
     columns = "run,verdict,mesh,value,reference,found,expected,difference,allowed".split(",")
     return [words, table("Comparisons", columns, rows, [5, 6, 7, 8])]
+
+
+def accuracy(tree: Tree) -> list[Markup]:
+    """The paper's test: the force's error over run times, a curve a method and order; a row a run."""
+    found = []
+    for run in tree.runs:
+        given, force = run.summary["parameters"], paper_test(run).get("force")
+        usual = run.summary["scene"] == "disc-on-block" and (given.get("tol"), given.get("eps")) == (1e-6, 1e-4)
+        if force == PAPER[1e3, 3.0]["force"] and usual and run.summary["converged"]:
+            found.append(replace(run, summary={**run.summary, "parameters": {**given, "reference": force}}))
+    words = element(
+        "p",
+        "The paper's test at the default tolerances. The error is that of the contact force against an independent "
+        "computation, the reference of the table above. CPU seconds are from assembly to displacement: no start, mesh, "
+        "error estimate or file. The seconds waited are a clock's, from the start of FreeFEM to the results, the mesh "
+        "included if it was made then; they depend on what else the machine did.",
+    )
+    if len(found) < 2:
+        return [words, element("p", joined(["No two runs so far are of this test: ", element("code", "make report")]))]
+    with style.look():
+        drawn, file = cost.draw(found, style.Units()), io.BytesIO()
+        drawn.savefig(file, format="png", metadata={"Software": None})
+    rows = [
+        [
+            tree.name(run.path),
+            *(run.summary["method"], f"P{run.summary['order']}", short(run.summary["h"]), run.summary["ndof"]),
+            f"{cost.force_error(run):.1e}",
+            f"{cost.seconds(run):.3f}",
+            *(short(run.summary["seconds"].get(name), 3) for name in ("total", "waited")),
+        ]
+        for run in found
+    ]
+    columns = "run,method,element,h,unknowns,error of the force,CPU s of the solution,CPU s in all,s waited".split(",")
+    seen = "Error of the contact force over CPU seconds and over the seconds waited"
+    picture = page.picture(file.getvalue(), seen, Markup(f"{seen}, a curve a method and element."))
+    return [words, picture, folded(style.count(len(rows), "run"), table("Runs", columns, rows, range(3, 9)))]
 
 
 def verdict(passed: bool, good_word: str, bad_word: str) -> Markup:

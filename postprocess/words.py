@@ -121,7 +121,7 @@ def script(scene: str, method: str = "") -> str:
 def command(run: Run) -> str:
     """The command, from the repository's root, that makes the run again: with the flags that it was given."""
     summary, parameters = run.summary, run.summary["parameters"]
-    words = ["FreeFem++", "-nw", "-v", "0", script(summary["scene"], summary["method"])]
+    words = ["FreeFem++", script(summary["scene"], summary["method"])]
     for name in summary["given"]:
         if name != "out":
             words += [*f"-{name}".split(" "), flag_text(parameters[name])]  # -set NAME of a number of the geometry

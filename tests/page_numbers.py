@@ -2,7 +2,7 @@
 
 Comments that no reader sees name the run and the value of each number; tests/test_numbers.py compares them.
 
-    <!-- run: COMMAND -->      the run of the numbers below it, as typed after `FreeFem++ -nw -v 0`; with {c[0]}, ...,
+    <!-- run: COMMAND -->      the run of the numbers below it, as typed after `FreeFem++`; with {c[0]}, ...,
                                the cells of a row, each row of the next table is a run. Without this comment: the
                                last command of the sh block above.
     <!-- let: STATEMENT -->    Python, for the expressions of this run
@@ -37,7 +37,7 @@ from test_adhesion import flags
 from postprocess import closed_forms as forms
 
 PAGES = [*ROOT.glob("*.md"), *sorted((ROOT / "edp").rglob("*.md")), *sorted((ROOT / "tests").glob("*.md"))]
-TYPED = " ".join(FREEFEM) + " "
+TYPED = "FreeFem++ "
 NUMBER = r"[−+-]?(?:\d{1,3}(?: \d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?(?: %)?"
 IN_CELL = re.compile(rf"`[^`]*`|(?<![\w.])({NUMBER})")
 MARK = re.compile(rf"(?P<below>< )?(?P<number>{NUMBER})<!--= (?P<value>.*?) -->")

@@ -24,6 +24,7 @@ from shapes import moved, polygon
 from test_parts import UNTURNED, Mesh, block, turn
 
 from postprocess.__main__ import main
+from postprocess.commands.hysteresis import last_loop
 
 HARD = {"-gap": 0, "-law": "signorini", "-d0": 0}
 BLOCK = {"-force": 0, "-shear": 0, "-reach": 8, "-grading": 20, "-u0": 2, "-drag": 1, "-h": 0.25}
@@ -929,3 +930,10 @@ def test_geometry_updates_are_no_load_steps(tmp_path):
     run = case(tmp_path, f"{FRAME}Mesh.MeshSizeMax = 0.7;\n", text, "-order", 1, "-vtu", 0, *EXACT)
     assert run.stdout.count("of the exact distance: ") >= 3
     assert re.findall(r"^ .*   step (\d+)$", run.stdout, re.M) == ["2", "3"]
+
+
+def test_a_loop_is_closed_in_force_and_displacement():
+    """The energy of a loop shall be shown of one that closes: not of a cycle that ends elsewhere than it began."""
+    shear = np.array([0.0, 1, 0, -1, 0, 1])
+    assert last_loop(np.array([0.0, 2, 1.5, 0, 0.5, 1]), shear) is None
+    assert last_loop(np.array([0.0, 1, 0.5, 0, 0.5, 1]), shear) == (1, 5)

@@ -375,3 +375,24 @@ def test_disk_full(tmp_path, limit, flags):
     assert done.returncode not in (0, 10, 20), done.stdout
     assert "could not be written whole" in done.stdout
     assert files(out) == being_written(out) == []
+
+
+@pytest.mark.parametrize(
+    "folder, typed", [("edp", "main.edp"), (".", "edp/main.edp -half 1"), ("edp", "-nw main.edp -h 2")]
+)
+def test_no_listing_and_no_display(package, folder, typed, tmp_path):
+    """FreeFem++ and a script shall print the results alone and end well, whatever the user's own settings say.
+
+    Without a flag, without a display; the last line comes through a pipe.
+    """
+    (tmp_path / ".freefem++.pref").write_text("verbosity = 2\n")
+    env = {**BARE, "OPENBLAS_NUM_THREADS": "1", "HOME": str(tmp_path), "FF_VERBOSITY": "2"}
+    code, said = execute(["FreeFem++", *typed.split(), "-out", tmp_path / "out"], package / folder, env)
+    lines = said.splitlines()
+    assert code == 0 and len(lines) <= 30 and lines[-1].startswith("  more "), said[-3000:]
+
+
+def test_every_folder_is_quiet():
+    """Wherever FreeFEM finds the package, it shall not list the modules."""
+    found = [ROOT / "freefem++.pref", *(ROOT / "edp").rglob("freefem++.pref")]
+    assert len(found) > 10 and all("\nverbosity = 0\n" in path.read_text() for path in found)

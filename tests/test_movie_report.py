@@ -10,6 +10,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +18,7 @@ import browser
 import freefem
 import numpy as np
 import pytest
-from freefem import FREEFEM, ROOT, execute, patience, run, run_in, script, tree
+from freefem import ROOT, execute, patience, run, run_in, script, tree
 from matplotlib.animation import FFMpegWriter
 from test_scene_figures import WAVY
 from text_boxes import faults
@@ -356,11 +357,11 @@ class TestReport:
         """One page, complete in itself: figures, movie, references, runs by scene, campaign, machine, commands."""
         page = (results / "report" / "index.html").read_text()
         seen = check_page(page).seen
-        assert len(seen["img"]) == 2
+        assert len(seen["img"]) == 3
         assert "2 of 2 runs converged. 6 of 6 comparisons with a reference pass." in page
         for words in ("150.02947", "22.559747", "4.927623", "make results/figures/convergence.pdf", "make bench"):
             assert words in page
-        made = re.search(r"FreeFem\+\+ -nw -v 0 edp/main.edp (.*-method paper.*) -out", page)[1].split()
+        made = re.search(r"FreeFem\+\+ edp/main.edp (.*-method paper.*) -out", page)[1].split()
         flags = {"-method": "paper", "-order": "1", "-h": "0.5", "-estimate": "0", "-states": "1", "-vtu": "0"}
         assert dict(zip(made[::2], made[1::2], strict=True)) == flags
         caption = captions()["convergence"]
@@ -403,6 +404,9 @@ class TestReport:
         "scene, flags, source, names",
         [
             ("hertz-line", [], "Hertz", ["half-width", "greatest pressure"]),
+            ("hertz-line", ["-geometry", "stress"], "Hertz", ["half-width", "greatest pressure"]),
+            ("hertz-line", ["-geometry", "axisymmetric", "-force", 10], "Hertz", ["radius", "greatest pressure"]),
+            ("flat-punch", [*PUNCH, "-geometry", "axisymmetric"], "flat punch", ["pressure in the middle"]),
             ("sphere-on-plane", [], "Hertz", ["radius", "greatest pressure"]),
             ("flat-punch", PUNCH, "flat punch", ["pressure in the middle"]),
             ("wavy", [*WAVY, "-force", 31.41592654], "Westergaard", ["greatest pressure"]),
@@ -418,6 +422,31 @@ class TestReport:
             assert not replace(each, value=0.9 * each.value).passed
         assert checks(loaded(found.path, parameters={"law": "power"})) == []
         assert checks(loaded(found.path, parameters={"force": 0})) == []
+        assert checks(loaded(found.path, parameters={"traction": 1})) == []
+
+    def test_the_first_lines_name_what_failed(self, brief, tmp_path):
+        """A wrong number and a run that did not converge shall stand by name at the top of the page."""
+        for name, change in (("wrong", {"force": 160.0}), ("open", {"converged": False})):
+            shutil.copytree(brief, tmp_path / "results" / name)
+            file = tmp_path / "results" / name / "summary.json"
+            file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+        assert main(["report", "--out", str(tmp_path / "r.html"), str(tmp_path / "results")]) == 0
+        top = (tmp_path / "r.html").read_text().partition("<main")[0]
+        assert "Failed: wrong (force +6.6%), open (not converged)." in top
+
+    def test_error_against_run_time(self, tmp_path):
+        """The report shall draw the paper's test over CPU seconds and over the seconds that a person waits."""
+        for h in (2, 1):
+            began = time.monotonic()
+            flags = ("-method", "newton", "-h", h, "-order", 1, "-half", 1, "-estimate", 0, "-vtu", 0)
+            made = run_in(ROOT, script("disc-on-block"), *flags, out=tmp_path / "results" / f"h-{h}").summary
+            # its own clock, the first start included, which finds out that the option is needed
+            passed = time.monotonic() - began
+            assert 0.7 * passed < made["seconds"]["waited"] <= passed + 0.02
+        assert main(["report", "--out", str(tmp_path / "r.html"), str(tmp_path / "results")]) == 0
+        part = (tmp_path / "r.html").read_text().partition('<section id="accuracy"')[2].partition("</section>")[0]
+        error = abs(made["force"] / PAPER[1000, 3]["force"] - 1)
+        assert "data:image/png" in part and f"{error:.1e}" in part and f"{made['seconds']['waited']:.3g}" in part
 
     def test_nothing_to_report(self, tmp_path, capsys):
         assert "holds no run and no figure" in refused(capsys, "report", "--out", tmp_path / "r.html", tmp_path)
@@ -432,7 +461,7 @@ class TestInABrowser:
         with browser.Browser(tmp_path) as chromium:
             page = chromium.open(results / "report" / "index.html")
             page.wait("[...document.images].every(image => image.complete && image.naturalWidth > 0)")
-            assert page.evaluate("document.images.length") == 2
+            assert page.evaluate("document.images.length") == 3
             page.evaluate("document.querySelector('[aria-label=\"Increase speed\"]').click()")
             before = page.evaluate("document.querySelector('.animation img').src.length")
             page.evaluate("document.querySelector('[aria-label=Play]').click()")
@@ -457,9 +486,9 @@ def test_the_command_makes_the_run_again(tmp_path, scene, flags):
     """The command in the report shall give the same numbers."""
     found = read_run(run(scene, *flags).folder)
     words = shlex.split(command(found))
-    assert words[:4] == FREEFEM and words[4] == script(scene) and words[-2] == "-out"
-    assert set(words[5:-2:2]) - {"-vtu"} == {*flags[::2], "-order", "-estimate"}
-    again = run_in(ROOT, words[4], *words[5:-2], out=tmp_path / "again").summary
+    assert words[:2] == ["FreeFem++", script(scene)] and words[-2] == "-out"
+    assert set(words[2:-2:2]) - {"-vtu"} == {*flags[::2], "-order", "-estimate"}
+    again = run_in(ROOT, words[1], *words[2:-2], out=tmp_path / "again").summary
     for name in ("force", "newton", "backsolves", "energy", "ndof"):
         assert again[name] == found.summary[name], name
     left_out = {"out", "vtu"}

@@ -1,5 +1,6 @@
 """The pages against the package: flags, files, commands, links, examples, counts, the paper in the code."""
 
+import html
 import json
 import os
 import re
@@ -13,6 +14,8 @@ import pytest
 from freefem import FREEFEM, MULTIGRID, ROOT, TIMEOUT, cases_of, environment, execute, run, run_in, scenes, script, tree
 from test_acceptance import FORCE, HALF_WIDTH, PRESSURE_MAX
 from test_paraview import Grid
+
+from postprocess.commands import paper
 
 
 def in_markdown(folder):
@@ -195,7 +198,7 @@ MAKE_COMMANDS = sorted({line for line in [*commands(), *quoted(README + MANUAL +
 def test_freefem_commands(line, tmp_path):
     """FreeFEM's commands shall run, on a coarse mesh and with a value for each placeholder."""
     words = [str(VALUES.get(word, word)) for word in shlex.split(line)]
-    assert words[: len(FREEFEM)] == FREEFEM
+    assert "-nw" not in words and "-v" not in words  # no flag is needed
     if "multigrid" in words and not MULTIGRID.exists():
         pytest.skip("the plugin is not built: make mpi")
     if "-h" in words:
@@ -488,3 +491,13 @@ def test_sources_that_pages_name():
             if not (there or re.search(rf"PATH|NAME|/(?:{LAW}|{METHOD}|centre)\.", name)):
                 wrong.append(f"{page}: {name}")
     assert not wrong, "\n".join(wrong)
+
+
+def test_every_claim_of_the_paper_is_on_its_page():
+    """The page of claims shall show the whole table of PAPER.md, without its marks."""
+    there = (ROOT / "edp/PAPER.md").read_text().partition("\n## Every")[2].partition("###")[0]
+    sentences = [line.split(" | ")[1] for line in there.splitlines() if line.startswith("| ")][1:]
+    page = paper.every_claim()
+    assert page.count("<tr>") == len(sentences) + 1 > 35
+    assert all(html.escape(each.replace("`", "")) in page for each in sentences)
+    assert "](" not in page and "`" not in page

@@ -159,7 +159,7 @@ def test_stands_by_itself(whole):
     run_table = dict(found.tables["Run"][1:])
     for name, key in (("package", "package"), ("FreeFEM", "freefem"), ("gmsh", "gmsh"), ("run at", "date")):
         assert run_table[name] == summary[key]
-    assert command(read_run(whole / "run")).startswith("FreeFem++ -nw -v 0 edp/parts.edp -mesh ")
+    assert command(read_run(whole / "run")).startswith("FreeFem++ edp/parts.edp -mesh ")
     assert command(read_run(whole / "run")) in found.words
 
 

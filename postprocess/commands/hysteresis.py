@@ -45,11 +45,12 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def last_loop(drag: np.ndarray, shear: np.ndarray) -> tuple[int, int] | None:
-    """First and last step of the last closed loop: the end's force, met before with a turn between; None without."""
+    """First and last step of the last closed loop: the end, force and displacement, met before with a turn between."""
     size = np.ptp(shear)
     for start in range(len(shear) - 3, -1, -1):
         between = shear[start : len(shear)]
-        if abs(shear[start] - shear[-1]) <= 1e-3 * size and np.ptp(between) > 0.5 * size:
+        met = abs(shear[start] - shear[-1]) <= 1e-3 * size and abs(drag[start] - drag[-1]) <= 0.02 * np.ptp(drag)
+        if met and np.ptp(between) > 0.5 * size:
             return start, len(shear) - 1
     return None
 

@@ -5,6 +5,7 @@ their runs. Every number of the page is read from a run; the words about it are 
 """
 
 import argparse
+import re
 from pathlib import Path
 
 import numpy as np
@@ -185,13 +186,28 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
         element(
             "p", "H. Ben Dhia, S. Du. An eXtended-Newton scheme for the solution of stiff normal contact problems."
         ),
-        section("claims", "Claims", claimed),
+        section("claims", "Claims that these runs measure", claimed),
+        section(
+            "every",
+            "Every claim",
+            element("p", "Counts are for P1, h = 0.5 and the default tolerances."),
+            every_claim(),
+        ),
         section("meshes", "On other meshes", element("p", words), meshes),
         section("tolerances", "With other tolerances", element("p", about_tolerances), by_tolerance, by_model_error),
         section("conditions", "Overshoot, not conditioning", element("p", about_conditions)),
         section("figures", "Figures", *drawn),
     ]
     return page.document("The paper, reproduced", element("main", joined(parts), id="main"))
+
+
+def every_claim() -> Markup:
+    """The table of edp/PAPER.md in which each sentence of the paper stands that claims, asks or proposes something."""
+    text = (Path(__file__).parents[2] / "edp/PAPER.md").read_text(encoding="utf-8")
+    lines = re.findall(r"^\| .*\|$", text.partition("## Every claim")[2].partition("###")[0], re.M)
+    words = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", line.replace("`", "")) for line in lines]
+    head, *rows = [[cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in words]
+    return table("Every claim of the paper", head, rows)
 
 
 def verdict(well: bool) -> Markup:

@@ -13,7 +13,7 @@ FLOOR = 1e-13  # an error of exactly 0 has no place on a logarithmic axis
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """(a) over the CPU seconds from assembly to displacement; (b) what no machine changes.
+    """(a) over CPU seconds from assembly to displacement, dotted over the seconds waited; (b) what no machine changes.
 
     That is a method's factorisations, the least to the most over its meshes; where all runs have as many, unknowns.
     Dashed, where a contact solution would cost as much as one linear elastic solve of the same mesh.
@@ -31,6 +31,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         look = style.curve(index) | {"markersize": 4, "linewidth": 0.9, "markerfacecolor": "white"}
         error = np.maximum([force_error(run) for run in group], FLOOR)
         left.plot([seconds(run) for run in group], error, label=label, **look)
+        waited = [run.summary["seconds"].get("waited", np.nan) for run in group]
+        left.plot(waited, error, **look | {"alpha": 0.45, "linestyle": ":"})
         if alike:
             right.plot([run.summary["ndof"] for run in group], error, **look)
         else:
@@ -44,6 +46,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             least = [max(min(force_error(run) for run in group), FLOOR) for group in at]
             left.plot(linear, least, color=style.GREY, linewidth=0.9, linestyle=(0, (4, 1.5)), zorder=1)
     left.plot([], [], color=style.GREY, linewidth=0.9, linestyle=(0, (4, 1.5)), label="one linear elastic solve")
+    left.plot([], [], color=style.GREY, linewidth=0.9, linestyle=":", label="waited, from start to results")
     for axes in (left, right):
         axes.set_xscale("log")
         axes.grid(axis="x" if axes is right and not alike else "both", color="0.9", linewidth=0.5)
@@ -51,7 +54,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     left.xaxis.set_major_locator(LogLocator(subs=(1, 3)))  # the seconds of small meshes lie within a decade
     left.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: f"{seconds:g}"))
     left.xaxis.set_minor_formatter(NullFormatter())
-    left.set_xlabel("CPU seconds")
+    left.set_xlabel("CPU seconds from assembly to displacement;\ndotted: seconds waited")
     left.set_yscale("log")
     left.set_ylabel("relative error of the force")
     right.set_xlabel("unknowns" if alike else "factorisations")

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import hertz, prescribed_force
+from postprocess.references import hertz, in_circle, prescribed_force
 from postprocess.results import Run, read_table
 
 RUNS = (1, 1)
@@ -17,8 +17,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     Johnson, Contact Mechanics (1985), 4.2 for lines, 3.4 for circles.
     """
     (run,) = runs
-    round_contact = run.summary["parameters"].get("geometry") == "axisymmetric"
-    a, greatest = hertz(run, prescribed_force(run), round_contact)
+    round_contact = in_circle(run)
+    a, greatest = hertz(run, prescribed_force(run))
     axis = read_table(run.path / "axis.csv", ["depth", "s11", "s22", "s12"], "the run needs -axis 1")
 
     figure = Figure(figsize=(style.COLUMN, 1.3 * style.COLUMN), layout="constrained")

@@ -5,13 +5,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from postprocess import style
-from postprocess.references import hertz, prescribed_force, scene_of
+from postprocess.references import CIRCLES, LINES, about_axis, hertz, prescribed_force, scene_of
 from postprocess.results import ResultsError, Run
 
 RUNS = (2, None)
 
-LINES = ("hertz-line", "two-cylinders")  # of the scenes, those whose contact is a line
-CIRCLES = ("disc-on-block", "sphere-on-block", "sphere-on-plane", "two-spheres")
 PLANE = (*LINES, "axisymmetric")  # meshes of triangles, the others of tetrahedra
 FLOOR = 3e-5  # of the first two errors: less than what Hertz leaves out, as a/R and the size of the bodies
 WHAT = ("half-width or radius", "greatest pressure", "pressure, r.m.s.")
@@ -77,12 +75,10 @@ def slope(sizes: np.ndarray, error: np.ndarray) -> str:
 
 def scene(run: Run) -> str:
     """The run's scene, as what is in contact."""
-    name = scene_of(run, *LINES, *CIRCLES)
-    if name == "disc-on-block":
-        if run.summary["parameters"].get("geometry") != "axisymmetric":
-            raise ResultsError(run.path / "summary.json", "is of a disc: use the scene hertz-line")
-        name = "axisymmetric"
-    return name
+    name = scene_of(run, *LINES, "disc-on-block", *CIRCLES)
+    if name == "disc-on-block" and not about_axis(run):
+        raise ResultsError(run.path / "summary.json", "is of a disc: use the scene hertz-line")
+    return "axisymmetric" if about_axis(run) else name
 
 
 def errors(group: list[Run]) -> tuple[np.ndarray, np.ndarray]:
@@ -91,10 +87,9 @@ def errors(group: list[Run]) -> tuple[np.ndarray, np.ndarray]:
     for run in group:
         if not run.summary["converged"]:
             raise ResultsError(run.path / "summary.json", "the run did not converge: its error means nothing")
-        round_contact = run.summary["scene"] in CIRCLES
-        a, greatest = hertz(run, prescribed_force(run), round_contact)
+        a, greatest = hertz(run, prescribed_force(run))
         x, y, weight, pressure = (run.contact[name] for name in ("x", "y", "weight", "pressure"))
-        in_space = round_contact and run.summary["scene"] != "disc-on-block"  # otherwise y is the height
+        in_space = run.summary["scene"] in CIRCLES  # otherwise y is the height
         expected = greatest * np.sqrt(np.maximum(1 - (x**2 + (y**2 if in_space else 0)) / a**2, 0))
         spread = np.sqrt(weight @ (pressure - expected) ** 2 / (weight @ expected**2))
         width, top = run.value("halfWidthMoment"), run.value("pressureMax")

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import prescribed_force, punch_pressure, scene_of
+from postprocess.references import about_axis, prescribed_force, punch_pressure, scene_of
 from postprocess.results import Run
 
 RUNS = (1, 7)
@@ -23,7 +23,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for index, run in enumerate(runs):
         scene_of(run, "flat-punch")
         a = run.positive("a")
-        mean = prescribed_force(run) / (2 * a)
+        mean = prescribed_force(run) / (np.pi * a**2 if about_axis(run) else 2 * a)
         closed = punch_pressure(run, a * across) / mean
         x, pressure = run.contact["x"] / a, run.contact["pressure"] / mean
         look = style.curve(index) | {"markersize": 2.5, "linewidth": 0.8, "markerfacecolor": "white"}

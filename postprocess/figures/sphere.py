@@ -28,7 +28,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     nodal = run.contact["weight"] * pressure
     if not nodal.sum() > 0:
         raise ResultsError(run.path / "contact.csv", "no point is in contact")
-    a, greatest = hertz(run, run.value("force"), round_contact=True)
+    a, greatest = hertz(run, run.value("force"))
     mirrored = [at.min() > -1e-6 * a for at in (x, y)]
     signs = [(1, -1) if each else (1,) for each in mirrored]
     middle = tuple(0 if each else np.sum(nodal * at) / nodal.sum() for each, at in zip(mirrored, (x, y), strict=True))

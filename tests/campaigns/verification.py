@@ -37,7 +37,7 @@ def cases():
 
 
 def command(name, case):
-    """The words after `FreeFem++ -nw -v 0`."""
+    """The words after `FreeFem++`."""
     script = "parts-3d" if case["model"] == "space" else "parts"
     geometry = (FOLDER / case.get("geometry", f"{name}/{name}.geo")).resolve().relative_to(ROOT)
     return f"edp/{script}.edp -mesh {geometry} -case tests/verification/{name}/{name}.case".split()
