@@ -178,7 +178,12 @@ def asked(places, *calls, faces=None):
     program += "  for (i = 1; i <= n; i++) { p = zone[i]; told(CX[p], CY[p]); told(CZ[p], reach[p]) }\n  return n\n}\n"
     program += 'function told(a, b) { printf "%.15g %.15g\\n", a, b }\n'
     done = subprocess.run(
-        ["awk", *files, "-f", "/dev/stdin"], input=program, stdout=subprocess.PIPE, text=True, env={"LC_ALL": "C"}
+        ["awk", *files, "-f", "/dev/stdin"],
+        input=program,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={"LC_ALL": "C"},
+        timeout=60,  # pieces that never get flat are halved for ever
     )
     return np.array(done.stdout.split(), float)
 
