@@ -151,15 +151,22 @@ def test_what_overlaps_is_in_contact(tmp_path):
     assert inside.sum() > 60 and lengths[inside].max() < 0.15 < 1 < lengths.max()
 
 
-def asked(places, *calls):
-    """What functions of meshes/near.awk return, of pieces 1, 2, ... of one curve: ends and middle (n, 3, 2)."""
+def asked(places, *calls, faces=None):
+    """What functions of meshes/near.awk return, of pieces 1, 2, ...: in the plane ends and middle (n, 3, 2), in space
+    corners and middles (n, 6, 3); all of face 1, or of these faces. every(nearest(...)): how many, widest, and of each
+    its middle and its radius."""
+    space = places.shape[1] == 6
     lines = [
-        f"face[{e + 1}] = 1; X[{e + 1}, {k}] = {x!r}; Y[{e + 1}, {k}] = {y!r}; list[{e + 1}] = {e + 1}"
-        + f"; ball({e + 1})" * (k == 2)
-        for e, piece in enumerate(places.tolist())
-        for k, (x, y) in enumerate(piece)
+        f"face[{e + 1}] = {f}; {axis}[{e + 1}, {k}] = {value!r}" + f"; list[{e + 1}] = {e + 1}; ball({e + 1})" * last
+        for e, (piece, f) in enumerate(zip(places.tolist(), faces or [1] * len(places), strict=True))
+        for k, place in enumerate(piece)
+        for axis, value in zip("XYZ", place, strict=False)
+        for last in [k == len(piece) - 1 and axis == "XYZ"[len(place) - 1]]
     ]
-    lines += [
+    lines = [
+        f"space = {int(space)}",
+        *lines,
+        "for (e = 1; e in face; e++) { if (!(face[e] in first)) first[face[e]] = e; last[face[e]] = e }",
         f"elements = pieces = {len(places)}; flat = 1e-6",
         *(f'printf "%.15g\\n", {call}' for call in calls),
         "failed = 1; exit",
@@ -167,8 +174,16 @@ def asked(places, *calls):
     files = [word for name in ("pick", "near", "cad", "kinds", "touch") for word in ("-f", ROOT / f"meshes/{name}.awk")]
     program = "BEGIN {\n" + "\n".join(lines) + "\n}\n"
     program += "function far(x, y, p,   v) { v[1] = x; v[2] = y; return closest(p, v, 1e300) }\n"
+    program += "function every(n,   i, p) {\n  told(n, widest)\n"
+    program += "  for (i = 1; i <= n; i++) { p = zone[i]; told(CX[p], CY[p]); told(CZ[p], reach[p]) }\n  return n\n}\n"
+    program += 'function told(a, b) { printf "%.15g %.15g\\n", a, b }\n'
     done = subprocess.run(
-        ["awk", *files, "-f", "/dev/stdin"], input=program, stdout=subprocess.PIPE, text=True, env={"LC_ALL": "C"}
+        ["awk", *files, "-f", "/dev/stdin"],
+        input=program,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={"LC_ALL": "C"},
+        timeout=60,  # pieces that never get flat are halved for ever
     )
     return np.array(done.stdout.split(), float)
 
@@ -221,6 +236,133 @@ def test_places_and_pieces():
         )
         assert found[60 + k] == (cross & (at > spot[0])).sum() % 2
     assert 15 < found[60:].sum() < 45
+
+
+# ---------------------------------------------------------------- surfaces of which the distance is known
+
+
+class Bent:
+    """The curve, or the surface, at the height + bends (x - middle)^2/2, which quadratic pieces have exactly."""
+
+    def __init__(self, height, bends, middle):
+        self.height, self.bends, self.middle = height, np.array(bends), np.array(middle)
+
+    def on(self, at):
+        """Places over these (..., 1 or 2)."""
+        rise = self.height + 0.5 * (self.bends * (at - self.middle) ** 2).sum(axis=-1)
+        return np.concatenate([at, rise[..., None]], axis=-1)
+
+    def pieces(self, edges):
+        """Over the intervals between these, in space over the halves of the squares: ends or corners, then middles."""
+        if len(self.bends) == 1:
+            return self.on(np.array([[[a], [b], [0.5 * (a + b)]] for a, b in pairwise(edges)]))
+        halves = [
+            [(a, c), (b, c), (b, d)] if lower else [(a, c), (b, d), (a, d)]
+            for a, b in pairwise(edges)
+            for c, d in pairwise(edges)
+            for lower in (True, False)
+        ]
+        corners = np.array(halves, float)
+        return self.on(np.concatenate([corners, 0.5 * (corners + np.roll(corners, -1, axis=1))], axis=1))
+
+    def distance(self, places):
+        """Of places (n, 2 or 3): where the way to the curve or surface is normal to it, by Newton's method."""
+        at = places[:, :-1].copy()
+        for _ in range(30):
+            slope = self.bends * (at - self.middle)
+            off = self.on(at) - places
+            lack = off[:, :-1] + off[:, -1:] * slope
+            turned = off[:, -1, None, None] * np.diag(self.bends)
+            change = np.eye(len(self.bends)) + slope[:, :, None] * slope[:, None, :] + turned
+            at -= np.linalg.solve(change, lack[..., None])[..., 0]
+        return np.linalg.norm(self.on(at) - places, axis=1)
+
+
+def middles_over(surface, edges):
+    """The middles of its pieces between these, on it."""
+    return surface.on(surface.pieces(edges)[:, : 3 if len(surface.bends) == 2 else 2, :-1].mean(axis=1))
+
+
+def check_zone(found, places, distance, margin, grain):
+    """The pieces found are those whose middles, `places`, are at most the margin farther away than the nearest."""
+    count, widest, zone = int(found[0]), found[1], found[2:-1].reshape(-1, 4)
+    assert count == len(zone) > 0 and widest == pytest.approx(zone[:, 3].max()) and 0.5 * grain < widest <= grain
+    off = np.linalg.norm(zone[:, None, : places.shape[1]] - places, axis=2)
+    taken = off.argmin(axis=1)
+    assert off.min(axis=1).max() < 1e-9 and len(set(taken)) == count
+    more = distance - distance.min()
+    assert more[taken].max() < 1.1 * margin, more[taken].max() / margin
+    left = np.delete(more, taken)
+    assert left.min() > 0.9 * margin, left.min() / margin
+
+
+UPPER = [Bent(0.03, [0.6], [0.1]), Bent(0.03, [0.6, 0.4], [0.1, -0.05])]
+LOWER = [Bent(0, [-0.5], [0.3]), Bent(0, [-0.5, -0.3], [0.3, 0.1])]
+SEARCHED = [
+    # components, pieces on an axis as they come and as they are found, the margin: for large pieces and for small ones
+    (1, 4, 32, 0.02),
+    (1, 32, 32, 0.3),
+    (2, 2, 16, 0.02),
+]
+
+
+@pytest.mark.parametrize("components, coarse, fine, margin", SEARCHED)
+def test_nearest_pieces(components, coarse, fine, margin):
+    """Of two parabolas or paraboloids, cut into few pieces or into many, against distances by Newton's method."""
+    upper, lower = UPPER[components - 1], LOWER[components - 1]
+    one, other = (surface.pieces(np.linspace(-1, 1, coarse + 1)) for surface in (upper, lower))
+    grain = 2 / fine * (0.75 if components == 1 else 1.1)
+    faces = [1] * len(one) + [2] * len(other)
+    found = asked(np.concatenate([one, other]), f'every(nearest("1", "2", {grain}, {margin}, ""))', faces=faces)
+    places = middles_over(upper, np.linspace(-1, 1, fine + 1))
+    check_zone(found, places, lower.distance(places), margin, grain)
+
+
+SHAPES = {
+    # of an obstacle the words, and a place's distance from it, outside or inside
+    "plane 0.3 0.2 -0.1 1 -2 6": lambda at: abs((at - [0.3, 0.2, -0.1]) @ [1, -2, 6]) / np.sqrt(41),
+    "cylinder 0 0.4 -1.2 3 0.5 0.2 1": lambda at: abs(
+        np.linalg.norm(np.cross(at - [0, 0.4, -1.2], [3, 0.5, 0.2]), axis=1) / np.linalg.norm([3, 0.5, 0.2]) - 1
+    ),
+    "sphere 0.1 -0.1 2 0 0 0 1.7": lambda at: abs(np.linalg.norm(at - [0.1, -0.1, 2], axis=1) - 1.7),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pieces_nearest_to_an_obstacle(shape):
+    """Against distances from its shape, outside and inside; a smaller margin asks for a closer look at the outline."""
+    surface, grain, margin = UPPER[1], 2 / 16 * 1.1, 0.02
+    pieces = surface.pieces(np.linspace(-1, 1, 5))
+    found = asked(pieces, f'every(nearest("1", "", {grain}, {margin}, "{shape}"))', "finest + 0")
+    places = middles_over(surface, np.linspace(-1, 1, 17))
+    check_zone(found[:-1], places, SHAPES[shape](places), margin, grain)
+    assert found[-1] == 0 < asked(pieces, f'0 * nearest("1", "", {grain}, 0.001, "{shape}") + finest')[0]
+
+
+@pytest.mark.parametrize("components", [1, 2])
+def test_units_of_length(components):
+    """In other units all lengths are as many times greater, curvatures smaller, and as many pieces are found."""
+    pieces = UPPER[components - 1].pieces(np.linspace(-1, 1, 5))
+    plane = "plane 0 0 0 0 1 0" if components == 1 else "plane 0 0 0 0 0 1"
+    found = []
+    for unit in (1.0, 1e-3):
+        near, unsure = (f'nearest("1", "", {0.1 * unit}, {margin * unit}, "{plane}")' for margin in (0.03, 0.001))
+        bend = "curvature(1)" if components == 1 else "sharpest(1)"
+        found.append(abs(asked(unit * pieces, bend, "doubt(1)", near, "widest", f"0 * {unsure} + finest")))
+    assert (found[0] > 0).all()
+    assert found[1] == pytest.approx(found[0] * [1e3, 1e-3, 1, 1e-3, 1e-3], rel=1e-9)
+    if components == 1:  # the parabola's in the middle of the first piece, 0.85 from its vertex
+        assert found[0][0] == pytest.approx(0.6 / (1 + (0.6 * 0.85) ** 2) ** 1.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("times", [1.0, 2.0, 6.0, 400.0])
+def test_how_much_closer(times):
+    """The error falls with the third power of the size: at the size asked for it is 0.15 of the margin; but that is at
+    most half as large, and at least a tenth."""
+    size, margin = 0.8, 0.01
+    piece = np.array([[[0, 0], [size, 0], [size / 2, 0]]])
+    (asks,) = asked(piece, f"unsure(1 + 0 * (doubt_[1] = {times * margin}) + 0 * (root[1] = 1), {margin}) + finest")
+    assert asks == pytest.approx(size * np.clip((0.15 / times) ** (1 / 3), 0.1, 0.5))
 
 
 # ---------------------------------------------------------------- what gmsh is told

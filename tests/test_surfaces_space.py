@@ -312,3 +312,36 @@ def test_crossed_cylinders(tmp_path, ratio, extent, growth):
     (contact,) = part(tmp_path, text, example.with_suffix(".case").read_text(), space=True).contacts
     assert contact["semiAxes"] == pytest.approx([a, b], rel=0.01)
     assert contact["pressureMax"] == pytest.approx(greatest, rel=0.01)
+
+
+TURNED_SIDES = data("surfaces-space/turns.edp")
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.3, -0.3])
+def test_turns_of_patches(tmp_path, slope):
+    """A quadratic surface above a body, which patches have exactly, turns nowhere, but at a fold on x = 0.5."""
+
+    def height(x, y):
+        return 0.3 * x**2 + 0.2 * x * y - 0.4 * y**2 + slope * abs(x - 0.5)
+
+    corner = np.array([(0, 0), (0.5, 0.1), (1, 0), (0, 1), (0.5, 0.8), (1, 0.9)])
+    triangles = np.array([(0, 1, 4), (0, 4, 3), (1, 2, 5), (5, 4, 1)])
+    places = corner[triangles]
+    nodes = np.dstack([places, height(*np.moveaxis(places, -1, 0))])
+    middle = sides(corner, triangles)
+    bulge = np.dstack([middle, height(*np.moveaxis(middle, -1, 0))]) - 0.5 * (nodes[:, [1, 2, 0]] + nodes[:, [2, 0, 1]])
+    ends = [frozenset(np.delete(face, a)) for face in triangles for a in range(3)]
+    beyond = [next((n for n, other in enumerate(ends) if other == own and n != k), -1) for k, own in enumerate(ends)]
+    rows = [
+        " ".join([vector((face @ TURNS[0].T).ravel()), vector((rise @ TURNS[0].T).ravel()), *map(str, near)])
+        for face, rise, near in zip(nodes, bulge, np.reshape(beyond, (-1, 3)), strict=True)
+    ]
+    (tmp_path / "faces.txt").write_text("\n".join([str(len(rows)), *rows, ""]))
+    turn = told(snippet(tmp_path, TURNED_SIDES))["turn"]
+    x, y = middle.reshape(-1, 2).T
+    # normals on both hands of the fold; a valley takes up more than 180 degrees of the body
+    left, right = (np.array([-0.6 * x - 0.2 * y - s, 0.8 * y - 0.2 * x, 1 + 0 * x]) for s in (-slope, slope))
+    angle = np.arctan2(np.linalg.norm(np.cross(left, right, axis=0), axis=0), (left * right).sum(axis=0))
+    folded = (np.array(beyond) >= 0) & (abs(x - 0.5) < 1e-12)
+    assert folded.sum() == 2 and (np.array(beyond) >= 0).sum() == 6
+    assert turn == pytest.approx(np.where(folded, np.sign(slope) * angle, 0), abs=1e-7)

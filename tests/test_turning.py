@@ -7,7 +7,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from freefem import ROOT, data, part
+from freefem import ROOT, data, part, snippet, told
 from test_linear_gaps import PLANK, STANDING
 from test_parts import Mesh, block, cube, vector
 
@@ -293,3 +293,24 @@ def test_dragged_in_space(solve, tmp_path, turns):
     assert abs(told["move ctop reaction"]).max() < 3e-3 * told["btop cbottom normal force"].min()
     for name in ("stored energy", "btop cbottom normal force"):
         assert runs[-1][name] == pytest.approx(told[name], rel=1e-5)
+
+
+ROUNDS = data("turning/rounds.edp")
+
+
+@pytest.mark.parametrize(
+    "module, call", [("turning/in-frames", "followBodies(1)"), ("friction/rounds", "followPlaces(1, 0)")]
+)
+def test_forces_that_go_to_and_fro_turn_no_bodies(tmp_path, module, call):
+    """After rounds that end nowhere a load step ends: bodies would turn to and fro, too. Otherwise they turn until they
+    rest, and a body that does not is told to be held."""
+    start = f"func int {call.split('(')[0]}(int step"
+    bodies = (ROOT / f"edp/options/{module}.idp").read_text().split(start)
+    follow = [start + text[: text.index("\n}\n") + 3] for text in bodies[1:] if text.split("\n")[1].startswith("//")]
+    tries = [("rests", 2, 99), ("swings", 99, 1), ("later", 99, 3), ("turns", 99, 99)]
+    text = "".join(f'tried({turning}, {swings});\n{call};\ntellTried("{name}");\n' for name, turning, swings in tries)
+    found = told(snippet(tmp_path, ROUNDS + follow[0] + text))
+    assert found["rests"].tolist() == [3, 0, 0]
+    assert found["swings"].tolist() == [1, 0, 1]
+    assert found["later"].tolist() == [3, 0, 1]
+    assert found["turns"][1] == 1 and found["turns"][0] > 10
