@@ -248,8 +248,9 @@ def test_combinations(tmp_path, case, flags, words):
 @pytest.mark.parametrize(
     "row, words",
     short_of(
-        [("0,0,1.5,2,0,x", "allowed: worn.csv of a run")],
+        [("0,0,1.5,2,0,x", "allowed: worn.csv of a run"), ("0,0,1.5,2,0,-1e-3", "line 2: depth -0.001: ")],
         [
+            ("0,0,1.5,2,0,-1e-3", "line 2: depth -0.001: "),
             ("0,0,1.5,2,0,x", "allowed: worn.csv of a run"),
             ("0,0,1.5,2,0", "line 2: not six numbers"),
             ("0,0,1.5,2,0,1,7", "allowed: worn.csv of a run"),

@@ -112,11 +112,15 @@ function friction(c,   p, k, x, m, s) {
   if (v[p ".tied"] == "false" && x == 0 && v[p ".stickShare"] == 0) return   # no friction, beside a tie
   if (!owned) print "  friction"
   twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0))
-  result("  sticking part", 100 * v[p ".stickShare"], 0, "%", "of the contact")
+  twofold("sticking part", 100 * v[p ".stickShare"], percents(p ".mesh.stickShare"), percents(p ".loadSteps.stickShare"), "%", "of the contact")
   twofold("dissipated", v[p ".dissipated"], -1, error(p ".loadSteps.dissipated"), "", "")
   if (known(p ".mesh.dissipatedLastStep.value"))
     twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", \
       v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "")
+}
+function percents(path,   e) {
+  e = error(path)
+  return e < 0 ? e : 100 * e
 }
 function twofold(name, x, mesh, steps, unit, note,   e) {  # two errors, of the mesh and of the load steps
   e = bounded(x, mesh > steps ? mesh : steps)
