@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapes
 from freefem import ROOT, data, execute, part, run_in, short_of, snippet, table, told
-from test_friction import case, series
+from test_friction import LYING, case, series
 from test_paraview import Grid
 
 FIT = data("friction-bodies/fit.geo")
@@ -63,7 +63,11 @@ def test_steps_that_run_out_are_no_lack_of_equilibrium(tmp_path):
 def test_sleeve_pulled_off(tmp_path, pull, code):
     """Along its axis: up to the friction of the fit it holds; beyond, the reason names the load."""
     fit = case(tmp_path, SLEEVE, SLEEVED + f"traction rim 0 {pull}\n", expect=code)
-    assert code == 0 or "no equilibrium (traction rim): friction and contact carry 88 % of" in fit.message
+    if code == 0:
+        return
+    found = re.search(r"\(traction rim\): friction and contact carry (\S+) % of this leg's .* not (\S+) %", fit.message)
+    carried, not_carried = (float(share) for share in found.groups())
+    assert 8 / pull < carried / 100 < not_carried / 100 < carried / 100 + 0.0012 < 1
 
 
 # ---------------------------------------------------------------- symmetry planes
@@ -464,3 +468,13 @@ def test_normals_between_sloped_faces(tmp_path, space, points, friction, share):
     turned = 0.4 * share
     assert rows["nx"] == pytest.approx(-np.sin(turned)) and rows["ny"] == pytest.approx(np.cos(turned))
     assert rows["gap"] == pytest.approx((0.3 + rows["x"] * np.tan(0.4)) * np.cos(turned))
+
+
+@pytest.mark.parametrize("steps, drag", short_of([(2, 0.41)], [(2, 0.41), (1, 0.31), (7, 0.75)]))
+def test_bracket_of_what_friction_carries(tmp_path, steps, drag):
+    """A block on a plane is dragged too hard: the run tells the limit, 0.3 of the pressure, to a thousandth of the leg."""
+    text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\nleg 1\ntraction head 0 -1\n"
+    run = case(tmp_path, LYING, f"{text}leg {steps}\ntraction head {drag} -1\n", expect=20)
+    shares = re.search(r"friction and contact carry (\S+) % of this leg's change of load, not (\S+) %", run.message)
+    carried, not_carried = (float(share) / 100 for share in shares.groups())
+    assert carried <= 0.3 / drag <= not_carried <= carried + 0.0012
