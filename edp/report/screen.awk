@@ -137,25 +137,32 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
   F = sqrt(F)
   balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
-  e = error(q ".force")
+  e = ofWear(c, error(q ".force"), "normalForce")
   across = ""
   for (k = 0; k < count[p ".across"]; k++) across = across (k ? ", " : "without its part across ") "symmetry " v[p ".across." k]
   note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? (exceeds(F, e) && !balanced ? doubted(F, e) : "± " digits(e, 2) (balanced ? "" : " " percent(e, F))) : unknown(e))
   put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(note, across)))
   little = v[p ".normalForce"] < 1e-3 * mostForce
-  if (!balanced && !little) worse(e, F, "force of " v[p ".name"])
-  e = error(q ".normalForce")
-  result("  normal force", v[p ".normalForce"], e, force, unknown(e))
-  if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
-  e = error(q ".pressureMax")
-  result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
+  if (!balanced && !little) worse(e, F, "force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
+  e = ofWear(c, error(q ".normalForce"), "normalForce")
+  result("  normal force", v[p ".normalForce"], e, force, also(unknown(e), bySteps))
+  if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
+  e = ofWear(c, error(q ".pressureMax"), "pressureMax")
+  result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(also(unknown(e), bySteps), peak[c]))
   if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
-    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : known(p ".refine") ? v[p ".refine"] : "raise -order, or refine at the contact (size contact)")
+    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : bySteps != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : "raise -order, or refine at the contact (size contact)")
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
   result(dimension == 3 ? "  contact area" : "  contact length", x, e, unit, also(unknown(e), v[p ".contactPoints"] " of " v[p ".points"] " points"))
   friction(c)
+}
+function ofWear(c, e, key) {                  # the error e, or where wear is followed that of its steps
+  bySteps = ""
+  if (e >= 0 || !(v[".wear.contacts." c ".coefficient"] > 0)) return e
+  e = error(".wear.contacts." c "." key)
+  bySteps = e >= 0 ? "by the wear steps" : "error not known"
+  return e
 }
 function worn(c,   p, unit, left) {
   p = ".wear.contacts." c
