@@ -472,7 +472,7 @@ def test_normals_between_sloped_faces(tmp_path, space, points, friction, share):
 
 @pytest.mark.parametrize("steps, drag", short_of([(2, 0.41)], [(2, 0.41), (1, 0.31), (7, 0.75)]))
 def test_bracket_of_what_friction_carries(tmp_path, steps, drag):
-    """A block on a plane is dragged too hard: the run tells the limit, 0.3 of the pressure, to a thousandth of the leg."""
+    """A block on a plane is dragged too hard: the run brackets the limit, 0.3 of the pressure."""
     text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\nleg 1\ntraction head 0 -1\n"
     run = case(tmp_path, LYING, f"{text}leg {steps}\ntraction head {drag} -1\n", expect=20)
     shares = re.search(r"friction and contact carry (\S+) % of this leg's change of load, not (\S+) %", run.message)

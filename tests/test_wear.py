@@ -56,7 +56,9 @@ def test_column(tmp_path):
     # the force that is left, whose steps are as wrong as the depth's of what remains
     left = 3 * stiffness * 0.02 * np.exp(-k * slide * cycles * stiffness)
     force = worn(run)["normalForce"]
-    assert abs(force["value"] - left) < force["error"] and force["value"] == pytest.approx(run.contact["pressure"][0] * 3)
+    assert abs(force["value"] - left) < force["error"] and force["value"] == pytest.approx(
+        run.contact["pressure"][0] * 3
+    )
     (line,) = (line for line in run.stdout.splitlines() if "normal force  " in line)
     assert "by the wear steps" in line and ("error not known" in line or " ± " in line)
     assert any("raise the number of steps after cycles" in text for text in run.summary["warnings"])

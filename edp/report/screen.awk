@@ -118,13 +118,15 @@ function friction(c,   p, k, x, m, s) {
     twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", \
       v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "")
 }
+# three digits of x, or fewer by its error: of the mesh, which may have a greater one, none is known
+function few(x, e) { return x != 0 && e < 10 ^ (exponent(size(x)) - 1) ? leading(x) : shown(x, e) }
 function percents(path,   e) {
   e = error(path)
   return e < 0 ? e : 100 * e
 }
 function twofold(name, x, mesh, steps, unit, note,   e) {  # two errors, of the mesh and of the load steps
   e = bounded(x, mesh > steps ? mesh : steps)
-  put(sprintf("    %-24s %14s%s%s %s %s", name, exceeds(x, e) ? digits(x, 2) : shown(x, e), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
+  put(sprintf("    %-24s %14s%s%s %s %s", name, exceeds(x, e) ? digits(x, 2) : (mesh < 0 && steps >= 0 ? few(x, e) : shown(x, e)), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
 function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
@@ -174,7 +176,7 @@ function worn(c,   p, unit, left) {
 }
 function wornRow(name, path, unit, left,   e) {
   e = error(path)
-  put(sprintf("    %-24s %14s%s %s  %s", name, shown(v[path ".value"], e), e >= 0 ? " ± " off(v[path ".value"], e) " (wear steps)" : "", unit, \
+  put(sprintf("    %-24s %14s%s %s  %s", name, e >= 0 ? few(v[path ".value"], e) : shown(v[path ".value"], e), e >= 0 ? " ± " off(v[path ".value"], e) " (wear steps)" : "", unit, \
     e >= 0 ? left : "error not known"))
 }
 function stresses(   k, p, e, unit) {
@@ -277,7 +279,7 @@ function own(   k, p, e, word, times, j, with) {
 function plastic(   k, p, c, s, unit) {     # bodies that yield: of the mesh no error is known
   if (v[".plastic.yielded"] != "true") { print "  no body yields: the results are elastic ones"; return }
   unit = v[".units.0"] (known(".units.0") ? (v[".state"] == "axisymmetric" ? "^3" : "^2") : "")
-  print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations"
+  print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations: the error of the mesh is not known"
   for (k = 0; k < count[".plastic.bodies"]; k++) {
     p = ".plastic.bodies." k
     twofold("greatest of " v[p ".body"], v[p ".strainMax"], -1, known(p ".strainMaxError") ? v[p ".strainMaxError"] : -1, "", "at " vector(p ".at", 2, 0))
