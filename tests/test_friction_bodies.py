@@ -382,7 +382,7 @@ Curve Loop(2) = {11 : 14}; Plane Surface(2) = {2};
 Physical Curve("up") = {1, 2}; Physical Curve("grip") = {3, 4}; Physical Curve("low") = {11, 12};
 Physical Curve("base") = {13, 14}; Physical Surface("a") = {1}; Physical Surface("b") = {2}; Mesh.MeshSizeMax = 3;
 """
-PRESSED = """size contact 0.05
+SQUASHED = """size contact 0.05
 body a E 210e3 nu 0.3
 body b E 210e3 nu 0.3
 contact low up friction 0.5
@@ -395,7 +395,7 @@ Sphere(1) = {0, 0, -10, 10, 0, Pi/2, Pi/2}; Sphere(2) = {0, 0, 10, 10, -Pi/2, 0,
 Physical Volume("a") = {1}; Physical Volume("b") = {2}; Physical Surface("low") = {1}; Physical Surface("up") = {5};
 Physical Surface("base") = {2}; Physical Surface("grip") = {6}; Physical Surface("sides") = {3, 4, 7, 8};
 """
-SQUEEZED = PRESSED.replace("0.05", "0.4").replace("0 -0.012", "0 0 -0.1") + "symmetry sides\n"
+SQUEEZED = SQUASHED.replace("0.05", "0.4").replace("0 -0.012", "0 0 -0.1") + "symmetry sides\n"
 
 
 def outward(run):
@@ -410,7 +410,7 @@ def outward(run):
 @pytest.mark.parametrize("low, up", short_of([(20, 20)], [(20, 20), (20, 40), (40, 20)]))
 def test_pressing_alone_makes_no_slip(tmp_path, low, up):
     """Cylinders of one material, in one load step: no shear, by symmetry and by Hertz's theory."""
-    run = part(tmp_path, CYLINDERS, PRESSED, "-set", "low", low, "-set", "up", up)
+    run = part(tmp_path, CYLINDERS, SQUASHED, "-set", "low", low, "-set", "up", up)
     assert abs(outward(run)) < 1e-3
     assert np.abs(run.contact["shear"]).max() < 0.015 * 0.5 * run.contact["pressure"].max()
     (contact,) = run.summary["contacts"]

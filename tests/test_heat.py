@@ -451,3 +451,11 @@ def test_heat_of_a_body_that_conducts_far_better(tmp_path):
     assert given == pytest.approx(-taken, rel=1e-9)
     assert given == pytest.approx(abs(heat["contacts"][0]["heat"]), rel=1e-9)
     assert 4 < given < 7
+
+
+def test_flux_and_film_beside_a_held_temperature(tmp_path):
+    """The group that alone holds the temperature of a body takes what a flux and a film bring to this body, too."""
+    case = f"{SOFT}{CONTACT}\n{HELD}move top 0 -1\ntemperature top 1\nflux left 0.1\nfilm right 0.2 3\n"
+    heat = solve(tmp_path, BARS, case, "-set", "n", 2)["heat"]
+    balanced(heat)
+    assert max(abs(group["heat"]) for group in heat["groups"]) > 1
