@@ -27,6 +27,12 @@ if test $code != 4; then
     rm -rf "$read"
     exit 10
 fi
+if test ! -s "$read/faces"; then
+    cat "$read/table"
+    rm -rf "$read"
+    echo "checked: the mesh alone; no case file was given"
+    exit
+fi
 if ! sh "$here/../case/folder.sh" "$1" open "$3"; then
     echo "-out ${3%/check}: not writable, or in use; allowed: a folder that can be written"
     rm -rf "$read"
