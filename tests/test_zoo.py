@@ -5,7 +5,9 @@ The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a f
 
 import os
 import re
+import shutil
 import subprocess
+import time
 
 import numpy as np
 import pytest
@@ -365,14 +367,14 @@ For k In {1:4}
 Line(k) = {k, k % 4 + 1};
 EndFor
 Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
-Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("right") = {2}; Physical Curve("top") = {3};
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("top") = {3};
 """
 FIELD = 'Field[{0}] = MathEval; Field[{0}].F = "1"; Background Field = {0}; Mesh.MeshSizeFromPoints = 0;\n'
 
 
 @pytest.mark.parametrize("field, name", [(0, "top"), (1, "top"), (3, "contact"), (99999, "contact")])
 def test_sizes_beside_own(tmp_path, field, name):
-    """A named size is taken beside sizes of the geometry's points or a field of any number; what is not named keeps its size."""
+    """A named size is taken beside sizes of points or a field of any number; what is not named keeps its size."""
     (tmp_path / "a.geo").write_text(STAMP + (FIELD.format(field) if field else ""))
     case = f"size {name} 0.2\nbody block E 1 nu 0\nclamp base\nobstacle top circle 10 5 5 move 0 -1\n"
     (tmp_path / "a.case").write_text(case)
@@ -428,7 +430,7 @@ block, S2
 
 
 def test_sets_without_a_case(tmp_path):
-    """-check 1 lists the sets of an .inp file, with how much they hold and where they lie; what is no mesh is refused."""
+    """-check 1 lists the sets of an .inp file, with their sizes and places; what is no mesh is refused."""
     (tmp_path / "a.inp").write_text(SETS)
     command = [*FREEFEM, "edp/parts-3d.edp", "-check", 1, "-out", tmp_path / "out", "-mesh"]
     code, said = execute([*command, tmp_path / "a.inp"])
@@ -440,3 +442,57 @@ def test_sets_without_a_case(tmp_path):
     (tmp_path / "b.inp").write_text(SETS.partition("*ELEMENT")[0])
     code, said = execute([*command, tmp_path / "b.inp"])
     assert code == 10 and "no *ELEMENT of a body" in said
+
+
+def test_unv(tmp_path):
+    """A file of another format that gmsh knows is read; without faces that have numbers none are listed."""
+    text = BOXES.partition("Box(2)")[0] + 'Physical Volume("block") = {1}; Physical Surface("foot") = {5};\n'
+    mesh = gmsh(tmp_path, "a.unv", text, "-3", "-format", "unv")
+    case = "body block E 1 nu 0\nobstacle foot plane 0 0 -0.01 0 0 1\n"
+    assert count(tmp_path, mesh, case, 1) > 20
+    code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-check", 1, "-out", tmp_path / "out", "-mesh", mesh])
+    assert code == 10 and "no bodies with faces" in said and "e+300" not in said
+
+
+@pytest.mark.parametrize("said, end", [("", "killed"), ("Error   : it goes on for ever", "error")])
+def test_gmsh_is_ended(tmp_path, said, end):
+    """A gmsh that does not end is ended by its first error, and when its run has been killed."""
+    (tmp_path / "gmsh").write_text(f"#!/bin/sh\necho $$ > {tmp_path}/process\necho '{said}'\nexec sleep 60\n")
+    (tmp_path / "gmsh").chmod(0o755)
+    (tmp_path / "a.geo").write_text(STAMP)
+    (tmp_path / "a.case").write_text("size top 1\nbody block E 1 nu 0\nobstacle top circle 10 5 5\n")
+    run = subprocess.Popen(["sleep", "60"])
+    words = [str(run.pid), tmp_path / "a.geo", tmp_path / "read", tmp_path / "a.case", "0", "solve", ""]
+    environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    reader = subprocess.Popen(["sh", ROOT / "edp/bodies/readable.sh", *words], env=environment)
+    try:
+        if end == "killed":
+            while not (tmp_path / "process").exists():
+                time.sleep(0.05)
+            run.kill()
+            run.wait()
+        assert reader.wait(timeout=20) == (130 if end == "killed" else 1)
+        if end == "error":
+            assert "it goes on for ever" in (tmp_path / "read/why").read_text()
+        number = (tmp_path / "process").read_text().strip()
+        assert not os.path.exists(f"/proc/{number}")
+    finally:
+        run.kill()
+        run.wait()
+
+
+def test_without_gmsh_or_room(tmp_path):
+    """Without gmsh the refusal names gmsh, no geometry; a limit of the size of files is no full disk alone."""
+    for name in (
+        "sh",
+        "awk",
+        "FreeFem++",
+        *"sed grep cksum tr cat head tail date dirname rm mkdir test wc dd sleep env".split(),
+    ):
+        (tmp_path / name).symlink_to(shutil.which(name))
+    (tmp_path / "a.geo").write_text(STAMP)
+    command = f"{' '.join(FREEFEM)} edp/parts.edp -mesh {tmp_path}/a.geo -check 1 -out {tmp_path}/out"
+    limited = ("ulimit -f 1;", "ulimit -f too small", 30)
+    for before, word, code in ((f"PATH={tmp_path}", "apt install gmsh), or a mesh", 10), limited):
+        done = subprocess.run(["sh", "-c", f"{before} {command}"], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == code and word in done.stdout and "(.geo" not in done.stdout, done.stdout

@@ -17,7 +17,7 @@ read=${TMPDIR:-/tmp}/faces-$1-$(date +%s)
 sh "$here/readable.sh" "$1" "$2" "$read" none "$4" check "$5"
 code=$?
 if test $code = 5; then
-    echo "out of disk: ${read%/*} is full; allowed: room there, or another folder, named by the variable TMPDIR"
+    echo "out of disk: ${read%/*} is full, or ulimit -f too small; allowed: room there, or another folder, named by the variable TMPDIR"
     rm -rf "$read"
     exit 30
 fi

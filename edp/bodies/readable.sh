@@ -47,6 +47,7 @@ no() {
     exit "${2:-1}"
 }
 
+noGmsh="; allowed: gmsh there (Debian: apt install gmsh), or a mesh in gmsh's version 2 text format"
 plane="the mesh is plane, it has no volumes: use edp/parts.edp"
 test -d "$file" && no "a folder, no mesh"
 test -f "$file" || no "no file: a pipe or a device"
@@ -199,7 +200,7 @@ EOF
             LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch CLOSER=$asks WHOLE=$folder/whole.geo_unrolled \
             awk -f "$meshes/pick.awk" -f "$meshes/near.awk" -f "$meshes/cad.awk" -f "$meshes/kinds.awk" -f "$meshes/touch.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
-    command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
+    command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH$noGmsh"
     listBodies() {
         bodies=$(awk -v d=$((2 + space)) '/^\$/ { s = $1; row = 0; next }
             s == "$Entities" { if (++row == 1) { for (k = 1; k <= d; k++) from += $k; to = from + $(d + 1) }
@@ -218,6 +219,7 @@ EOF
     fi
     if test "$case_" = none; then
         pick || no "its faces cannot be listed"
+        ! grep -q '1e+300' "$table" || no "gmsh reads no bodies with faces out of it"
         room 1
         exit 4
     fi
@@ -271,8 +273,10 @@ case $kind in geo | step | stp | brep | iges | igs)
 esac
 # the second line of gmsh's format: version, 0 for text or 1 for binary, size of a real
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
+# formats of others, which gmsh knows by their names
+case $kind in msh | inp | geo) ;; *) test "$file" != "$2" || how=${how:--save} ;; esac
 if test -n "$how"; then
-    command -v gmsh > /dev/null || no "not gmsh's version 2 text format, and gmsh, which would convert it, is not on the PATH"
+    command -v gmsh > /dev/null || no "gmsh, which would read it, is not on the PATH$noGmsh"
     watched "$folder/log" "${file##*/}" "$how" $order -v 4 -format msh22 $SETS $import "$file" ${after:+"$after"} "$format" -o "$folder/converted.msh"
     stopped "$folder/log"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
