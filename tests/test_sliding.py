@@ -157,3 +157,24 @@ def test_pressed_as_it_is_drawn(tmp_path):
     moved = [float(line.split()[-1]) for line in pressed.stdout.splitlines() if "forces moved by" in line]
     assert max(moved) < 1e6  # of the forces, where they vanish too
     assert not any("inside the other body" in text for text in pressed.summary["warnings"])
+
+
+SEATED = """units mm MPa
+state axisymmetric
+body plug E 200e3 nu 0.3
+body seat E 100e3 nu 0.3
+contact {}
+symmetry axis
+clamp base
+move top 0 -7.02
+"""
+
+
+@pytest.mark.parametrize("pair, size", [("cone funnel", 1), ("cone funnel", 0.25)])
+def test_past_a_corner(tmp_path, pair, size):
+    """A cone that is longer than its seat: the contact is as long as the seat, no scrap past its corner carries much."""
+    run = part(tmp_path, data("sliding/plug.geo"), SEATED.format(pair), "-distance", "exact", "-set", "h", size)
+    contact, known = run.summary["contacts"][0], run.estimates["contacts"][0]
+    assert abs(known["contactLength"]["value"] - 4 * sqrt(2)) < known["contactLength"]["error"]
+    scraps = run.contact["weight"] < 0.1 * np.median(run.contact["weight"][run.contact["pressure"] > 0])
+    assert (run.contact["pressure"] * run.contact["weight"])[scraps].sum() < 0.02 * contact["normalForce"]
