@@ -172,7 +172,7 @@ move top 0 -7.02
 
 @pytest.mark.parametrize("pair, size", [("cone funnel", 1), ("cone funnel", 0.25)])
 def test_past_a_corner(tmp_path, pair, size):
-    """A cone that is longer than its seat: the contact is as long as the seat, no scrap past its corner carries much."""
+    """A cone that is longer than its seat: the contact is as long as the seat, no scrap past its end carries much."""
     run = part(tmp_path, data("sliding/plug.geo"), SEATED.format(pair), "-distance", "exact", "-set", "h", size)
     contact, known = run.summary["contacts"][0], run.estimates["contacts"][0]
     assert abs(known["contactLength"]["value"] - 4 * sqrt(2)) < known["contactLength"]["error"]
