@@ -347,3 +347,22 @@ def test_friction_pressed_deep(said):
     assert apart(linear, exact) <= linear.known("force")[1]
     shears = [np.linalg.norm(found.summary["contacts"][0]["shearForce"]) for found in (linear, exact)]
     assert abs(shears[0] - shears[1]) <= linear.summary["contacts"][0]["mesh"]["shearForce"]["error"] < 0.35 * shears[0]
+
+
+# ---------------------------------------------------------------- a gap that is linear
+
+HALF_BALL = data("linear-gaps/half-ball.geo")
+
+
+@pytest.mark.parametrize("size", [0.1, 0.15])
+def test_a_plane_changes_nothing(said, size):
+    """Before a plane the gap is linear in the displacement: the true distance shall add nothing, on any mesh."""
+    force, modulus = 188.4956, 1000 / (1 - 0.3**2)
+    case = f"state axisymmetric\nsize contact {size}\nbody ball E 1000 nu 0.3\nobstacle round plane 0 0 0 1\n"
+    ball = said(HALF_BALL, f"{case}symmetry axis\nforce top 0 {-force}\n")
+    most = [abs(change) for change in ball.linear["changes"].values()] + list(map(abs, ball.linear["pressureMax"]))
+    assert max(most) < 1e-6 * force and not ball.summary["warnings"]
+    assert ball.known("force")[1] < 1e-9 * force
+    hertz = (6 * force * modulus**2 / (np.pi**3 * 8**2)) ** (1 / 3)
+    value, error = ball.known("pressureMax")
+    assert error < 0.03 * hertz and abs(value - hertz) < error + 0.15 * (1 / 8) ** 2 * hertz  # Hertz lacks (a/R)^2
