@@ -24,7 +24,7 @@ from executed import copy_tree, instrument, programs, take_marks
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results").absolute() / "choice"
-BUDGET = 700  # default runs of the tests' own; collecting and starting the workers come on top
+BUDGET = 520  # default runs of the tests' own; collecting and starting the workers come on top
 WORTH = (1.0, 0.4, 0.2, 0.1)  # of a line that is reached for the first time, the second, ...
 PYTHON = 0.5  # a line of Python, over a statement of the scripts
 FUNCTION = 3.0  # a test function of which no case has been taken
