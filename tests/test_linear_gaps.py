@@ -222,13 +222,16 @@ traction top 0 150
 """
 
 
-@pytest.mark.parametrize("friction", ["", " friction 0.2"])
-def test_ends_that_open(said, friction):
-    """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector."""
+@pytest.mark.parametrize("friction, off", [("", 0.2), (" friction 0.2", 0.25)], ids=["", " friction 0.2"])
+def test_ends_that_open(said, friction, off):
+    """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector.
+
+    With friction the undeformed normals are the mean of both surfaces', those of the true distance the slave's alone.
+    """
     linear = said(DOVETAIL, BLADE.format(friction))
     true = said(DOVETAIL, BLADE.format(friction), "-distance", "exact")
     moved = true.known("normalForce")[0] - linear.known("normalForce")[0]
-    assert linear.linear["changes"]["slot flank normal force"] == pytest.approx(moved, rel=0.2)
+    assert linear.linear["changes"]["slot flank normal force"] == pytest.approx(moved, rel=off)
     assert linear.holds("normalForce", true.known("normalForce")[0])
     assert linear.known("force")[1] == pytest.approx(2 * apart(linear, true), rel=0.25)  # the safety
 
@@ -326,10 +329,10 @@ def test_friction_with_the_true_distance(said, geo, case):
         happens = truth[name] - told[name]
         size = linear.summary["contacts"][0]["normalForce"]
         if "dissipated" in name:  # what sticks and slips changes with it: inside its ± alone
-            assert abs(happens) <= 2 * abs(number["change"])
+            assert abs(happens) <= linear.summary["contacts"][0]["mesh"]["dissipatedLastStep"]["error"]
             continue
         assert number["change"] == pytest.approx(happens, rel=0.35, abs=2e-3 * size), name
-        seen += abs(happens) > 1e-3 * size
+        seen += abs(happens) > 3e-4 * size
     assert seen > 0 and exact.linear is None
     assert linear.holds("normalForce", exact.known("normalForce")[0])
     assert "gaps at rest" not in linear.stdout
