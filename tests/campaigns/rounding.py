@@ -9,8 +9,8 @@ Kinds of cases:
 
     .venv/bin/python tests/campaigns/rounding.py 200
 
-prints a line for each number that is off by more than its ± without a warning, and the counts. Exit code 1 if there is one, or a warning
-below a ratio of 1e9.
+prints a line for each number that is off by more than its ± without a warning, and the counts. Exit code 1 if there is
+one, or a warning below a ratio of 1e9.
 """
 
 import argparse
@@ -55,7 +55,7 @@ def stacked(size, lower, upper, width):
 
 
 def drawn(draw, kind):
-    """A case: geometry, statements, flags, ratio, and the truth: normal force, and how far the obstacle's force goes, each or None."""
+    """A case: geometry, statements, flags, ratio, and the truth: normal force, the way of its obstacle or None."""
     ratio, young, moved = (float(10**exponent) for exponent in draw.uniform((2, -3, -5), (15, 6, -2)))
     nu, other = draw.uniform(0, 0.45, 2).tolist()
     lower, upper, width = draw.uniform(0.5, 2, 3).tolist()
@@ -80,7 +80,13 @@ def drawn(draw, kind):
         geo = stacked(size, lower, upper, width)
         M, N = modulus(young, nu), modulus(young * ratio, other)
         text, force, way = end(lower + upper, area / (lower / M + upper / N))
-        case = [f"body soft E {young!r} nu {nu!r}", f"body stiff E {young * ratio!r} nu {other!r}", *sides, "symmetry base", text]
+        case = [
+            f"body soft E {young!r} nu {nu!r}",
+            f"body stiff E {young * ratio!r} nu {other!r}",
+            *sides,
+            "symmetry base",
+            text,
+        ]
     if kind == "blocks":
         geo = rectangle(1, 0.0, 0.0, width, lower, size, ["base", "rightA", "seat", "leftA"])
         geo += rectangle(2, 0.0, lower, width, lower + upper, 0.9 * size, ["under", "rightB", "top", "leftB"])
@@ -88,7 +94,12 @@ def drawn(draw, kind):
         M, N = modulus(young, nu), modulus(young * ratio, other)
         text, force, way = end(lower + upper, area / (lower / M + upper / N))
         sides = [side + body for side in sides for body in "AB"]
-        case = [f"body soft E {young!r} nu {nu!r}", f"body stiff E {young * ratio!r} nu {other!r}", *sides, "symmetry base"]
+        case = [
+            f"body soft E {young!r} nu {nu!r}",
+            f"body stiff E {young * ratio!r} nu {other!r}",
+            *sides,
+            "symmetry base",
+        ]
         case += ["contact seat under", text]
     if kind == "spring":
         geo = rectangle(1, 0.0, 0.0, width, lower, size, ["base", "right", "top", "left"])
@@ -96,7 +107,12 @@ def drawn(draw, kind):
         E = young * ratio
         k = young * area / lower
         text, force, way = end(lower, 1 / (1 / k + lower / (modulus(E, nu) * area)))
-        case = [f"body block E {E!r} nu {nu!r}", *sides, f"spring base {0 if state == 'axisymmetric' else k!r} {k!r}", text]
+        case = [
+            f"body block E {E!r} nu {nu!r}",
+            *sides,
+            f"spring base {0 if state == 'axisymmetric' else k!r} {k!r}",
+            text,
+        ]
     if kind == "rubber":
         nu = 0.5 - min(1 / ratio, 0.05)
         state = "strain"
@@ -122,7 +138,17 @@ def solved(folder, geo, case, flags):
     folder.mkdir(exist_ok=True)
     (folder / "a.geo").write_text("\n".join(geo) + "\n")
     (folder / "a.case").write_text("\n".join(case) + "\n")
-    words = ["FreeFem++", "-nw", "-v", "0", ROOT / "edp/parts.edp", "-mesh", folder / "a.geo", "-case", folder / "a.case"]
+    words = [
+        "FreeFem++",
+        "-nw",
+        "-v",
+        "0",
+        ROOT / "edp/parts.edp",
+        "-mesh",
+        folder / "a.geo",
+        "-case",
+        folder / "a.case",
+    ]
     words += ["-vtu", 0, *flags, "-out", folder / "out"]
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=600)
     file = folder / "out/summary.json"
@@ -182,7 +208,7 @@ def main():
                 for name, value, error, truth in checks(summary, force, way)
                 if not abs(value - truth) <= error + (1e-6 * abs(truth) if kind == "lever" else 1e-12 * abs(truth))
             ]
-            for name, value, _, truth in checks(summary, force, way):
+            for _, value, _, truth in checks(summary, force, way):
                 decade = int(np.log10(ratio)) // 3 * 3
                 worst[decade] = max(worst.get(decade, 0), abs(value / truth - 1))
             counts["alarm below 1e9"] += rounded and ratio < 1e9
@@ -190,7 +216,12 @@ def main():
             counts["outside"] += bool(off) and not rounded
             counts["inside"] += not off
             for name, value, error, truth in off:
-                print(about, f"{name} {value!r} ± {error:.2g}, right {truth!r}, off {abs(value - truth):.2g}", rounded, flush=True)
+                print(
+                    about,
+                    f"{name} {value!r} ± {error:.2g}, right {truth!r}, off {abs(value - truth):.2g}",
+                    rounded,
+                    flush=True,
+                )
     print(counts)
     print("greatest relative error by ratio:", {f"1e{k}": f"{v:.1e}" for k, v in sorted(worst.items())})
     return counts["outside"] + counts["alarm below 1e9"] > 0
