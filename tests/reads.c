@@ -29,7 +29,12 @@ static void write_line(const char *kind, const char *name) {
   sigemptyset(&beyond);
   sigaddset(&beyond, SIGXFSZ);
   sigprocmask(SIG_BLOCK, &beyond, &before);
-  if (write(log_file, line, n) < 0) sigtimedwait(&beyond, NULL, &none);
+  if (write(log_file, line, n) < 0) {
+    char lost[PATH_MAX];
+    sigtimedwait(&beyond, NULL, &none);
+    snprintf(lost, sizeof lost, "%s.lost", getenv("READS_TO"));
+    close(syscall(SYS_openat, AT_FDCWD, lost, O_WRONLY | O_CREAT, 0666));
+  }
   sigprocmask(SIG_SETMASK, &before, NULL);
 }
 
