@@ -36,6 +36,7 @@ BEGAN = time.time_ns()
 
 base = None  # the session's folder, shared by its workers
 frames = []
+imported = {}  # what modules beside the tests read when they are imported, by file
 fixtures = {}  # labels of fixtures that tests share, by place, name and parameter
 
 
@@ -73,6 +74,10 @@ class Frame:
             frames[-1].uses.add(self.label)
             frames[-1].tell()
         starts = 0
+        lost = self.log.with_name(f"{self.log.name}.lost")
+        if lost.exists():  # a program could not write down what it read
+            self.reads.add(EVERYTHING)
+            lost.unlink()
         if self.log.exists():
             for line in set_of_lines(self.log):
                 kind, _, name = line.partition(" ")
@@ -81,9 +86,13 @@ class Frame:
                     self.reads.add(name)
             self.log.unlink()
         row = {"label": self.label, "cpu": used - self.inner, "starts": starts, "outcome": self.outcome}
-        row |= {"uses": sorted(self.uses), "reads": sorted(filter(None, map(source, self.reads)))}
-        with (base / f"accounts-{os.getpid()}").open("a") as file:
-            file.write(json.dumps(row) + "\n")
+        write_row(row | {"uses": sorted(self.uses)}, self.reads)
+
+
+def write_row(row, reads):
+    row["reads"] = sorted(filter(None, map(source, reads)))
+    with (base / f"accounts-{os.getpid()}").open("a") as file:
+        file.write(json.dumps(row) + "\n")
 
 
 def set_of_lines(path):
@@ -125,20 +134,34 @@ def shared(function):
 
 def watch(event, arguments):
     """Files and folders that this process opens itself, and programs that it starts unwatched."""
-    if not frames:
-        return
+    collecting = not frames or frames[-1].label.startswith("module ")
     if event in ("open", "os.listdir", "os.scandir"):
+        own = importing() if collecting else None
+        reads = imported.setdefault(own, set()) if own else frames[-1].reads if frames else None
         path = arguments[0]
         if isinstance(path, bytes):
             path = os.fsdecode(path)
-        if path is None or isinstance(path, str):
+        if reads is not None and (path is None or isinstance(path, str)):
             name = os.path.realpath(path or ".")
             if name.startswith(f"{ROOT}/"):
-                frames[-1].reads.add(name[len(str(ROOT)) + 1 :])
-    elif event == "subprocess.Popen":
+                reads.add(name[len(str(ROOT)) + 1 :])
+    elif event == "subprocess.Popen" and frames:
         env = arguments[3]
         if "LD_PRELOAD" not in (os.environ if env is None else env):
             frames[-1].reads.add(EVERYTHING)
+
+
+def importing():
+    """The file of tests/ whose own lines are being executed, as when it is imported; None: none."""
+    frame = sys._getframe(1)
+    while frame:
+        if frame.f_code.co_name == "<module>" and frame.f_code.co_filename.startswith(f"{HERE}/"):
+            return frame.f_code.co_filename[len(str(ROOT)) + 1 :]
+        frame = frame.f_back
+    return None
+
+
+sys.addaudithook(watch)
 
 
 def build_watcher():
@@ -207,7 +230,7 @@ def read_by(rows):
 
     @functools.cache
     def every(label):
-        found = set(own.get(label, [EVERYTHING]))
+        found = set(own.get(label, [] if label.startswith("module ") else [EVERYTHING]))
         for other in uses.get(label, ()):
             found |= every(other)
         return frozenset(found)
@@ -252,7 +275,8 @@ def remember(config, rows):
             continue
         tests.pop(name, None)
         file = name.split("::")[0]
-        reads = every(name) | every(f"module {file}") | {file} | imports(file) | set(ALWAYS)
+        modules = {file} | imports(file) | set(ALWAYS)
+        reads = every(name) | modules | set().union(*(every(f"module {module}") for module in modules))
         if row["outcome"] == "passed" and not any(map(touched, reads)):
             reads = tuple(sorted(reads))
             tests[name] = reads, state(reads)
@@ -279,10 +303,6 @@ def pytest_collection_modifyitems(config, items):
 # ---------------------------------------------------------------- pytest's hooks
 
 
-def pytest_configure(config):
-    sys.addaudithook(watch)
-
-
 @pytest.hookimpl(tryfirst=True)
 def pytest_sessionstart(session):
     global base
@@ -298,6 +318,11 @@ def pytest_make_collect_report(collector):
         return (yield)
     with Frame(f"module {collector.nodeid}"):
         return (yield)
+
+
+def pytest_collection_finish():
+    for file, reads in imported.items():
+        write_row({"label": f"module {file}", "cpu": 0, "starts": 0, "outcome": "", "uses": []}, reads)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -48,7 +48,7 @@ CHAPTERS = {
         *("edp/PAPER.md", "edp/PAPER.md#"),
     ],
     "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/VERIFICATION.md", "tests/COST.md", "tests/COST.md#"],
-    "Code": ["edp/README.md", "edp/README.md#", "CONTRIBUTING.md", "tests/data/README.md", "CHANGELOG.md"],
+    "Code": "edp/README.md edp/README.md# CONTRIBUTING.md tests/README.md tests/data/README.md CHANGELOG.md".split(),
 }
 ANSWERS = ["edp/labs/*/ANSWERS.md"]  # only with --answers, reached by links
 SLANTED = re.compile(r"(`[^`]*`)|(?<![\w*])\*([^*\s][^*]*)\*(?!\w)")  # code, or slanted words

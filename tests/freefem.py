@@ -164,7 +164,7 @@ def interrupt(command, far_enough, cwd=ROOT, env=None):
     It runs behind everything else, so that it does not end while this process waits for its turn; one that did is begun
     again.
     """
-    quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "start_new_session": True}
+    quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "process_group": 0}
     quiet |= {"cwd": cwd, "env": environment() if env is None else env, "preexec_fn": lambda: os.nice(19)}
     for _ in range(5):
         process = subprocess.Popen(list(map(str, command)), **quiet)

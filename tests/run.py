@@ -77,6 +77,7 @@ def main(words: list[str]) -> int:
         env = {**os.environ, "ACCOUNTS": str(own), "DEFAULT_RUN": str(unit)}
         for kind, how in (("not ranks", ["-n", str(WORKERS), "--dist", "worksteal"]), ("ranks", [])):
             command = [sys.executable, "-m", "pytest", "-q", "-m", f"({expression}) and {kind}", *how, *rest]
+            rest = [word for word in rest if word != "--cache-clear"]  # the second would clear what the first kept
             codes.append(subprocess.run(command, env=env).returncode)
         used = children() - before
         print(report(used, unit, own, 0))

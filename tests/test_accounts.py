@@ -50,6 +50,22 @@ def test_of_nothing():
 
 def test_unwatched():
     subprocess.run(["true"], env={})
+
+
+def test_no_room():
+    subprocess.run(["sh", "-c", "ulimit -f 0; cat edp/laws/two.idp"], cwd=ROOT, capture_output=True)
+"""
+FIRST = """
+from helper import THREE
+
+
+def test_by_a_helper():
+    assert THREE == "3"
+"""
+HELPER = """
+from freefem import ROOT
+
+THREE = (ROOT / "edp/laws/helped.idp").read_text()
 """
 
 
@@ -65,8 +81,10 @@ def package(tmp_path):
     shutil.copytree(ROOT / "postprocess", folder / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "edp/laws").mkdir()
     (folder / "tests/long.txt").touch()
-    (folder / "tests/test_some.py").write_text(TESTS)
-    for name, text in (("one", "1"), ("two", "2")):
+    last = FIRST.replace("by_a_helper", "by_the_same_helper")  # which is not imported again
+    for name, text in (("test_first", FIRST), ("helper", HELPER), ("test_some", TESTS), ("test_then", last)):
+        (folder / f"tests/{name}.py").write_text(text)
+    for name, text in (("one", "1"), ("two", "2"), ("helped", "3")):
         (folder / f"edp/laws/{name}.idp").write_text(text)
     return folder
 
@@ -81,23 +99,35 @@ def ran(package):
 
 @pytest.mark.skipif(not (shutil.which("gcc") or shutil.which("cc")), reason="no C compiler")
 def test_what_has_not_changed(package):
-    """Cached calls, fixtures and programs count for all who use them; what fails or escapes is run each time."""
+    """Cached calls, fixtures, helpers and programs count for all who use them; what escapes reads everything."""
     every, done = ran(package)
-    assert set(every.values()) == {"PASSED"} and len(every) == 7, done.stdout
+    assert set(every.values()) == {"PASSED"} and len(every) == 10, done.stdout
     again, done = ran(package)
-    assert again == {} and done.returncode == 0 and "7 tests passed before" in done.stdout, done.stdout
+    assert again == {} and done.returncode == 0 and "10 tests passed before" in done.stdout, done.stdout
     (package / "edp/laws/one.idp").write_text("1 ")
     again, _ = ran(package)
-    assert again == {"by_a_cached_call[1]": "FAILED", "by_a_cached_call[2]": "FAILED", "unwatched": "PASSED"}
+    escaped = {"unwatched": "PASSED", "no_room": "PASSED"}
+    assert again == escaped | {"by_a_cached_call[1]": "FAILED", "by_a_cached_call[2]": "FAILED"}
     (package / "edp/laws/one.idp").write_text("1")
     (package / "edp/laws/two.idp").write_text("3")
     again, _ = ran(package)
-    assert set(again) == set(every) - {"of_nothing"}
+    assert set(again) == set(every) - {"of_nothing", "by_a_helper", "by_the_same_helper"}
     assert [name for name, end in again.items() if end == "FAILED"] == [
         "by_a_fixture[1]",
         "by_a_fixture[2]",
         "by_a_shell",
     ]
+    (package / "edp/laws/two.idp").write_text("2")
+    ran(package)
+    (package / "edp/laws/helped.idp").write_text("4")
+    again, _ = ran(package)
+    assert again == escaped | {"by_a_helper": "FAILED", "by_the_same_helper": "FAILED"}
+    (package / "edp/laws/helped.idp").write_text("3")
+    ran(package)
+    with (package / "tests/data/tell.edp").open("a") as file:  # which freefem.py reads when it is imported
+        file.write("\n")
+    again, _ = ran(package)
+    assert again == every
 
 
 def test_what_stands_for_what():

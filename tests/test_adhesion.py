@@ -376,7 +376,10 @@ def test_path_goes_on(tmp_path):
     # table and state are put in place one after the other, and a fold only with the state after its jump
     begun = re.search(r"goes on after state (\d+),", done.stdout)
     assert begun and kept - 2 <= int(begun[1]) <= kept + 2, (kept, done.stdout)
-    np.testing.assert_allclose(table(again / "path.csv")["force"], rows["force"], rtol=1e-6)
+    # it may stop once more on the way to a fold
+    found = table(again / "path.csv")["force"]
+    assert len(rows) <= len(found) <= len(rows) + 2
+    assert all(abs(found - force).min() <= 1e-6 * abs(force) for force in rows["force"])
     assert done.dissipated == pytest.approx(whole.dissipated, rel=1e-6)
     assert done.newton < whole.newton
 

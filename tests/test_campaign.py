@@ -191,10 +191,12 @@ def test_a_few_models(tmp_path):
 
 
 def test_models_of_one_load(tmp_path):
-    """A sixth of the runs of `make models`, 25 laws: none fails, and no count is above that of the page."""
+    """Of the runs of `make models` those of seven laws: none fails, and no count is above that of the page."""
     chosen = [item for item in models.cases() if (item.parameters["u0"], item.parameters["h"]) == ("2.5", "1")]
+    laws = sorted({(item.parameters["kappa"], item.parameters["m"]) for item in chosen})[::4]
+    chosen = [item for item in chosen if (item.parameters["kappa"], item.parameters["m"]) in laws]
     rows = models.run(tmp_path / "models.csv", chosen, jobs=2)
-    assert len(rows) == 175 and models.faults(rows) == []
+    assert len(rows) == 49 and models.faults(rows) == []
     told = [line.split(" | ") for line in models.table(rows).splitlines()[2:]]
     for line, expected in zip(told, pictures.cells("models")[1:], strict=True):
         found = [cell.strip("| ") for cell in line]

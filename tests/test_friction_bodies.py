@@ -237,7 +237,7 @@ def test_wedge_let_go(tmp_path):
     assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
-@pytest.mark.parametrize("kinds", cases_of([("block",)], [(("fit", "wedge", "belt"),)]))
+@pytest.mark.parametrize("kinds", cases_of([("block",)], [("fit", "wedge", "belt")]))
 def test_sample_of_the_campaign(tmp_path, kinds):
     """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
     command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]

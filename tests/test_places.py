@@ -13,7 +13,7 @@ from freefem import FREEFEM, ROOT, environment, execute, listing, patience, plot
 BLOCK, DISC = script("confined-block"), script("disc-on-block")
 QUICK = ["-h", 2, "-order", 1, "-vtu", 0, "-estimate", 0]
 CACHES = ("CONTACT_CACHE", "XDG_CACHE_HOME", "TMPDIR", "CONTACT_RESULTS")
-BARE = {name: value for name, value in environment().items() if name not in CACHES}
+BARE = {name: value for name, value in environment().items() if name not in (*CACHES, "LD_PRELOAD")}  # of any user
 
 
 @pytest.fixture(scope="module")

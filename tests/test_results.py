@@ -187,7 +187,7 @@ TEXT = section(RESULTS, "Attraction")
 def test_command_of_a_loop():
     """The command on the page shall be that of the table's row."""
     (line,) = [line for block in fences(TEXT, "text") for line in block.splitlines() if "adhesive-sphere" in line]
-    words = shlex.split(line)[5:]
+    words = shlex.split(line)[2:]
     done, _ = follow(1, "P2, 0.1")
     for name, value in zip(words[::2], words[1::2], strict=True):
         used = done.parameters[name[1:]]

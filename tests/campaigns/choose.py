@@ -2,7 +2,7 @@
 
 Measuring runs every test once in a copy of the package with a mark before each statement of the scripts (executed.py);
 lines of Python are recorded by the package coverage (pip install coverage). It takes an hour on two cores. Results are
-in results/choice/.
+in results/choice/. Words behind `measure` go to pytest: a few test files, to try it.
 
 Choosing takes, per CPU second, the tests that reach most, until the budget is used. A line of a script or of Python
 counts again, for less, when further tests reach it: an error that one test does not see may change a number that
@@ -24,7 +24,7 @@ from executed import copy_tree, instrument, programs, take_marks
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results").absolute() / "choice"
-BUDGET = 700  # default runs of the tests' own; collecting and starting the workers come on top
+BUDGET = 520  # default runs of the tests' own; collecting and starting the workers come on top
 WORTH = (1.0, 0.4, 0.2, 0.1)  # of a line that is reached for the first time, the second, ...
 PYTHON = 0.5  # a line of Python, over a statement of the scripts
 FUNCTION = 3.0  # a test function of which no case has been taken
@@ -59,20 +59,17 @@ def pytest_configure(config):
     accounts.Frame.tell = tell
 
 
-def measure() -> None:
+def measure(chosen: list[str]) -> None:
     shutil.rmtree(FOLDER, ignore_errors=True)
     tree = copy_tree(FOLDER / "tree")
     shutil.copytree(ROOT / ".git", tree / ".git", dirs_exist_ok=True)
     statements = instrument(tree)
     (FOLDER / "statements.json").write_text(json.dumps(statements))
     (FOLDER / "coveragerc").write_text(COVERAGE.format(folder=FOLDER))
-    (FOLDER / "plugin").mkdir()
-    for name in ("choose", "executed"):  # not the campaign that is called coverage
-        shutil.copy(ROOT / f"tests/campaigns/{name}.py", FOLDER / "plugin")
     env = programs(tree) | {"ACCOUNTS": str(FOLDER / "accounts"), "COVERAGE_PROCESS_START": str(FOLDER / "coveragerc")}
-    env |= {"PYTHONPATH": f"{FOLDER / 'plugin'}:{tree / 'tests'}"}
+    env |= {"PYTHONPATH": f"{tree / 'tests/campaigns'}:{tree / 'tests'}"}
     words = ["long or not long", "-p", "choose", "-p", "no:cacheprovider", "--basetemp", str(FOLDER / "base")]
-    subprocess.run([sys.executable, "tests/run.py", *words], cwd=tree, env=env)
+    subprocess.run([sys.executable, "tests/run.py", *words, *chosen], cwd=tree, env=env)
     reached = defaultdict(set)
     for label, numbers in take_marks(tree):
         reached[label] |= numbers
@@ -202,9 +199,12 @@ def write_long(tests: list, taken: set[str]) -> None:
 
 
 def main(words: list[str]) -> int:
-    if "measure" in words:
-        measure()
+    if words[:1] == ["measure"]:
+        measure(words[1:])
         return 0
+    if not (FOLDER / "reached.json").exists():
+        print("first: python tests/campaigns/choose.py measure", file=sys.stderr)
+        return 10
     every, tests = read_tests()
     unit = float(next((word for word in words if word[0].isdigit()), 0.25))
     write_long(tests, choose(every, tests, BUDGET * unit))

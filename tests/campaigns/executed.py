@@ -33,7 +33,7 @@ ENDIFMACRO
 """
 PROGRAM = """#!/bin/sh
 log={logs}/$$
-echo "# ${{READS_FOR:-$PYTEST_CURRENT_TEST}}" > "$log"
+printf '# %s\\n' "${{READS_FOR:-$PYTEST_CURRENT_TEST}}" > "$log"
 exec 9>> "$log"
 exec {program} "$@"
 """

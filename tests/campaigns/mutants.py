@@ -289,6 +289,9 @@ def judge(tree: Tree, number: int, pool: list, runs: dict[str, list[str]], known
 
 def main(words: list[str]) -> int:
     same.TOLERANCE = TOLERANCE
+    if not (choose.FOLDER / "reached.json").exists():
+        print("first, for an hour: python tests/campaigns/choose.py measure", file=sys.stderr)
+        return 10
     wanted = next((int(word) for word in words if word.isdigit()), 200)
     below = tuple(word for word in words if word.endswith("/")) or ("",)
     runs = commands(FOLDER / "inputs")
