@@ -211,6 +211,7 @@ NAME   := stiff-contact
 export PREFIX DESTDIR
 
 install: ## put scripts, Python commands and the starter stiff-contact below PREFIX: make install [PREFIX=/usr/local] [DESTDIR=]
+	@$(if $(findstring $$,$(value PREFIX)$(value DESTDIR)),echo 'PREFIX or DESTDIR: a dollar sign; make would replace it; allowed: a whole path without'; exit 10,:)
 	@case $$PREFIX in *[\;\'\"]* | [!/]* | '') echo "PREFIX=$$PREFIX: allowed: a whole path without ; and quotes"; exit 10;; esac; \
 	share=$$DESTDIR$$PREFIX/share/$(NAME) bin=$$DESTDIR$$PREFIX/bin; set -e; \
 	rm -rf "$$share"; mkdir -p "$$share" "$$bin"; \

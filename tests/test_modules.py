@@ -379,3 +379,15 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     assert summary["force"] == pytest.approx(exact, rel=1e-12)
     refused = snippet(tmp_path, text, "-method", "xnewton", expect=10)
     assert refused.startswith("-method xnewton: unknown; allowed: one of: newton;")
+
+
+# ---------------------------------------------------------------- contact/points-of-map.idp
+
+ENTRIES = data("modules/entries.edp")
+
+
+def test_entries_of_a_matrix(tmp_path):
+    """A matrix read as triplets shall keep its last entry, and gain none: FreeFEM adds the size if that is missing."""
+    lines = snippet(tmp_path, ENTRIES).splitlines()
+    once = ["told count 4", "told value 1 2 3 4", "told at 1 10 22 23"]
+    assert [line for line in lines if line.startswith("told")] == 2 * once
