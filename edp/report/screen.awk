@@ -93,7 +93,7 @@ function scene(   e, R) {
   if (v[".pressureMax"] == 0) return
   e = error(".estimates.pressureMax")
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
-  worse(e, v[".pressureMax"], "greatest pressure", "raise -order, or refine at the contact (-h)")
+  worse(e, v[".pressureMax"], "greatest pressure", pointwise() ? "use -points segment" : "raise -order, or refine at the contact (-h)")
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
   else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
   if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
@@ -102,6 +102,7 @@ function scene(   e, R) {
   if (v[".force"] != 0 && size(R - v[".force"]) < 1e-4 * size(v[".force"]))
     print "  balance: contact force + support reaction = 0 (to " digits(size(R / v[".force"] - 1), 1) ")"
 }
+function pointwise() { return v[".parameters.points"] == "nodal" }   # between meshes that do not match averages are better
 function friction(c,   p, k, x, m, s) {
   p = ".contacts." c
   if (!known(p ".stickShare") || v[".friction"] == 0 && !known(p ".tied")) return
@@ -132,12 +133,12 @@ function twofold(name, x, mesh, steps, unit, note,   e) {  # two errors, of the 
 function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   p = ".contacts." c
   q = ".estimates.contacts." c
-  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] < 1e-12 * mostForce ? " touches, but carries nothing" : "")
-  print "  contact " v[p ".name"] note
-  if (note != "") return
   F = 0
   for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
   F = sqrt(F)
+  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] < 1e-12 * mostForce && F < 1e-12 * mostForce ? " touches, but carries nothing" : "")
+  print "  contact " v[p ".name"] note
+  if (note != "") return
   balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
   e = ofWear(c, error(q ".force"), "normalForce")
   across = ""
@@ -147,12 +148,13 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   little = v[p ".normalForce"] < 1e-3 * mostForce
   if (!balanced && !little) worse(e, F, "force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
   e = ofWear(c, error(q ".normalForce"), "normalForce")
-  result("  normal force", v[p ".normalForce"], e, force, also(unknown(e), bySteps))
+  result("  normal force", (size(v[p ".normalForce"]) < 1e-12 * F ? 0 : v[p ".normalForce"]), e, force, also(unknown(e), bySteps))
   if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
   e = ofWear(c, error(q ".pressureMax"), "pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(also(unknown(e), bySteps), peak[c]))
   if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
-    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : bySteps != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : "raise -order, or refine at the contact (size contact)")
+    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : bySteps != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : \
+    pointwise() && known(p ".master") ? "use -points segment" : "raise -order, or refine at the contact (size contact)")
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
