@@ -11,7 +11,7 @@ import foreign
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
-from freefem import FREEFEM, ROOT, cases_of, data, execute, part, short_of, snippet, told
+from freefem import FREEFEM, ROOT, cases_of, data, execute, part, snippet, told
 from test_parts import Mesh, block, turn, vector
 from test_turning import rotation
 
