@@ -482,12 +482,13 @@ doctor: ## say what is installed, what is missing and how to get it
 
 # ---------------------------------------------------------------- checks
 
-# Where PETSc is, the plugin is built, and tested; where not, its tests are skipped. Which tests are quick: tests/long.txt.
+# Where PETSc is, the plugin is built, and tested; where not, its tests are skipped. Which tests are not quick: tests/long.txt, and
+# tests/nightly.txt for the dearest, which only test-all runs.
 test: ## run the quick tests: make test [TESTS=tests/test_x.py] [PYTEST_ARGS=-v]
-test-long: ## run the other tests
+test-long: ## run the other tests of .ci/run
 test-all: ## run every test there is
 test:      WHICH := not long
-test-long: WHICH := long
+test-long: WHICH := long and not nightly
 test-all:  WHICH := long or not long
 test test-long test-all: $(VENV)/dev.stamp | system
 	@test -z "$(PETSC)" || ! command -v mpicxx >/dev/null || $(MAKE) -s --no-print-directory $(MULTIGRID)

@@ -23,15 +23,20 @@ def pytest_configure(config):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """The tests of long.txt get the mark `long`: a name there is a test, or a function with all its cases."""
-    named = set((freefem.ROOT / "tests/long.txt").read_text().splitlines())
+    """The tests of long.txt get the mark `long`, those of nightly.txt `nightly`, too.
+
+    A name there is a test, or a function with all its cases.
+    """
     names = {item.nodeid for item in items} | {item.nodeid.split("[")[0] for item in items}
-    for item in items:
-        if not named.isdisjoint((item.nodeid, item.nodeid.split("[")[0])):
-            item.add_marker("long")
-    stale = sorted(named - names)
-    if stale and config.args == config.getini("testpaths"):
-        raise pytest.UsageError(f"tests/long.txt names no test: {stale[0]} ({len(stale)} such lines)")
+    for marks in (["long"], ["nightly", "long"]):
+        named = set((freefem.ROOT / f"tests/{marks[0]}.txt").read_text().splitlines())
+        for item in items:
+            if not named.isdisjoint((item.nodeid, item.nodeid.split("[")[0])):
+                for mark in marks:
+                    item.add_marker(mark)
+        stale = sorted(named - names)
+        if stale and config.args == config.getini("testpaths"):
+            raise pytest.UsageError(f"tests/{marks[0]}.txt names no test: {stale[0]} ({len(stale)} such lines)")
 
 
 def pytest_collection_finish():

@@ -80,7 +80,8 @@ def package(tmp_path):
     shutil.copytree(ROOT / "edp/case/without", folder / "edp/case/without")
     shutil.copytree(ROOT / "postprocess", folder / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "edp/laws").mkdir()
-    (folder / "tests/long.txt").touch()
+    for mark in ("long", "nightly"):
+        (folder / f"tests/{mark}.txt").touch()
     last = FIRST.replace("by_a_helper", "by_the_same_helper")  # which is not imported again
     for name, text in (("test_first", FIRST), ("helper", HELPER), ("test_some", TESTS), ("test_then", last)):
         (folder / f"tests/{name}.py").write_text(text)

@@ -263,17 +263,20 @@ def test_plane_mesh_in_space(tmp_path):
 def test_gmsh_at_work(tmp_path):
     """After five seconds of gmsh the run says what is meshed, and how many elements are expected; not before."""
     (tmp_path / "bin").mkdir()
-    for name, text in (("sleep", "command -p sleep 0.02"), ("gmsh", "command -p sleep $GMSH")):
+    slept = tmp_path / "slept"  # a line a second
+    waits = f'until test "$(wc -l < {slept})" -ge "$SECONDS_OF_GMSH"; do command -p sleep 0.02; done'
+    for name, text in (("sleep", f"echo >> {slept}; command -p sleep 0.02"), ("gmsh", waits)):
         (tmp_path / "bin" / name).write_text(f"#!/bin/sh\n{text}\n")
         (tmp_path / "bin" / name).chmod(0o755)
     (tmp_path / "a.geo").write_text("")
     for seconds, expected, said in (
-        (0.6, "87000", "gmsh meshes a.geo: about 87000 elements expected ...\n"),
-        (0.6, "", "gmsh meshes a.geo ...\n"),
-        (0.6, "-", ""),
+        (7, "87000", "gmsh meshes a.geo: about 87000 elements expected ...\n"),
+        (7, "", "gmsh meshes a.geo ...\n"),
+        (7, "-", ""),
         (0, "87000", ""),
     ):
-        env = {**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}", "GMSH": str(seconds)}
+        slept.write_text("")
+        env = {**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}", "SECONDS_OF_GMSH": str(seconds)}
         words = [
             "sh",
             ROOT / "edp/bodies/mesh.sh",

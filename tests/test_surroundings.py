@@ -7,6 +7,7 @@ import resource
 import shutil
 import signal
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -187,7 +188,8 @@ def test_folder_in_use(tmp_path):
         assert listing(tmp_path) == before
     finally:
         process.kill()
-    assert run_in(ROOT, BLOCK, *TINY, out=out).converged  # not even waited for
+    wait_for(lambda: ") Z " in Path(f"/proc/{process.pid}/stat").read_text())  # it has ended, and nobody has asked how
+    assert run_in(ROOT, BLOCK, *TINY, out=out).converged
     process.wait()
     process.stdout.close()
 

@@ -1,4 +1,4 @@
-"""Which tests `make test` runs: `choose.py measure` finds what each costs and reaches, `choose.py` chooses.
+"""Which tests `make test` and `.ci/run` run: `choose.py measure` finds what each costs and reaches, `choose.py` takes.
 
 Measuring runs every test once in a copy of the package with a mark before each statement of the scripts (executed.py);
 lines of Python are recorded by the package coverage (pip install coverage). It takes an hour on two cores. Results are
@@ -7,7 +7,8 @@ in results/choice/. Words behind `measure` go to pytest: a few test files, to tr
 Choosing takes, per CPU second, the tests that reach most, until the budget is used. A line of a script or of Python
 counts again, for less, when further tests reach it: an error that one test does not see may change a number that
 another checks. Tests that see no number of a run count for Python alone. What tests share is paid for once. The others
-are named in tests/long.txt, one a line: a test, or a function with all its cases.
+are named in tests/long.txt, one a line: a test, or a function with all its cases. The same choice, with a larger budget
+and other weights, leaves the dearest of these to `make test-all`: tests/nightly.txt names them.
 """
 
 import heapq
@@ -19,15 +20,24 @@ import subprocess
 import sys
 from collections import defaultdict
 from pathlib import Path
+from typing import NamedTuple
 
 from executed import copy_tree, instrument, programs, take_marks
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results").absolute() / "choice"
-BUDGET = 520  # default runs of the tests' own; collecting and starting the workers come on top
-WORTH = (1.0, 0.4, 0.2, 0.1)  # of a line that is reached for the first time, the second, ...
 PYTHON = 0.5  # a line of Python, over a statement of the scripts
-FUNCTION = 3.0  # a test function of which no case has been taken
+
+
+class Choice(NamedTuple):
+    budget: int  # default runs of the tests' own; collecting and starting the workers come on top
+    worth: tuple  # of a line that is reached for the first time, the second, ...
+    function: float  # a test function of which no case has been taken
+    test: float  # a test that reaches nothing new
+
+
+QUICK = Choice(520, (1.0, 0.4, 0.2, 0.1), 3.0, 0.0)
+GATE = Choice(9_800, (30.0, 0.4, 0.2, 0.1), 30.0, 1.0)  # of .ci/run, the quick tests among them: no line is lost
 SEE_NO_NUMBER = re.compile(  # of a run: tests of files, pages, pictures and words
     "campaign|contracts|foreign|hertz_figures|hostile_meshes|house|interface|kit|lint_edp|makefile|meaning|movie_report|"
     "notebooks|options|paraview|pictures|places|play|postprocess|readme|refusals|scene_docs|scene_figures|site|surroundings"
@@ -133,38 +143,46 @@ def read_tests() -> tuple[dict, list]:
     return every, [Test(name, every, scripts, python) for name in names]
 
 
-def choose(every: dict, tests: list, budget: float) -> set[str]:
-    """Names of the tests to take, for `budget` CPU seconds."""
+def choose(every: dict, tests: list, choice: Choice, unit: float, first=frozenset()) -> set[str]:
+    """Names of the tests to take, those of `first` among them; `unit`: CPU seconds of a default run."""
     count, taken, paid, functions = defaultdict(int), set(), set(), set()
     spent = 0.0
 
     def gain(test) -> float:
-        found = FUNCTION * (test.function not in functions)
+        found = choice.test + choice.function * (test.function not in functions)
         for line in test.reaches:
-            if count[line] < len(WORTH):
-                found += WORTH[count[line]] * (PYTHON if line[0] == "p" else 1.0)
+            if count[line] < len(choice.worth):
+                found += choice.worth[count[line]] * (PYTHON if line[0] == "p" else 1.0)
         return found
 
     def cost(test) -> float:
         return max(test.cpu + sum(every[label]["cpu"] for label in test.uses - paid), 1e-3)
 
-    heap = [(-gain(test) / cost(test), k) for k, test in enumerate(tests) if test.outcome == "passed"]
-    heapq.heapify(heap)
-    while heap:
-        _, k = heapq.heappop(heap)
-        test = tests[k]
-        price, worth = cost(test), gain(test)
-        if worth == 0 or spent + price > budget:
-            continue
-        if heap and worth / price < -heap[0][0]:  # others have taken what it reaches
-            heapq.heappush(heap, (-worth / price, k))
-            continue
-        spent += price
+    def take(test) -> None:
+        nonlocal spent, paid
+        spent += cost(test)
         paid |= test.uses
         taken.add(test.name)
         functions.add(test.function)
         for line in test.reaches:
             count[line] += 1
+
+    for test in tests:
+        if test.name in first:
+            take(test)
+    others = [k for k, test in enumerate(tests) if test.outcome == "passed" and test.name not in first]
+    heap = [(-gain(tests[k]) / cost(tests[k]), k) for k in others]
+    heapq.heapify(heap)
+    while heap:
+        _, k = heapq.heappop(heap)
+        test = tests[k]
+        price, worth = cost(test), gain(test)
+        if worth == 0 or spent + price > choice.budget * unit:
+            continue
+        if heap and worth / price < -heap[0][0]:  # others have taken what it reaches
+            heapq.heappush(heap, (-worth / price, k))
+            continue
+        take(test)
     lines = {line for test in tests for line in test.reaches}
     for kind, word in (("s", "statements of the scripts"), ("p", "lines of Python")):
         some = [line for line in lines if line[0] == kind]
@@ -178,24 +196,24 @@ def statements() -> list:
     return json.loads((FOLDER / "statements.json").read_text())
 
 
-def long_tests(names) -> set[str]:
-    """Those of these tests that tests/long.txt names."""
-    named = set((ROOT / "tests/long.txt").read_text().splitlines())
+def marked(names, kind: str) -> set[str]:
+    """Those of these tests that tests/KIND.txt names."""
+    named = set((ROOT / f"tests/{kind}.txt").read_text().splitlines())
     return {name for name in names if name in named or name.split("[")[0] in named}
 
 
-def write_long(tests: list, taken: set[str]) -> None:
+def write(tests: list, taken: set[str], kind: str) -> None:
     """The tests that are not taken; what has not been measured, or failed in the copy, stays where it is."""
-    cases, before = defaultdict(list), set((ROOT / "tests/long.txt").read_text().splitlines())
+    cases, before = defaultdict(list), set((ROOT / f"tests/{kind}.txt").read_text().splitlines())
     measured = {test.name for test in tests}
     left = {test.name for test in tests if test.outcome == "passed"} - taken
-    left |= long_tests(test.name for test in tests if test.outcome != "passed")
+    left |= marked((test.name for test in tests if test.outcome != "passed"), kind)
     for test in tests:
         cases[test.function].append(test.name)
     lines = {name for name in before - measured if name not in cases}
     for function, names in cases.items():
         lines |= {function} if left.issuperset(names) else left.intersection(names)
-    (ROOT / "tests/long.txt").write_text("".join(f"{line}\n" for line in sorted(lines)))
+    (ROOT / f"tests/{kind}.txt").write_text("".join(f"{line}\n" for line in sorted(lines)))
 
 
 def main(words: list[str]) -> int:
@@ -207,7 +225,9 @@ def main(words: list[str]) -> int:
         return 10
     every, tests = read_tests()
     unit = float(next((word for word in words if word[0].isdigit()), 0.25))
-    write_long(tests, choose(every, tests, BUDGET * unit))
+    quick = choose(every, tests, QUICK, unit)
+    write(tests, quick, "long")
+    write(tests, choose(every, tests, GATE, unit, quick), "nightly")
     return 0
 
 

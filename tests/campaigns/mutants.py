@@ -228,7 +228,7 @@ def executed(runs: dict[str, list[str]]) -> tuple[list, dict[str, list], dict[st
         kept.write_text(json.dumps(found))
     assert choose.statements() == found["statements"], "the sources have changed since choose.py measure"
     tests = [test for test in choose.read_tests()[1] if test.outcome == "passed" and test.statements]
-    long = choose.long_tests(test.name for test in tests)
+    long = choose.marked((test.name for test in tests), "long")
     tests.sort(key=lambda test: (test.name in long, test.whole))
     return found["statements"], found["runs"], {test.name: test.statements for test in tests}
 
