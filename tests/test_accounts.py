@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import accounts
+import choose
 import pytest
 import run as runner
 from freefem import ROOT, TIMEOUT
@@ -90,10 +91,10 @@ def package(tmp_path):
     return folder
 
 
-def ran(package):
-    """Names of the tests that ran, and how they ended."""
+def ran(package, *words):
+    """Names of the tests that ran, and how they ended; words: further ones of pytest."""
     env = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST", "READS", "LD_PRELOAD"))}
-    command = [sys.executable, "-m", "pytest", "-v", "--basetemp", package.parent / "base"]
+    command = [sys.executable, "-m", "pytest", "-v", "--basetemp", package.parent / "base", *words]
     done = subprocess.run(command, cwd=package, env=env, capture_output=True, text=True, timeout=TIMEOUT)
     return dict(re.findall(r"::test_(\S+) (\w+)", done.stdout)), done
 
@@ -129,6 +130,42 @@ def test_what_has_not_changed(package):
         file.write("\n")
     again, _ = ran(package)
     assert again == every
+
+
+def test_long_and_nightly(package):
+    """A name is a test, or a function with all its cases; a night's tests are long; a name without a test is told."""
+    (package / "tests/long.txt").write_text("tests/test_some.py::test_of_nothing\n")
+    (package / "tests/nightly.txt").write_text("tests/test_some.py::test_by_a_fixture\n")
+    night, day = {"by_a_fixture[1]", "by_a_fixture[2]"}, {"of_nothing"}
+    assert set(ran(package, "-m", "nightly", "--cache-clear")[0]) == night
+    assert set(ran(package, "-m", "long and not nightly", "--cache-clear")[0]) == day
+    quick, _ = ran(package, "--cache-clear")
+    assert len(quick) == 7 and not set(quick) & (night | day)
+    (package / "tests/nightly.txt").write_text("tests/test_some.py::test_gone\n")
+    every, done = ran(package)
+    assert every == {} and "tests/nightly.txt names no test: tests/test_some.py::test_gone" in done.stderr
+
+
+def test_choice():
+    """The most per second is taken, what tests share is paid once; a larger budget takes the dear ones."""
+    every = {
+        name: {"cpu": cpu, "uses": uses, "outcome": "passed"}
+        for name, cpu, uses in (
+            ("tests/test_a.py::test_one[1]", 1, []),
+            ("tests/test_a.py::test_one[2]", 1, []),
+            ("tests/test_a.py::test_dear", 50, []),
+            ("tests/test_a.py::test_sharing[1]", 0.1, ["run base"]),
+            ("tests/test_a.py::test_sharing[2]", 0.1, ["run base"]),
+            ("run base", 2, []),
+        )
+    }
+    scripts = {"tests/test_a.py::test_one[1]": {1}, "tests/test_a.py::test_dear": {1, 2}, "run base": {3, 4, 5}}
+    tests = [choose.Test(name, every, scripts, {}) for name in every if "::" in name]
+    quick = choose.choose(every, tests, choose.QUICK._replace(budget=3.5), 1)
+    assert quick == {f"tests/test_a.py::test_{name}" for name in ("one[1]", "sharing[1]", "sharing[2]")}
+    gate = choose.choose(every, tests, choose.GATE._replace(budget=27), 2, quick)  # 54 s
+    assert gate == quick | {"tests/test_a.py::test_dear"}
+    assert choose.choose(every, tests, choose.GATE._replace(budget=28), 2, quick) == set(every) - {"run base"}
 
 
 def test_what_stands_for_what():
