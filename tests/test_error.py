@@ -282,7 +282,7 @@ def test_own_parts(tmp_path):
 
 def check_pin(case):
     contact, way = parts_of(case)
-    assert contact["force"]["error"] <= 1e-8 and way["error"] <= 0.01 * way["value"]
+    assert contact["force"]["error"] <= 1e-10 * contact["force"]["value"] and way["error"] <= 0.01 * way["value"]
     assert re.search(r"weight core moves +\S+ ± ", case.stdout)
 
 

@@ -228,7 +228,9 @@ def test_master_map(tmp_path, order, element, h, surface):
     """The overlap shall be the slave's trace less the master's: exact for linear functions of the places on curved
     elements, on straight ones for polynomials of the elements' degree."""
     text = high(order) + scene_text("meshed-disc") + MASTER.replace("ELEMENT", element)
-    values = told(snippet(tmp_path, text, "-method", "newton", "-h", h, "-order", order, "-surface", surface))
+    values = told(
+        snippet(tmp_path, text, "-method", "newton", "-points", "nodal", "-h", h, "-order", order, "-surface", surface)
+    )
     x, paired = values["x"], values["paired"] == 1
     assert values["unpaired"] == (~paired).sum()
     assert paired.all()
