@@ -79,7 +79,7 @@ class Rules:
         if isinstance(made, g.Join) and made.how != "part":
             self.read(made.line_of(line))
         elif line.left:
-            Reading(line, where, self.case.groups, cls).no(f"{line.left[0]}: {cls.stray}")
+            Reading(line, where, self.case.groups, cls).stray()
 
     def add(self, s: Statement) -> None:
         """Adds a statement, if no one before it excludes it."""

@@ -81,6 +81,7 @@ class Statement(Part):
     once: ClassVar[str] = "{s.word} of {s.on}"  # it is stated once for each such text; "" for as often as one likes
     loads: ClassVar[str] = ""  # the word for it if it is a load, which does nothing on a group that is held
     stray: ClassVar[str] = "more than the statement takes"  # what is wrong with a word that is left
+    hints: ClassVar[tuple[tuple[str, str], ...]] = ()  # of certain words
     support: ClassVar[bool] = False  # its group has no other one
     in_legs: ClassVar[bool] = False  # a later load phase may change it
     rest: ClassVar[bool] = False  # what is left is read as another statement
@@ -131,6 +132,11 @@ class Reading:
     def no(self, what: str) -> Any:
         """Refuses the line, with what its statement takes."""
         self.line.no(f"{what}; {usage_of(self.cls.word, self.where)}")
+
+    def stray(self) -> Any:
+        """Refuses the next word, which nothing takes."""
+        word = self.line.left[0]
+        self.no(f"{word}: {dict(self.cls.hints).get(word, self.cls.stray)}")
 
     def need(self, what: str) -> str:
         """The next word, which must be there."""
@@ -466,7 +472,7 @@ def read_statement(line: Line, where: Where, groups: Groups, cls: type[Statement
     reading = Reading(line, where, groups, cls)
     made = cls(line=line.number, words=tuple(line.words), **read_fields(cls, reading))
     if line.left and not cls.rest:
-        reading.no(f"{line.left[0]}: {cls.stray}")
+        reading.stray()
     if wrong := made.check(where):
         line.no(wrong)
     return made

@@ -453,6 +453,7 @@ class Force(Statement, word="force", example="force grip 0{| 0} -2500 free", in_
     does = "a resultant on a group"
     synonyms = "load cload"
     usage = "force NAME x y{| z} [free or rigid [at x y{| z}]]"
+    hints = (("at", "free or rigid must stand before it"),)
 
     on: Group = boundary()
     resultant: Vector3 = vector("the force", counted="force")
@@ -711,7 +712,6 @@ class AboutPoint(Statement, word="about", example="about axle 0 0{| 0}"):
 class Cycles(Statement, word="cycles", example="cycles 1e5 steps 40"):
     does = "of wear, in so many steps"
     once = "cycles"
-    stray = "not allowed here"
     count: float = number("the number of cycles", "NUMBER", above=0)
     steps: float = option(
         "steps", number("the number of wear steps", "NUMBER", above=0, below=10001, whole=True), default=20.0
@@ -731,7 +731,8 @@ BEHIND = {
     "conductance hardness": "it stands behind a contact: contact SLAVE MASTER conductance 30",
     "wear archard": "it stands behind a contact or an obstacle: contact SLAVE MASTER wear 1e-8 slide 20",
     "weld": "join BODY BODY part makes two bodies of a geometry that touch one part; "
-    "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement (in gmsh: BooleanFragments, Coherence)",
+    "tie SLAVE MASTER glues two surfaces; bodies that share nodes are one part and need no statement "
+    "(in gmsh: BooleanFragments, Coherence)",
 }
 
 
