@@ -58,6 +58,8 @@ def test_words_of_a_line():
     line = split_line(7, '\t clamp  "two words"#x "y"\r', usage=str)
     assert (line.number, line.words) == (7, ["clamp", "two words"])
     assert split_line(1, "  # nothing", usage=str).words == []
+    assert split_line(1, '"two words"\r', usage=str).words == ["two words"]
+    assert len(read(f"\ufeff{GOOD}").statements) == 3
 
 
 def test_distances():
@@ -141,6 +143,7 @@ obstacle right plane 4 0 -1 0 wear 1 from no.csv | no.csv: no such file; allowed
 contact left right gap vertical / obstacle left plane 9 0 -1 0 | left: gap along its normals, in line 4 it is not
 contact left right gap vertical wear 1 slide 2 | left: gap vertical with wear
 contact left right conductance 3 | line 4: a conductance, and no body conducts
+contact left right interference 1 interference 2 | interference: not allowed here; allowed: contact SLAVE
 contact left right law | a law's name is missing; allowed: power kappa m d0
 obstacle top move 0 1 | obstacle top: move without a shape; allowed: move behind the shape in line 3, where that of
 obstacle left law signorini | obstacle left: law without a shape; allowed: a shape before it, as obstacle top
@@ -217,6 +220,20 @@ force left 0 1 free | force left: first stated in leg 2
 @pytest.mark.parametrize("lines, words", [line.split(" | ") for line in PHASES.strip().splitlines()])
 def test_later_load_phases(lines, words):
     assert words in refused(f"{LEGS}leg 4\n" + lines.replace(" / ", "\n"))
+
+
+@pytest.mark.parametrize("first", ["traction left 0 1", "weight block 0 1", "move right 0 1", "rotate right 0 0 1"])
+def test_what_later_phases_change(first):
+    """A load or a motion of the first phase, with other values."""
+    case = read(f"{GOOD}leg 1\n{first}\nleg 1\n{first.replace('1', '2')}")
+    assert case.statements[-1].changes is case.statements[-3]
+
+
+def test_quoted_words_before_it_is_there():
+    """A refusal shows the line as it must stand in the first phase: numbers of a name stay."""
+    mesh = [*PLANE, Group(1, "5")]
+    assert refused(f"{LEGS}leg 1\nmove 5 1 2", mesh).endswith("in line 5: move 5 0 0")
+    assert refused(f"{LEGS}leg 1\nrotate left 1 2 3", mesh).endswith("in line 5: rotate left 1 2 0")
 
 
 def test_first_load_phase():
@@ -444,7 +461,8 @@ def test_groups_that_a_case_picks():
     assert picks(case) == [
         "group\t1\t2\tshell\tsurfaces 1", "group\t2\t1\ttip\tnear 1 2 0", "group\t3\t2\tcore\tbox 0 0 0 1 1 0",
         "group\t6\t1\twall\tplane 0 0 0 0 1 0", "group\t7\t1\tfaces\tbetween\tshell\tcore",
-        "contact\t8\ttip\twall\tcontact", "size\t9\tcontact\t0.5", "size\t10\tcore\t2", "obstacle\t11\tfaces\tplane 1 2 0 0 1 0 0 0",
+        "contact\t8\ttip\twall\tcontact", "size\t9\tcontact\t0.5", "size\t10\tcore\t2",
+        "obstacle\t11\tfaces\tplane 1 2 0 0 1 0 0 0",
     ]  # fmt: skip
     assert [(group.dimension, group.name) for group in case.used()] == [
         (2, "shell"),
@@ -477,6 +495,10 @@ def test_bodies_without_names():
     """One body alone needs no group; several need one each."""
     case = read("body pin E 1 nu 0\nobstacle top plane 0 0 0 1\ngroup top curves 3", [], bodies="7")
     assert picks(case)[0] == "group\t0\t2\tpin\tsurfaces 7"
+    read("group top near 0 0\ngroup pin near 1 1\nbody pin E 1 nu 0\nobstacle top plane 0 0 0 1", [], bodies="7")
+    again = f"group left near 0 0\ngroup block near 0 0\n{GOOD}"
+    assert "left: the mesh or geometry has a group of this name" in refused(again)
+    read(again, again=True)
     said = refused("body pin E 1 nu 0\nbody rod E 1 nu 0", [], bodies="7 8")
     assert "pin: no body of the geometry has this name; allowed: a line group pin surfaces N ..., of 7 8" in said
     said = refused("body pin E 1 nu 0\nclamp base", [], bodies="7")
