@@ -495,7 +495,8 @@ def test_bodies_without_names():
     """One body alone needs no group; several need one each."""
     case = read("body pin E 1 nu 0\nobstacle top plane 0 0 0 1\ngroup top curves 3", [], bodies="7")
     assert picks(case)[0] == "group\t0\t2\tpin\tsurfaces 7"
-    read("group top near 0 0\ngroup pin near 1 1\nbody pin E 1 nu 0\nobstacle top plane 0 0 0 1", [], bodies="7")
+    near = "group top near 0 0\ngroup pin near 1 1\nbody pin E 1 nu 0\nobstacle top plane 0 0 0 1"
+    assert picks(read(near, [], bodies="7"))[:2] == ["group\t1\t1\ttop\tnear 0 0 0", "group\t2\t2\tpin\tnear 1 1 0"]
     again = f"group left near 0 0\ngroup block near 0 0\n{GOOD}"
     assert "left: the mesh or geometry has a group of this name" in refused(again)
     read(again, again=True)
