@@ -144,6 +144,7 @@ contact left right gap vertical / obstacle left plane 9 0 -1 0 | left: gap along
 contact left right gap vertical wear 1 slide 2 | left: gap vertical with wear
 contact left right conductance 3 | line 4: a conductance, and no body conducts
 contact left right interference 1 interference 2 | interference: not allowed here; allowed: contact SLAVE
+contact left right law power kappa 1 m 2 d0 0 | 0: d0 is out of range; allowed: below 0
 contact left right law | a law's name is missing; allowed: power kappa m d0
 obstacle top move 0 1 | obstacle top: move without a shape; allowed: move behind the shape in line 3, where that of
 obstacle left law signorini | obstacle left: law without a shape; allowed: a shape before it, as obstacle top
@@ -430,6 +431,7 @@ def test_rows_in_space():
     ]
     ring = "state axisymmetric\n" + GOOD.replace("nu 0.3", "nu 0.3 density 2") + "spin block 7"
     assert numbers(table(read(ring))[-1]) == [7, 0, 0, 0, 0, 1, 0, 2]
+    assert numbers(table(read(ring.partition("\n")[2]))[-1]) == [7, 0, 0, 0, 0, 0, 1, 2]
 
 
 def test_files(tmp_path, monkeypatch):
@@ -495,6 +497,7 @@ def test_bodies_without_names():
     """One body alone needs no group; several need one each."""
     case = read("body pin E 1 nu 0\nobstacle top plane 0 0 0 1\ngroup top curves 3", [], bodies="7")
     assert picks(case)[0] == "group\t0\t2\tpin\tsurfaces 7"
+    assert picks(case)[2] == "group\t3\t1\ttop\tcurves 3"
     near = "group top near 0 0\ngroup pin near 1 1\nbody pin E 1 nu 0\nobstacle top plane 0 0 0 1"
     assert picks(read(near, [], bodies="7"))[:2] == ["group\t1\t1\ttop\tnear 0 0 0", "group\t2\t2\tpin\tnear 1 1 0"]
     again = f"group left near 0 0\ngroup block near 0 0\n{GOOD}"
@@ -558,6 +561,7 @@ MODULES = [
     ("pressure left 1", {"loads"}),
     ("symmetry left", {"mirrors"}),
     ("rotate left 0 0 1", {"largeMotions", "moments", "turning"}),
+    ("rotate left 0 0 1\nleg 2", {"friction", "moments", "series", "largeMotions"}),
     ("force left 0 1", set()),
     ("force left 0 1 free", {"forces"}),
     ("moment left 1", {"forces", "moments"}),

@@ -251,7 +251,7 @@ def with_zeros(s: Statement) -> str:
     last = len(s.words) - 1
 
     def zero(k: int, word: str) -> bool:
-        return k > skipped and spells_number(word) and (s.word != "rotate" or k == last) and k > 1
+        return k > skipped and spells_number(word) and (s.word != "rotate" or k == last)
 
     return " ".join("0" if zero(k, w) else f'"{w}"' if " " in w else w for k, w in enumerate(s.words))
 
