@@ -4,7 +4,7 @@ import pytest
 from freefem import data
 from reader import Group, Refusal, Where, read_case
 from reader import grammar as g
-from reader.fields import STATEMENTS, shown, usage
+from reader.fields import STATEMENTS, Statement, boundary, number, option, shown, usage
 from reader.modules import Run, modules, needs
 from reader.rows import picks, rows
 from reader.words import distance, nearest, split_line
@@ -605,3 +605,26 @@ def test_modules_of_flags():
 def test_modules_that_exclude_each_other(lines, run, words):
     with pytest.raises(Refusal, match=words):
         asked(lines, **run)
+
+
+def test_a_new_statement():
+    """Two numbers and a keyword in one place: parser, bounds, refusals, usage and guesses come of it."""
+
+    class Heave(Statement, word="heave", example="heave left 1 2"):
+        does, synonyms = "a stand-in of this test", "lift"
+        on: Group = boundary()
+        amplitude: float = number("the amplitude", "a", above=0, unit="length")
+        period: float = number("the period", "T", above=0, unit="time")
+        phase: float = option("phase", number("the phase", "p"), default=0.5)
+
+    try:
+        found = only(read(f"{GOOD}heave left 3 4 phase 1"), Heave)
+        assert (found.on.name, found.amplitude, found.period, found.phase) == ("left", 3, 4, 1)
+        assert only(read(f"{GOOD}heave left 3 4"), Heave).phase == 0.5
+        allowed = "allowed: heave NAME a T [phase p], as heave left 1 2"
+        assert f"the period is missing after 3; {allowed}" in refused(f"{GOOD}heave left 3")
+        assert "0: the amplitude is out of range; allowed: above 0" in refused(f"{GOOD}heave left 0 4")
+        assert "heave of left: stated before, in line 4" in refused(f"{GOOD}heave left 3 4\nheave left 3 4")
+        assert "did you mean heave (a stand-in of this test)?" in refused(f"{GOOD}lift left 3 4")
+    finally:
+        del STATEMENTS["heave"]

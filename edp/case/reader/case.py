@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
+from typing import TypeVar
 
 from . import grammar as g
 from .fields import STATEMENTS, GroupName, Reading, Statement, read_statement, shown, usage_of
@@ -18,6 +19,7 @@ MOST = 1000  # statements, with those that stand behind a contact
 ONLY_ONE = "only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group"
 LATER = "move, rotate, pressure, traction, weight, a free force or moment, an obstacle's move"
 WITHOUT_SHAPE = "move force law friction wear".split()
+S = TypeVar("S", bound=Statement)
 
 
 @dataclass
@@ -28,23 +30,32 @@ class Case:
     groups: Groups
     statements: list[Statement] = field(default_factory=list)
 
-    def of(self, *kinds: type[Statement]) -> list[Statement]:
-        """The statements of these kinds that change none before them."""
-        return [s for s in self.statements if isinstance(s, kinds) and s.changes is None]
+    def of(self, kind: type[S]) -> list[S]:
+        """The statements of a kind that change none before them."""
+        return [s for s in self.statements if isinstance(s, kind) and s.changes is None]
 
-    def on(self, kind: type[Statement]) -> dict[Group, Statement]:
+    def has(self, *kinds: type[Statement]) -> bool:
+        """Whether there is a statement of one of these kinds."""
+        return any(isinstance(s, kinds) for s in self.statements)
+
+    @property
+    def touching(self) -> list[g.Contact | g.Obstacle]:
+        """Contacts and obstacles, as they were stated first."""
+        return [s for s in self.statements if isinstance(s, (g.Contact, g.Obstacle)) and s.changes is None]
+
+    def on(self, kind: type[S]) -> dict[Group, S]:
         """By group: its statement of this kind."""
         return {group: s for s in self.of(kind) for name, group in s.groups() if name == "on"}
 
     @property
     def units(self) -> str:
         """Units of lengths and of pressures, or none."""
-        found = [s for s in self.statements if isinstance(s, g.Units)]
+        found = self.of(g.Units)
         return f"{found[0].length} {found[0].pressure}" if found else "none"
 
     @property
     def thickness(self) -> float:
-        return next((s.value for s in self.statements if isinstance(s, g.Thickness)), 1.0)
+        return next((s.value for s in self.of(g.Thickness)), 1.0)
 
     def used(self) -> list[Group]:
         """The groups that the problem uses, in the order of their first statements."""
@@ -170,7 +181,7 @@ class Rules:
         self.stated[phase, key] = s
 
     def obstacles_of(self, group: Group) -> list[g.Obstacle]:
-        return [s for s in self.case.of(g.Obstacle) if isinstance(s, g.Obstacle) and s.on == group]
+        return [s for s in self.case.of(g.Obstacle) if s.on == group]
 
     def obstacle_without_shape(self, line: Line) -> type[Statement]:
         """A later phase may leave out the shape of an obstacle that moves."""
@@ -266,7 +277,7 @@ def check(case: Case, rules: Rules) -> None:
 
 
 def body_loads(case: Case) -> Iterable[Refusal]:
-    bodies = {group: s for group, s in case.on(g.Body).items() if isinstance(s, g.Body) and s.density}
+    bodies = {group: s for group, s in case.on(g.Body).items() if s.density}
     for group, s in case.on(g.Spin).items():
         if group not in bodies:
             yield Refusal(
@@ -274,51 +285,49 @@ def body_loads(case: Case) -> Iterable[Refusal]:
                 s.line,
             )
     weights = case.on(g.Weight)
-    for s in case.of(g.Gravity):
+    for gravity in case.of(g.Gravity):
         for group in bodies.keys() & weights.keys():
-            yield Refusal(
-                f"gravity, and a weight of {group} in line {weights[group].line}; allowed: one of them", s.line
-            )
+            both = f"gravity, and a weight of {group} in line {weights[group].line}"
+            yield Refusal(f"{both}; allowed: one of them", gravity.line)
         if not bodies:
-            yield Refusal(
-                "gravity: no body has a density; allowed: body NAME E number nu number density number", s.line
-            )
+            dense = "body NAME E number nu number density number"
+            yield Refusal(f"gravity: no body has a density; allowed: {dense}", gravity.line)
 
 
 def heat(case: Case) -> Iterable[Refusal]:
     conducts, each = case.on(g.Conduct), "with a line conduct BODY k for each body"
-    given = case.of(g.Temperature, g.Flux, g.Film)
-    with_conductance = [s for s in case.of(g.Contact) if isinstance(s, g.Contact) and s.conductance]
+    given: list[Statement] = [s for s in case.statements if isinstance(s, (g.Temperature, g.Flux, g.Film))]
+    with_conductance = [s for s in case.of(g.Contact) if s.conductance]
     if not conducts:
         for s in given:
             yield Refusal(f"a temperature, flux or film, and no body conducts; allowed: {each}", s.line)
         for s in with_conductance[-1:]:
             yield Refusal(f"a conductance, and no body conducts; allowed: {each}", s.line)
         return
-    for s in [s for s in case.of(g.Contact, g.Obstacle) if getattr(s, "wear", None)][-1:]:
+    for s in [s for s in case.touching if s.wear][-1:]:
         yield Refusal("wear with conduct; allowed: one of them", s.line)
     for group, s in case.on(g.Body).items():
         if group not in conducts:
             yield Refusal(
                 f"{group}: nothing says how it conducts, as others do; allowed: a line conduct {group} k", s.line
             )
-    temperatures, warmed = case.on(g.Temperature), {**case.on(g.Flux), **case.on(g.Film)}
+    temperatures, warmed = case.on(g.Temperature), case.on(g.Flux).keys() | case.on(g.Film).keys()
     for s in case.of(g.Expand):
         group = s.groups()[0][1]
         yield Refusal(f"expand with conduct; allowed: conduct {group} k expand alpha from T", s.line)
     for s in case.of(g.Preload):
         yield Refusal("preload with conduct; allowed: one of them", s.line)
     for group in [group for group in case.used() if group in warmed and group in temperatures]:
-        line = max(s.line for s in given if s.groups()[0][1] == group and not isinstance(s, g.Temperature))
+        line = max(on[group].line for on in (case.on(g.Flux), case.on(g.Film)) if group in on)
         nothing = f"{group}: a flux or film where line {temperatures[group].line} gives the temperature does nothing"
         yield Refusal(f"{nothing}; allowed: one of them", line)
-    if not case.of(g.Temperature, g.Film):
+    if not case.has(g.Temperature, g.Film):
         yield Refusal("conduct, and no temperature anywhere; allowed: at least one line temperature or film")
 
 
 def wear(case: Case) -> Iterable[Refusal]:
-    worn = [s for s in case.of(g.Contact, g.Obstacle) if isinstance(s, (g.Contact, g.Obstacle)) and s.wear]
-    slips = [s for s in worn if isinstance(s, (g.Contact, g.Obstacle)) and s.friction and s.friction.coefficient > 0]
+    worn = [s for s in case.touching if s.wear]
+    slips = [s for s in worn if s.friction and s.friction.coefficient > 0]
     glides = [s for s in worn if s not in slips]
     cycles = case.of(g.Cycles)
     if worn and not cycles:
@@ -336,8 +345,8 @@ def wear(case: Case) -> Iterable[Refusal]:
 
 
 def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
-    where, touching = case.where, case.of(g.Contact, g.Tie, g.Obstacle)
-    if not rules.rows and not case.of(g.Spin, g.Gravity):
+    where, touching = case.where, [*case.touching, *case.of(g.Tie)]
+    if not rules.rows and not case.has(g.Spin, g.Gravity):
         yield Refusal("it has no statement; allowed: at least body and contact or obstacle")
     bodies = case.on(g.Body)
     for group in case.groups.all:
@@ -353,15 +362,15 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
                 s.line,
             )
     loaded = {s.groups()[0][1]: s for s in case.statements if s.load() and (s.changes is None or s.loads)}
-    for group, s in loaded.items():
+    for group, load in loaded.items():
         if group in rules.held and rules.held[group].word != "force":
             by = rules.held[group]
-            nothing = f"{group}: a {s.load()} on what line {by.line} holds ({by.word}) does nothing"
-            yield Refusal(f"{nothing}; allowed: on another group", s.line)
+            nothing = f"{group}: a {load.load()} on what line {by.line} holds ({by.word}) does nothing"
+            yield Refusal(f"{nothing}; allowed: on another group", load.line)
     preloads = case.on(g.Preload)
-    for group, s in case.on(g.Cut).items():
+    for group, cut in case.on(g.Cut).items():
         if group not in preloads:
-            yield Refusal(f"cut {group}: nothing tightens it; allowed: a line preload {group} force", s.line)
+            yield Refusal(f"cut {group}: nothing tightens it; allowed: a line preload {group} force", cut.line)
     if not touching:
         yield Refusal("no contact; allowed: at least one line contact or obstacle")
     if where.state == "axisymmetric" and case.thickness != 1:

@@ -51,27 +51,26 @@ class Modules:
 
 def needs(case: Case) -> Needs:
     """What the statements need."""
-    touching = [s for s in case.statements if isinstance(s, (g.Contact, g.Obstacle))]
-    plastic = bool(case.of(g.Plastic))
-    conducts = [s for s in case.of(g.Conduct) if isinstance(s, g.Conduct)]
-    bodies = [s for s in case.of(g.Body) if isinstance(s, g.Body)]
-    pushed = [s for s in case.of(g.Force) if isinstance(s, g.Force) and s.how]
-    friction = plastic or bool(case.of(g.Leg, g.Tie)) or any(s.friction for s in touching)
+    touching = case.touching
+    plastic = case.has(g.Plastic)
+    conducts = case.of(g.Conduct)
+    pushed = [s for s in case.of(g.Force) if s.how]
+    friction = plastic or case.has(g.Leg, g.Tie) or any(s.friction for s in touching)
     return Needs(
         friction=friction,
-        strains=bool(case.of(g.Expand, g.Preload, g.Conduct)),
+        strains=case.has(g.Expand, g.Preload, g.Conduct),
         heat=bool(conducts),
-        rotations=bool(case.of(g.Rotate)),
+        rotations=case.has(g.Rotate),
         stresses=plastic
-        or bool(case.of(g.Stresses, g.LineOut))
-        or any(s.yield_stress for s in bodies)
+        or case.has(g.Stresses, g.LineOut)
+        or any(s.yield_stress for s in case.of(g.Body))
         or any(s.expand for s in conducts),
         laws=any(s.law and s.law.name not in ("signorini", "power") for s in touching),
-        symmetries=bool(case.of(g.Symmetry)) or case.where.state == "axisymmetric",
-        loads=bool(case.of(g.Pressure, g.Traction, g.Weight, g.Gravity)),
-        forces=bool(pushed or case.of(g.Moment, g.Spin, g.Spring)),
-        moments=friction or bool(case.of(g.AboutPoint, g.Moment, g.Rotate)),
-        wear=bool(case.of(g.Cycles)) or any(s.wear for s in touching),
+        symmetries=case.has(g.Symmetry) or case.where.state == "axisymmetric",
+        loads=case.has(g.Pressure, g.Traction, g.Weight, g.Gravity),
+        forces=bool(pushed) or case.has(g.Moment, g.Spin, g.Spring),
+        moments=friction or case.has(g.AboutPoint, g.Moment, g.Rotate),
+        wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
     )
 

@@ -157,15 +157,14 @@ def words(s: Statement, space: bool) -> tuple[str, Sequence[object]]:
 
 def body_loads(case: Case) -> Iterable[tuple[int, Row]]:
     """The loads of bodies by their densities, behind all statements."""
-    bodies = {s.on: s.density for s in case.of(g.Body) if isinstance(s, g.Body) and s.density}
+    bodies = {s.on: s.density for s in case.of(g.Body) if s.density}
     other = (0.0, 1.0, 0.0) if case.where.state == "axisymmetric" else (0.0, 0.0, 1.0)
     for spin in case.of(g.Spin):
-        assert isinstance(spin, g.Spin)
         values = [spin.speed, *spin.about, *(spin.axis or other), bodies[spin.on]]
         yield spin.line, ("spin", (spin.on, 0, "none", "none", "none"), values)
     for s in case.of(g.Gravity):
         for group in case.used():
-            if isinstance(s, g.Gravity) and group in bodies:
+            if group in bodies:
                 yield s.line, ("weight", (group, 0, "none", "none", "none"), [c * bodies[group] for c in s.value])
 
 
