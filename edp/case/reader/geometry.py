@@ -77,6 +77,8 @@ def look(gmsh: Any, file: Path, space: bool) -> Outline:
     cad, dimension = file.suffix.lower() in CAD, 3 if space else 2
     model = gmsh.model
     gmsh.open(str(file))
+    if not model.getEntities(dimension):
+        raise GmshError(f"no {'solid' if space else 'surface'} in it")
     model.mesh.clear()
     low, high = np.array(model.getBoundingBox(-1, -1)).reshape(2, 3)
     size = model.mesh.field.add("MathEval")
@@ -108,8 +110,6 @@ def look(gmsh: Any, file: Path, space: bool) -> Outline:
         if cad:
             centre = np.array(model.occ.getCenterOfMass(dimension - 1, face))
             made.measure[face] = float(model.occ.getMass(dimension - 1, face)), centre
-    if not made.bodies:
-        raise GmshError(f"no {'solid' if space else 'surface'} in it")
     return made
 
 
