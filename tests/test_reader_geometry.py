@@ -120,6 +120,15 @@ def test_round_bodies(slope, kind):
         assert face.area == pytest.approx(2 * np.pi / 3 * 5 * 4 * np.hypot(1, slope), rel=1e-3)
 
 
+def test_cone_from_an_axis_that_is_turned():
+    """Newton's method turns the axis; point and radius are those beside the origin."""
+    nodes = np.concatenate([closed(5.0, 0.25)[k].reshape(-1, 3) for k in (1, 2, 3)])[::7] - AT + 2 * TURN[:, 0]
+    start = (TURN[:, 2] + 0.2 * TURN[:, 0]) / np.hypot(1, 0.2)
+    point, axis, radius, slope = geo.cone(nodes, start)
+    assert np.allclose(np.abs(axis @ TURN[:, 2]), 1, atol=1e-9) and radius == pytest.approx(5, rel=1e-3)
+    assert np.allclose(point, 2 * TURN[:, 0], atol=1e-4) and abs(slope) == pytest.approx(0.25, rel=1e-3)
+
+
 def test_bore():
     """A cylinder inside a box is hollow, and the box's sides still look outwards."""
 
