@@ -433,3 +433,17 @@ def pythons(folder, modules, path=""):
 def test_which_python(tmp_path, modules, path, found):
     """The first that has both modules: one that is named, the package's, that of the PATH, the system's."""
     assert pythons(tmp_path, modules, path.format(tmp_path)) == (0, found.format(tmp_path))
+
+
+def test_python_with_both_modules(tmp_path):
+    """A real one, with a stand-in for gmsh's module; where none has both, one line says how to get them."""
+    (tmp_path / "gmsh.py").touch()
+    environment = {"PATH": str(tmp_path), "CONTACT_PYTHON": sys.executable, "PYTHONPATH": str(tmp_path)}
+    command = ["/bin/sh", ROOT / "edp/case/python.sh", "/none"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, f"{sys.executable}\n")
+    (tmp_path / "a.sh").write_text((ROOT / "edp/case/python.sh").read_text().replace(" /usr/bin/python3;", ";"))
+    command[1] = tmp_path / "a.sh"
+    done = subprocess.run(command, env=environment | {"CONTACT_PYTHON": ""}, capture_output=True, text=True)
+    assert done.returncode == 10 and done.stdout.count("\n") == 1
+    assert "allowed: Debian's packages python3-numpy and python3-gmsh" in done.stdout
