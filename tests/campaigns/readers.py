@@ -313,8 +313,8 @@ def mutants(count, seed):
 
 
 RULES = re.compile(
-    r"line (\d+): .*(stated before, in line|slave and master are the same|: \w+ after \w+ in line|"
-    r"first stated in leg|before the first leg)"
+    r"line (\d+): .*(stated before, in line|slave and master are the same|twice the same body|state: after line|"
+    r": \w+ after \w+ in line|first stated in leg|before the first leg)"
 )
 GUESS = re.compile(r"did you mean [^?]*\? ")
 
@@ -339,9 +339,11 @@ def only_named(given, kind, a, b):
 
 
 def missed(given, kind, a, b):
-    """awk's regular expressions do not see a statement between quotes, nor one behind a byte order mark."""
+    """awk's regular expressions do not see a statement between quotes, behind a byte order mark or a carriage return."""
     text = given.text.decode(errors="replace")
-    return kind == "modules" and (text.startswith("\ufeff") or '"' in text) and ast.literal_eval(a) == []
+    return (
+        kind == "modules" and (text.startswith("\ufeff") or '"' in text or "\r" in text) and ast.literal_eval(a) == []
+    )
 
 
 def two_faults(given, kind, a, b):
@@ -354,13 +356,14 @@ EXPECTED = {
     "a list of names in the order of the file, no longer in that of a hash": same_words,
     "letters are counted, no longer bytes": not_ascii,
     "modules: words in comments and in names no longer count": only_named,
-    "modules: a statement between quotes or behind a byte order mark counts": missed,
+    "modules: a statement between quotes, behind a mark or a carriage return counts": missed,
     "two faults in one line: what is wrong with it alone is said first": two_faults,
     "units: the one that is missing or too much is named": lambda given, kind, a, b: (
         " words after it; allowed: units" in a
     ),
     "cycles: as other statements say it": lambda given, kind, a, b: ": not allowed here; allowed: cycles" in a,
     "an empty name at the beginning: statements are listed": lambda given, kind, a, b: a.endswith("name; allowed: "),
+    "size alone: as other statements say it": lambda given, kind, a, b: "a name is missing after size; " in b,
     "state alone: as other statements say it": lambda given, kind, a, b: (
         ": state: a word is missing" in a and "a word is missing after state" in b
     ),

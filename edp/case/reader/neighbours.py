@@ -154,7 +154,7 @@ def statements(made: Outline, found: list[Face], pairs: Touching) -> str:
                 text += f"  group V{body} {many} {body}\n"
             names.append(made.names.get(body, f"V{body}"))
         # the slave first: the smaller face
-        if sum(area[f] for f, _ in both) > sum(area[g] for _, g in both):
+        if sum(area[f] for f, _ in both) > (1 + 1e-6) * sum(area[g] for _, g in both):
             names.reverse()
         join = f"  join {' '.join(names)}"
         text += f"{join} part      # one part: they share nodes\n{join} tie       # glued, each with its own nodes\n"
