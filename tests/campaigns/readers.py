@@ -339,7 +339,7 @@ def only_named(given, kind, a, b):
 
 
 def missed(given, kind, a, b):
-    """awk's regular expressions do not see a statement between quotes, behind a byte order mark or a carriage return."""
+    """awk's regular expressions do not see a statement between quotes, behind a mark or a carriage return."""
     text = given.text.decode(errors="replace")
     return (
         kind == "modules" and (text.startswith("\ufeff") or '"' in text or "\r" in text) and ast.literal_eval(a) == []
