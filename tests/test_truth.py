@@ -879,3 +879,60 @@ def test_slave_beyond_its_master(tmp_path, group, cut):
     case = "body low E 1000 nu 0.3\nbody up E 1000 nu 0.3\ncontact under seat\nclamp base\nmove top 0 0 -0.02\n"
     warnings = part(tmp_path, geometry, case, "-order", 1, "-estimate", 0, space=True).summary["warnings"]
     assert any("extend the master" in text for text in warnings) == cut
+
+
+def pressed_rings(radii, hub, ring, interference):
+    """Lame's pressure between two rings in plane strain, and von Mises' stress of each at a radius."""
+    (a, b, c), (flex, flexes) = radii, [((1 + nu) / E, 1 - 2 * nu) for E, nu in (hub, ring)]
+    inward = flex[0] * b * (flex[1] * b**2 + a**2) / (b**2 - a**2)
+    outward = flexes[0] * b * (flexes[1] * b**2 + c**2) / (c**2 - b**2)
+    p = interference / (inward + outward)
+
+    def mises(body, r):
+        (mean, bend), nu = ((-p * b**2, -p * (a * b) ** 2), hub[1]) if body == "hub" else ((p * b**2, p * (b * c) ** 2), ring[1])
+        area = b**2 - a**2 if body == "hub" else c**2 - b**2
+        along, around = (mean - bend / r**2) / area, (mean + bend / r**2) / area
+        third = nu * (along + around)
+        return np.sqrt(((along - around) ** 2 + (around - third) ** 2 + (third - along) ** 2) / 2)
+
+    return p, mises
+
+
+@pytest.mark.parametrize("order, most", [(2, 0.02), (3, 5e-3), (4, 5e-6)])
+def test_stresses_beside_a_contact_about_an_axis(go, order, most):
+    """A stress at a contact feels what single edges of it do; together they do nothing."""
+    hub, ring = (200, 0.2), (5e5, 0.05)
+    case = f"state axisymmetric\nbody hub E {hub[0]} nu {hub[1]}\nbody ring E {ring[0]} nu {ring[1]}\n"
+    case += "contact shaft bore interference 0.05\nsymmetry floor\nsymmetry side\nstresses\n"
+    told = go(data("truth/two-rings.geo"), case, "-order", order)
+    mises = pressed_rings((8, 28, 35), hub, ring, 0.05)[1]
+    for one in told.summary["stresses"]:
+        true = mises(one["body"], one["at"][0])
+        assert abs(one["vonMises"] - true) <= one["error"] < most * true
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_a_pressure_between_parallel_symmetries_has_a_bound(go, space):
+    """Each of two planes of symmetry continues the bodies, and a uniform pressure ends at neither."""
+    hub, ring = (2e5, 0.3), (3e3, 0.2)
+    case = f"body hub E {hub[0]} nu {hub[1]}\nbody ring E {ring[0]} nu {ring[1]}\n"
+    case += "contact bore shaft interference 5e-5\n" + "".join(f"symmetry {name}\n" for name in ("floor", "side"))
+    if space:
+        told = go(data("truth/sector-of-rings.geo"), case + "symmetry low\nsymmetry high\n", space=True)
+    else:
+        told = go(re.sub("few = {8}", "few = {2}", data("truth/two-rings.geo")), "state axisymmetric\n" + case, "-order", 1)
+    true = pressed_rings((0.11, 0.18, 0.25) if space else (8, 28, 35), hub, ring, 5e-5)[0]
+    value, error = told.numbers["contacts.0.pressureMax"]
+    assert abs(value - true) <= error < 0.2 * true and not told.warnings
+
+
+@pytest.mark.parametrize("names", [("far", "near"), ("near", "far")])
+def test_a_force_across_the_second_of_parallel_symmetries(go, names):
+    """The image takes back what is across the plane that the contact reaches, in whatever order the planes are named."""
+    sketch = Sketch(Draw())
+    (low, near, top, far), _ = sketch.outline([(-2, 0, 0.5), (2, 0, 0.3), (2, 2, 0.1), (-2, 2, 0.5)])
+    sketch.body("block", [low, near, top, far])
+    case = f"body block E 1000 nu 0.3\nobstacle top circle 2 4.98 R 3\nclamp low\nsymmetry {names[0]}\nsymmetry {names[1]}\n"
+    (contact,) = go(sketch.named(low=[low], near=[near], top=[top], far=[far]), case, "-order", 1).summary["contacts"]
+    assert contact["force"][0] == 0 and contact["force"][1] < -5
+    assert contact["across"] == ["near"]
