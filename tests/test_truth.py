@@ -889,7 +889,9 @@ def pressed_rings(radii, hub, ring, interference):
     p = interference / (inward + outward)
 
     def mises(body, r):
-        (mean, bend), nu = ((-p * b**2, -p * (a * b) ** 2), hub[1]) if body == "hub" else ((p * b**2, p * (b * c) ** 2), ring[1])
+        (mean, bend), nu = (
+            ((-p * b**2, -p * (a * b) ** 2), hub[1]) if body == "hub" else ((p * b**2, p * (b * c) ** 2), ring[1])
+        )
         area = b**2 - a**2 if body == "hub" else c**2 - b**2
         along, around = (mean - bend / r**2) / area, (mean + bend / r**2) / area
         third = nu * (along + around)
@@ -920,7 +922,9 @@ def test_a_pressure_between_parallel_symmetries_has_a_bound(go, space):
     if space:
         told = go(data("truth/sector-of-rings.geo"), case + "symmetry low\nsymmetry high\n", space=True)
     else:
-        told = go(re.sub("few = {8}", "few = {2}", data("truth/two-rings.geo")), "state axisymmetric\n" + case, "-order", 1)
+        told = go(
+            re.sub("few = {8}", "few = {2}", data("truth/two-rings.geo")), "state axisymmetric\n" + case, "-order", 1
+        )
     true = pressed_rings((0.11, 0.18, 0.25) if space else (8, 28, 35), hub, ring, 5e-5)[0]
     value, error = told.numbers["contacts.0.pressureMax"]
     assert abs(value - true) <= error < 0.2 * true and not told.warnings
@@ -936,3 +940,11 @@ def test_a_force_across_the_second_of_parallel_symmetries(go, names):
     (contact,) = go(sketch.named(low=[low], near=[near], top=[top], far=[far]), case, "-order", 1).summary["contacts"]
     assert contact["force"][0] == 0 and contact["force"][1] < -5
     assert contact["across"] == ["near"]
+
+
+def test_a_sector_that_no_symmetry_holds(go):
+    """The parts of a press fit push each other away until points touch without a force: said, with no number for it."""
+    case = "body hub E 2e5 nu 0.3\nbody ring E 1e5 nu 0.2\ncontact shaft bore interference 1e-3\nstresses\n"
+    told = go(data("truth/turned-rings.geo"), case)
+    assert told.summary["contacts"][0]["normalForce"] == 0 and "shaft bore touches, but carries nothing" in told.stdout
+    assert [text for text in told.warnings if "nothing presses on anything" in text]

@@ -136,7 +136,7 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   F = 0
   for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
   F = sqrt(F)
-  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] < 1e-12 * mostForce && F < 1e-12 * mostForce ? " touches, but carries nothing" : "")
+  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] <= 1e-12 * mostForce && F <= 1e-12 * mostForce ? " touches, but carries nothing" : "")
   print "  contact " v[p ".name"] note
   if (note != "") return
   balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
