@@ -932,11 +932,12 @@ def test_a_pressure_between_parallel_symmetries_has_a_bound(go, space):
 
 @pytest.mark.parametrize("names", [("far", "near"), ("near", "far")])
 def test_a_force_across_the_second_of_parallel_symmetries(go, names):
-    """The image takes back what is across the plane that the contact reaches, in whatever order the planes are named."""
+    """The image takes back what is across the plane that the contact reaches, whatever their order."""
     sketch = Sketch(Draw())
     (low, near, top, far), _ = sketch.outline([(-2, 0, 0.5), (2, 0, 0.3), (2, 2, 0.1), (-2, 2, 0.5)])
     sketch.body("block", [low, near, top, far])
-    case = f"body block E 1000 nu 0.3\nobstacle top circle 2 4.98 R 3\nclamp low\nsymmetry {names[0]}\nsymmetry {names[1]}\n"
+    case = "body block E 1000 nu 0.3\nobstacle top circle 2 4.98 R 3\nclamp low\n"
+    case += f"symmetry {names[0]}\nsymmetry {names[1]}\n"
     (contact,) = go(sketch.named(low=[low], near=[near], top=[top], far=[far]), case, "-order", 1).summary["contacts"]
     assert contact["force"][0] == 0 and contact["force"][1] < -5
     assert contact["across"] == ["near"]
@@ -944,7 +945,7 @@ def test_a_force_across_the_second_of_parallel_symmetries(go, names):
 
 def test_a_sector_that_no_symmetry_holds(go):
     """The parts of a press fit push each other away until points touch without a force: said, with no number for it."""
-    case = "body hub E 2e5 nu 0.3\nbody ring E 1e5 nu 0.2\ncontact shaft bore interference 1e-3\nstresses\n"
+    case = "body hub E 2e5 nu 0.3\nbody ring E 1e5 nu 0.2\ncontact shaft bore interference 1e-2\n"
     told = go(data("truth/turned-rings.geo"), case)
     assert told.summary["contacts"][0]["normalForce"] == 0 and "shaft bore touches, but carries nothing" in told.stdout
-    assert [text for text in told.warnings if "nothing presses on anything" in text]
+    assert "nothing presses on anything" in told.warnings

@@ -1,6 +1,6 @@
-// a sector of two rings, from 10 to 65 degrees; second order
+// a sector of two rings, from 17 to 65 degrees; second order
 For k In {0:1}
-  a = 1 + k; b = 2 + k; o = 10 * k; s = 10 * Pi / 180; e = 65 * Pi / 180;
+  a = 1 + k; b = 2 + k; o = 10 * k; s = 17 * Pi / 180; e = 65 * Pi / 180;
   Point(o + 1) = {a * Cos(s), a * Sin(s), 0, 0.3}; Point(o + 2) = {b * Cos(s), b * Sin(s), 0, 0.3};
   Point(o + 3) = {b * Cos(e), b * Sin(e), 0, 0.3}; Point(o + 4) = {a * Cos(e), a * Sin(e), 0, 0.3}; Point(o + 5) = {0, 0, 0};
   Line(o + 1) = {o + 1, o + 2}; Circle(o + 2) = {o + 2, o + 5, o + 3};
