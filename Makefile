@@ -211,6 +211,7 @@ NAME   := stiff-contact
 export PREFIX DESTDIR
 
 install: ## put scripts, Python commands and the starter stiff-contact below PREFIX: make install [PREFIX=/usr/local] [DESTDIR=]
+	@$(if $(findstring $$,$(value PREFIX)$(value DESTDIR)),echo 'PREFIX or DESTDIR: a dollar sign; make would replace it; allowed: a whole path without'; exit 10,:)
 	@case $$PREFIX in *[\;\'\"]* | [!/]* | '') echo "PREFIX=$$PREFIX: allowed: a whole path without ; and quotes"; exit 10;; esac; \
 	share=$$DESTDIR$$PREFIX/share/$(NAME) bin=$$DESTDIR$$PREFIX/bin; set -e; \
 	rm -rf "$$share"; mkdir -p "$$share" "$$bin"; \
@@ -509,8 +510,8 @@ choice: $(VENV)/dev.stamp | system ## find for an hour what each test costs and 
 	@$(PYTHON) tests/campaigns/choose.py measure && $(PYTHON) tests/campaigns/choose.py
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
-	@$(PYTHON) -m ruff check postprocess tests
-	@$(PYTHON) -m ruff format --check postprocess tests
+	@$(PYTHON) -m ruff check postprocess tests edp/case/reader
+	@$(PYTHON) -m ruff format --check postprocess tests edp/case/reader
 	@$(PYTHON) tests/lint_edp.py edp
 
 pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar

@@ -1,5 +1,6 @@
 # inp.awk: a mesh of CalculiX's or Abaqus' in gmsh's version 2 text format, its sets as groups:
 #        SPACE=0|1 LC_ALL=C awk -f inp.awk CASE FILE.inp > FILE.msh
+# LISTED=1: a table of all sets in place of the mesh.
 # Needs: FILE.inp with *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE of one part, other keywords are left out; CASE, the case file: of
 #        the sets those are meant that stand in it.
 # Gives: elements of ELSETs as bodies; plane elements in space, lines in the plane, as gmsh writes them: sides of bodies; sides of bodies as groups: of a SURFACE its sides, of an NSET all sides of the boundary whose
@@ -42,8 +43,8 @@ function kindOf(t) {
   if (t ~ /^T[23]D[23]$/) return "L" substr(t, 4)
   no("*ELEMENT, TYPE=" t ": not read; allowed: " allowed)
 }
-# CASE: all words of the statements
-NR == FNR {
+# CASE, if any: all words of the statements
+FILENAME == ARGV[1] {
   sub(/#.*/, "")
   n = split($0, q, "\"")
   for (k = 1; k <= n; k++)
@@ -150,6 +151,52 @@ function write(e, s, name,   key) {
   written[name, key] = 1
   line[++lines] = sideType " 2 " group(1 + space, name) " " group(1 + space, name) nodes_
 }
+# the places between which a set lies
+function widen(i) {
+  if (!members++) { for (j = 1; j <= 3; j++) low[j] = high[j] = j == 1 ? x[i] : (j == 2 ? y[i] : z[i]); return }
+  for (j = 1; j <= 3; j++) {
+    t = j == 1 ? x[i] : (j == 2 ? y[i] : z[i])
+    if (t < low[j]) low[j] = t
+    if (t > high[j]) high[j] = t
+  }
+}
+function row(kind, name, count) {
+  text = sprintf("%-8s %-24s %8d", kind, name, count)
+  if (members) text = text sprintf("   (%.4g, %.4g%s) to (%.4g, %.4g%s)", low[1], low[2], space ? sprintf(", %.4g", low[3]) : "", high[1], high[2], space ? sprintf(", %.4g", high[3]) : "")
+  print text
+  members = 0
+}
+# a table of all sets: of elements with a body first, then those that may be boundaries
+function tell(   k, n, list, key, v, e, i, w, some) {
+  for (key in inSet) { split(key, v, SUBSEP); held[v[1], v[2]] = held[v[1], v[2]] " " v[3] }
+  print "kind     name                        count   from ... to"
+  n = split(substr(sets["ELSET"], 2), list, "\n")
+  for (some = 1; some >= 0; some--)
+    for (k = 1; k <= n; k++) {
+      if (holds(list[k], elementAt, elements) != some) continue
+      m = split(held["ELSET", list[k]], w, " ")
+      for (e = 1; e <= m; e++) for (i = 1; i <= given[w[e]]; i++) widen(corner[w[e], i])
+      row(some ? "body" : "sides", list[k], m)
+    }
+  if (n == 0) { for (i = 1; i <= nodes; i++) widen(inOrder[i]); row("body", "(no *ELSET)", elements) }
+  n = split(substr(sets["NSET"], 2), list, "\n")
+  for (k = 1; k <= n; k++) {
+    m = split(held["NSET", list[k]], w, " ")
+    for (e = 1; e <= m; e++) if (w[e] in x) widen(w[e])
+    row("nodes", list[k], m)
+  }
+  n = split(substr(sets["SURFACE"], 2), list, "\n")
+  for (k = 1; k <= n; k++) {
+    m = 0
+    for (e = 1; e <= surfaces; e++) {
+      split(surfaceOf[e], v, SUBSEP)
+      if (v[1] != list[k]) continue
+      some = v[2] ~ /^[0-9]+$/ ? split(v[2], w, " ") : split(held["ELSET", v[2]], w, " ")
+      for (i = 1; i <= some; i++) if (w[i] in typeOf && side(w[i], v[3]) != "") { m++; count_ = split(nodes_, ends, " "); for (c = 1; c <= count_; c++) widen(ends[c]) }
+    }
+    row("surface", list[k], m)
+  }
+}
 END {
   if (failed) exit 1
   if (!elements) { print "no *ELEMENT of a body; allowed: " allowed; exit 1 }
@@ -162,6 +209,7 @@ END {
     for (key in more) inSet[key] = 1
     split("", more)
   }
+  if (ENVIRON["LISTED"]) { tell(); exit 0 }
   n = split(substr(sets["SURFACE"], 2), list, "\n")
   for (k = 1; k <= n; k++) group(1 + space, list[k])
   n = split(substr(sets["NSET"], 2), list, "\n")

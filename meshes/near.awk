@@ -194,13 +194,9 @@ function unsure(p, margin,   t) {
   if (!finest || t < finest) finest = t
   unsure_[p] = 1
 }
-function askCloser(   p, out, n, key, used, line, f, before) {
+function askCloser(   p, out, n, key, used) {
   out = ENVIRON["CLOSER"]
   if (out == "" || !finest) return 0
-  f = 99999
-  before = ""
-  while ((getline line < out) > 0) if (line ~ /^Background/) f -= 3
-  close(out)
   print "closer_ = newp;" >> out
   for (p in unsure_) {
     key = cellAt(p, finest / 2)
@@ -208,9 +204,11 @@ function askCloser(   p, out, n, key, used, line, f, before) {
     used[key] = 1
     print "Point(closer_ + " ++n ") = {" sprintf("%.9g, %.9g, %.9g", CX[p], CY[p], CZ[p]) "};" >> out
   }
-  print "Field[" f - 1 "] = Distance;\nField[" f - 1 "].PointsList = {closer_ + 1 : closer_ + " n "};" >> out
-  print "Field[" f - 2 "] = MathEval;\nField[" f - 2 "].F = \"" sprintf("%.9g+0.25*Max(0,F%d-%.9g)", finest, f - 1, 2 * finest) "\";" >> out
-  print "Field[" f - 3 "] = Min;\nField[" f - 3 "].FieldsList = {" f - 2 ", " f "};\nBackground Field = " f - 3 ";" >> out
+  print "near_ = newf;\nField[near_] = Distance;\nField[near_].PointsList = {closer_ + 1 : closer_ + " n "};" >> out
+  print "fine_ = newf;\nField[fine_] = MathEval;" >> out
+  print "Field[fine_].F = Sprintf(\"" sprintf("%.9g+0.25*Max(0,F%%.0f-%.9g)", finest, 2 * finest) "\", near_);" >> out
+  print "least_ = newf;\nField[least_] = Min;\nField[least_].FieldsList = {fine_, outline_};" >> out
+  print "outline_ = least_;\nBackground Field = outline_;" >> out
   close(out)
   return 1
 }

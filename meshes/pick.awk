@@ -1,6 +1,6 @@
 # pick.awk: the groups and sizes that a case file picks of a geometry, as gmsh is told them:
 #        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE KEPT=FILE PARENTS=FILE LEFT=FILE FACES=FILE LC_ALL=C
-#        TABLE=FILE TOUCH=FILE CLOSER=FILE awk -f pick.awk -f near.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
+#        TABLE=FILE TOUCH=FILE CLOSER=FILE WHOLE=FILE awk -f pick.awk -f near.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
 #        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
 #        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
@@ -322,19 +322,34 @@ function apart(a, b, line,   k, n, w, m, v, i, j, p, other) {
   }
 }
 function joined(numbers) { sub(/^ /, "", numbers); gsub(/ /, ", ", numbers); return numbers }
-function field(text) { print "Field[" ++fields "] = " text ";" }
+# a field of sizes, with a number that is free: field_
+function field(text) { field_ = "picked" ++fields "_"; print field_ " = newf;\nField[" field_ "] = " text ";" }
+function choose() { chosen = chosen (chosen == "" ? "" : ", ") field_ }
+# h, and `slope` more a length, beyond `from`, away from what the last field, a distance, has
+function growing(h, slope, from,   distance) {
+  distance = field_
+  field("MathEval"); print "Field[" field_ "].F = Sprintf(\"" sprintf("%.9g+%g*Max(0,F%%.0f-%.9g)", h, slope, from) "\", " distance ");"
+}
+function restricted(   inside) { inside = field_; field("Restrict"); print "Field[" field_ "].IField = " inside ";" }
+# the geometry's points keep their sizes, except smaller ones of the group that is named
+function atPoints(numbers, d, h,   word) {
+  if (!ownSizes || ownSizes >= h) return
+  word = d == 3 ? "Volume" : (d == 2 ? "Surface" : "Curve")
+  print "MeshSize{ PointsOf{ " word "{" joined(numbers) "}; } } = " h ";"
+}
 function sizeOf(numbers, d, h,   to) {
+  atPoints(numbers, d, h)
   if (d == 1 && !space) { sizeOfCurves(numbers, h); return }
-  field("MathEval"); print "Field[" fields "].F = \"" h "\";"
-  field("Restrict"); print "Field[" fields "].IField = " fields - 1 ";"
+  field("MathEval"); print "Field[" field_ "].F = \"" h "\";"
+  restricted()
   to = d == 3 ? "RegionsList" : (d == 2 ? "FacesList" : "EdgesList")
-  print "Field[" fields "]." to " = {" joined(numbers) "};"
+  print "Field[" field_ "]." to " = {" joined(numbers) "};"
   # with a body its boundary, with a face its edges
-  if (d == 3) print "Field[" fields "].FacesList = {" joined(ofBodies(numbers)) "};"
-  if (d == 2 && !space) print "Field[" fields "].EdgesList = {" joined(ofBodies(numbers)) "};"
-  if (d == 2 && space) print "edges_() = Abs(Boundary{ Surface{" joined(numbers) "}; });\nField[" fields "].EdgesList = {edges_()};"
-  if (d == 3) print "edges_() = Abs(Boundary{ Surface{" joined(ofBodies(numbers)) "}; });\nField[" fields "].EdgesList = {edges_()};"
-  chosen = chosen (chosen == "" ? "" : ", ") fields
+  if (d == 3) print "Field[" field_ "].FacesList = {" joined(ofBodies(numbers)) "};"
+  if (d == 2 && !space) print "Field[" field_ "].EdgesList = {" joined(ofBodies(numbers)) "};"
+  if (d == 2 && space) print "edges_() = Abs(Boundary{ Surface{" joined(numbers) "}; });\nField[" field_ "].EdgesList = {edges_()};"
+  if (d == 3) print "edges_() = Abs(Boundary{ Surface{" joined(ofBodies(numbers)) "}; });\nField[" field_ "].EdgesList = {edges_()};"
+  choose()
 }
 # in the plane sizes grow away from a curve, in its bodies: beside a size of the curve alone gmsh leaves slivers, too stiff for a contact
 function sizeOfCurves(numbers, h,   n, w, k, e, m, list, long, most, bodies) {
@@ -346,13 +361,13 @@ function sizeOfCurves(numbers, h,   n, w, k, e, m, list, long, most, bodies) {
     if (long > most) most = long
     bodies = bodies sidesOf[w[k]]
   }
-  field("Distance"); print "Field[" fields "].CurvesList = {" joined(numbers) "};"
-  print "Field[" fields "].NumPointsPerCurve = " (most > 4000 * h ? 2000 : int(most / h / 2) + 20) ";"
-  field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.5*Max(0,F%d-%.9g)", h, fields - 1, h) "\";"
-  field("Restrict"); print "Field[" fields "].IField = " fields - 1 ";"
-  if (bodies != "") print "Field[" fields "].FacesList = {" joined(bodies) "};"
-  print "Field[" fields "].EdgesList = {" joined(numbers ofBodies(bodies)) "};"
-  chosen = chosen (chosen == "" ? "" : ", ") fields
+  field("Distance"); print "Field[" field_ "].CurvesList = {" joined(numbers) "};"
+  print "Field[" field_ "].NumPointsPerCurve = " (most > 4000 * h ? 2000 : int(most / h / 2) + 20) ";"
+  growing(h, 0.5, h)
+  restricted()
+  if (bodies != "") print "Field[" field_ "].FacesList = {" joined(bodies) "};"
+  print "Field[" field_ "].EdgesList = {" joined(numbers ofBodies(bodies)) "};"
+  choose()
 }
 # ties have no size of contact beside contacts: their surfaces touch all over
 function contactSize(h,   k, n, i, w, p, points, wide, key) {
@@ -373,9 +388,9 @@ function contactSize(h,   k, n, i, w, p, points, wide, key) {
   }
   if (askCloser()) exit 5
   if (!points) return
-  field("Distance"); print "Field[" fields "].PointsList = {zone_ + 1 : zone_ + " points "};"
-  field("MathEval"); print "Field[" fields "].F = \"" sprintf("%.9g+0.25*Max(0,F%d-%.9g)", h, fields - 1, 4 * h + (wide > 4 * h ? wide : 0)) "\";"
-  chosen = chosen (chosen == "" ? "" : ", ") fields
+  field("Distance"); print "Field[" field_ "].PointsList = {zone_ + 1 : zone_ + " points "};"
+  growing(h, 0.25, 4 * h + (wide > 4 * h ? wide : 0))
+  choose()
 }
 function writeFaces(   e, k, n) {
   print (space ? "face,body,x0,y0,z0,x1,y1,z1,x2,y2,z2" : "face,body,x0,y0,z0,x1,y1,z1") > ENVIRON["FACES"]
@@ -409,6 +424,11 @@ END {
   if (sizes && ENVIRON["MESHED"]) {
     split(sizeLine[1], f, "\t")
     no(f[2], "sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file")
+  }
+  # the geometry as gmsh has read it: the least size of its points, and the number of its own field of sizes
+  while (ENVIRON["WHOLE"] != "" && (getline line < ENVIRON["WHOLE"]) > 0) {
+    if (line ~ /^cl__[0-9]+ = /) { sub(/.*= /, "", line); if (line + 0 < 1e22 && (!ownSizes || line + 0 < ownSizes)) ownSizes = line + 0 }
+    if (sub(/^Background Field = /, "", line)) { sub(/;.*/, "", line); background = ", " line }
   }
   checkCad()
   again = recall()
@@ -465,7 +485,7 @@ END {
     else no(f[2], "size " f[3] ": the geometry has nothing in the group " f[3] "; allowed: a group with a body, or with a " (space ? "face" : "curve") " of one")
   }
   if (chosen != "") {
-    field("Min"); print "Field[" fields "].FieldsList = {" chosen "};\nBackground Field = " fields ";"
-    print "Mesh.MeshSizeFromPoints = 0;"
+    field("Min"); print "Field[" field_ "].FieldsList = {" chosen background "};\nBackground Field = " field_ ";"
+    if (!ownSizes) print "Mesh.MeshSizeFromPoints = 0;"
   }
 }

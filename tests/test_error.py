@@ -125,7 +125,7 @@ def test_not_believed(solved):
     assert run.estimates is None and "another method than xnewton" in run.notEstimated
     assert solved("flat-punch", "-law", "signorini").estimates["pressureMax"] is None
     weak = solved("disc-on-block", "-kappa", 0.01, "-m", 30, "-order", 1, "-h", 1, "-u0", 0.25000000004)
-    assert weak.estimates is None and "no error estimate: the contact has no stiffness" in weak.stdout
+    assert weak.estimates is None and "no error estimate: the contact carries nothing" in weak.stdout
 
 
 def test_too_coarse(solved):
@@ -282,7 +282,7 @@ def test_own_parts(tmp_path):
 
 def check_pin(case):
     contact, way = parts_of(case)
-    assert contact["force"]["error"] <= 1e-8 and way["error"] <= 0.01 * way["value"]
+    assert contact["force"]["error"] <= 1e-10 * contact["force"]["value"] and way["error"] <= 0.01 * way["value"]
     assert re.search(r"weight core moves +\S+ ± ", case.stdout)
 
 

@@ -298,15 +298,16 @@ def test_of_two_blocks_what_slides_is_named(tmp_path, below, name):
     assert f"leg 1: {name}: no equilibrium (pressure up-top, traction up-top): friction and contact do not" in message
 
 
-@pytest.mark.parametrize(("pull", "steps", "said"), [(1.7, 4, (34, 38)), (1.7, 1, (25, 38)), (0.6004, 4, (97, 100))])
-def test_what_friction_carries_of_the_load_is_told_by_its_steps(tmp_path, pull, steps, said):
-    """Friction bears 0.6: no other number is printed, and the advice is never less friction, not even 0.07 % above."""
+@pytest.mark.parametrize(("pull", "steps"), [(1.7, 4), (1.7, 1), (0.6004, 4)])
+def test_what_friction_carries_of_the_load_is_told_by_its_steps(tmp_path, pull, steps):
+    """Friction bears 0.6: a bracket of a thousandth of the leg, and the advice is never less friction, not even 0.07 %
+    above."""
     text = "body block E 1000 nu 0.3\nobstacle base plane 0 0 0 1 friction 0.3\n"
     text += f"leg 1\npressure head 1\ntraction head 0 0\nleg {steps}\npressure head 1\ntraction head {pull / 2} 0\n"
     message = case(tmp_path, LYING, text, expect=20).message
-    shares = [int(share) for share in re.findall(r"(\d+) %", message)]
-    assert shares == list(said) and "no equilibrium" in message and "more friction or pressure" in message
-    assert "less friction" not in message and (not said or said[0] < 60 / pull < said[1])
+    carried, not_carried = (float(share) for share in re.findall(r"([\d.]+) %", message))
+    assert carried <= 60 / pull <= not_carried <= carried + 0.12
+    assert "no equilibrium" in message and "more friction or pressure" in message and "less friction" not in message
 
 
 def test_a_jaw_takes_a_plate_along(tmp_path):
@@ -846,12 +847,18 @@ def pulled(folder, pull, size, *flags, text=FRAMED, **how):
     return case(folder, mesh, text.format(pull=pull), "-order", 1, "-vtu", 0, *flags, **how)
 
 
+def bracket(run, step):
+    """Shares of the leg, in per cent, between which a load step has found no equilibrium."""
+    shares = re.search(rf"^{step} \(([\d.]+) % to ([\d.]+) % of the leg\): wedge: ", run.summary["message"])
+    return float(shares[1]), float(shares[2])
+
+
 def test_path_that_ends(tmp_path):
-    """A pull of 7.2 is the most that a locked wedge bears: the load step is taken in parts up to where that is."""
+    """A pull of 7.04 is the most that a locked wedge bears: the load step is taken in parts up to where that is."""
     assert [text for text in pulled(tmp_path / "low", 5, 0.7).summary["warnings"] if "energies" in text] == []
     run = pulled(tmp_path / "high", 12, 0.7, expect=20)
-    bears = re.search(r"leg 3, load step 2 of 2 \((\d+) % to (\d+) % of the leg\): wedge: ", run.summary["message"])
-    assert 12 * float(bears[1]) <= 720 <= 12 * float(bears[2]) and int(bears[2]) - int(bears[1]) < 8
+    least, most = bracket(run, "leg 3, load step 2 of 2")
+    assert 0 < most - least < 0.12 and 0.12 * least == pytest.approx(7.04, abs=0.02)
     assert len(series(run)) == 5 and series(run)["newton"][-1] == 5
 
 
@@ -887,8 +894,8 @@ def test_error_beyond_the_energies_of_a_step(tmp_path):
 def test_body_that_comes_free(tmp_path):
     """A step without a solution names the body that friction may not hold."""
     run = pulled(tmp_path, 16, 0.7, expect=20)
-    words = r"wedge: \w+( .)?: friction may no longer hold it, then there is no equilibrium: less load"
-    assert re.search(r"\(4. % to 5. % of the leg\): " + words, run.summary["message"])
+    assert "along y: friction may no longer hold it, then there is no equilibrium: less load" in run.summary["message"]
+    assert 0.16 * bracket(run, "leg 3, load step 1 of 2")[0] == pytest.approx(7.04, abs=0.02)
     # a wall that it rests on backs off: nothing presses on the state where the step ends
     text = (
         FRAMED[: FRAMED.index("leg")]

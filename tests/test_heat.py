@@ -423,3 +423,24 @@ def test_refused_groups(tmp_path):
     assert "rotate top: not with conduct" in solve(tmp_path / "b", BARS, turn, "-set", "n", 2, expect=10)
     friction = CASE.replace("hardness 5", "hardness 5 friction 0.1")
     assert "without friction, tie" in solve(tmp_path / "c", BARS, friction, "-set", "n", 2, expect=10)
+
+
+def test_heat_of_a_body_that_conducts_far_better(tmp_path):
+    """A ring of next to no resistance: its group gives what the shaft takes."""
+    case = CONDUCTS.replace("ring 0.2", "ring 2e10")
+    case = f"state stress\n{FIT}{case}contact seat journal conductance 0.2 hardness 1000\n"
+    case += "symmetry floor\nsymmetry side\ntemperature bore 20\ntemperature outside 100\n"
+    mesh = ROOT / "edp/examples/heated-fit/heated-fit.geo"
+    heat = solve(tmp_path, mesh, case, "-set", "edges", 4, "-estimate", 0)["heat"]
+    taken, given = (group["heat"] for group in heat["groups"])
+    assert given == pytest.approx(-taken, rel=1e-9)
+    assert given == pytest.approx(abs(heat["contacts"][0]["heat"]), rel=1e-9)
+    assert 4 < given < 7
+
+
+def test_flux_and_film_beside_a_held_temperature(tmp_path):
+    """The group that alone holds the temperature of a body takes what a flux and a film bring to this body, too."""
+    case = f"{SOFT}{CONTACT}\n{HELD}move top 0 -1\ntemperature top 1\nflux left 0.1\nfilm right 0.2 3\n"
+    heat = solve(tmp_path, BARS, case, "-set", "n", 2)["heat"]
+    balanced(heat)
+    assert max(abs(group["heat"]) for group in heat["groups"]) > 1

@@ -222,13 +222,16 @@ traction top 0 150
 """
 
 
-@pytest.mark.parametrize("friction", ["", " friction 0.2"])
-def test_ends_that_open(said, friction):
-    """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector."""
+@pytest.mark.parametrize("friction, off", [("", 0.2), (" friction 0.2", 0.25)], ids=["", " friction 0.2"])
+def test_ends_that_open(said, friction, off):
+    """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector.
+
+    With friction the undeformed normals are the mean of both surfaces', those of the true distance the slave's alone.
+    """
     linear = said(DOVETAIL, BLADE.format(friction))
     true = said(DOVETAIL, BLADE.format(friction), "-distance", "exact")
     moved = true.known("normalForce")[0] - linear.known("normalForce")[0]
-    assert linear.linear["changes"]["slot flank normal force"] == pytest.approx(moved, rel=0.2)
+    assert linear.linear["changes"]["slot flank normal force"] == pytest.approx(moved, rel=off)
     assert linear.holds("normalForce", true.known("normalForce")[0])
     assert linear.known("force")[1] == pytest.approx(2 * apart(linear, true), rel=0.25)  # the safety
 
@@ -326,10 +329,10 @@ def test_friction_with_the_true_distance(said, geo, case):
         happens = truth[name] - told[name]
         size = linear.summary["contacts"][0]["normalForce"]
         if "dissipated" in name:  # what sticks and slips changes with it: inside its ± alone
-            assert abs(happens) <= 2 * abs(number["change"])
+            assert abs(happens) <= linear.summary["contacts"][0]["mesh"]["dissipatedLastStep"]["error"]
             continue
         assert number["change"] == pytest.approx(happens, rel=0.35, abs=2e-3 * size), name
-        seen += abs(happens) > 1e-3 * size
+        seen += abs(happens) > 3e-4 * size
     assert seen > 0 and exact.linear is None
     assert linear.holds("normalForce", exact.known("normalForce")[0])
     assert "gaps at rest" not in linear.stdout
@@ -347,3 +350,22 @@ def test_friction_pressed_deep(said):
     assert apart(linear, exact) <= linear.known("force")[1]
     shears = [np.linalg.norm(found.summary["contacts"][0]["shearForce"]) for found in (linear, exact)]
     assert abs(shears[0] - shears[1]) <= linear.summary["contacts"][0]["mesh"]["shearForce"]["error"] < 0.35 * shears[0]
+
+
+# ---------------------------------------------------------------- a gap that is linear
+
+HALF_BALL = data("linear-gaps/half-ball.geo")
+
+
+@pytest.mark.parametrize("size", [0.1, 0.15])
+def test_a_plane_changes_nothing(said, size):
+    """Before a plane the gap is linear in the displacement: the true distance shall add nothing, on any mesh."""
+    force, modulus = 188.4956, 1000 / (1 - 0.3**2)
+    case = f"state axisymmetric\nsize contact {size}\nbody ball E 1000 nu 0.3\nobstacle round plane 0 0 0 1\n"
+    ball = said(HALF_BALL, f"{case}symmetry axis\nforce top 0 {-force}\n")
+    most = [abs(change) for change in ball.linear["changes"].values()] + list(map(abs, ball.linear["pressureMax"]))
+    assert max(most) < 1e-6 * force and not ball.summary["warnings"]
+    assert ball.known("force")[1] < 1e-9 * force
+    hertz = (6 * force * modulus**2 / (np.pi**3 * 8**2)) ** (1 / 3)
+    value, error = ball.known("pressureMax")
+    assert error < 0.03 * hertz and abs(value - hertz) < error + 0.15 * (1 / 8) ** 2 * hertz  # Hertz lacks (a/R)^2

@@ -1,5 +1,7 @@
 """The Makefile as a user meets it. Nothing is installed here: set-up counts as done (-o)."""
 
+import subprocess
+
 import pytest
 from freefem import ROOT, environment, execute, tree
 
@@ -92,3 +94,9 @@ def test_what_is_begun_outside(tmp_path):
     code, said = execute(["sh", folder / "test.sh"], tmp_path, environment())
     assert code == 1 and "OFF  inverse" in said
     assert execute(["make", "new", f"DIR={folder}"], ROOT)[0] != 0
+
+
+def test_dollar_in_prefix(tmp_path):
+    """make would replace a dollar sign and what follows: refused, nothing is installed."""
+    done = subprocess.run(["make", "install", f"PREFIX={tmp_path}/a$b"], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode and "dollar sign" in done.stdout and not list(tmp_path.iterdir())

@@ -228,7 +228,9 @@ def test_master_map(tmp_path, order, element, h, surface):
     """The overlap shall be the slave's trace less the master's: exact for linear functions of the places on curved
     elements, on straight ones for polynomials of the elements' degree."""
     text = high(order) + scene_text("meshed-disc") + MASTER.replace("ELEMENT", element)
-    values = told(snippet(tmp_path, text, "-method", "newton", "-h", h, "-order", order, "-surface", surface))
+    values = told(
+        snippet(tmp_path, text, "-method", "newton", "-points", "nodal", "-h", h, "-order", order, "-surface", surface)
+    )
     x, paired = values["x"], values["paired"] == 1
     assert values["unpaired"] == (~paired).sum()
     assert paired.all()
@@ -379,3 +381,15 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     assert summary["force"] == pytest.approx(exact, rel=1e-12)
     refused = snippet(tmp_path, text, "-method", "xnewton", expect=10)
     assert refused.startswith("-method xnewton: unknown; allowed: one of: newton;")
+
+
+# ---------------------------------------------------------------- contact/points-of-map.idp
+
+ENTRIES = data("modules/entries.edp")
+
+
+def test_entries_of_a_matrix(tmp_path):
+    """A matrix read as triplets shall keep its last entry, and gain none: FreeFEM adds the size if that is missing."""
+    lines = snippet(tmp_path, ENTRIES).splitlines()
+    once = ["told count 4", "told value 1 2 3 4", "told at 1 10 22 23"]
+    assert [line for line in lines if line.startswith("told")] == 2 * once

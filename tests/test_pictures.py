@@ -190,6 +190,9 @@ def opened_in_paraview(folder, monkeypatch, capsys):
     """Runs the state beside a module that only keeps what is called; the names of labels."""
     assert main(["paraview", str(folder)]) == 0
     assert capsys.readouterr().out == f"{folder / 'paraview.py'}\n"
+    other = folder.parent / "other.py"
+    assert main(["paraview", str(folder), "--out", str(other)]) == 0
+    assert capsys.readouterr().out == f"{other}\n" and other.read_text() == (folder / "paraview.py").read_text()
     calls = []
     simple = types.ModuleType("paraview.simple")
     text = (folder / "paraview.py").read_text()

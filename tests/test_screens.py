@@ -430,3 +430,29 @@ def test_show_and_compare_a_case(tmp_path, capsys):
     said = capsys.readouterr().out
     assert re.search(rf"^{contact['name']}: normal force \[N(/mm)?\] .* 0$", said, re.M)
     assert not re.search("^(force|approach|halfWidth) ", said, re.M)
+
+
+def test_digits_without_an_error_of_the_mesh(tmp_path):
+    """Load or wear steps alone give three digits at most; with the error of the mesh the greater decides."""
+    contact = {
+        "name": "", "force": [0.016, -0.086], "contactPoints": 41, "points": 81, "shearForce": [0.0155432, 0],
+        "stickShare": 0.62345, "dissipated": 1.23456e-05, "mesh": {"shearForce": {"error": 2e-6}},
+        "loadSteps": {"shearForce": {"error": 1e-9}, "dissipated": {"error": 3e-15}, "stickShare": {"error": 1e-9}},
+    }  # fmt: skip
+    body = {
+        "body": "b",
+        "strainMax": 9.47194e-05,
+        "strainMaxError": 1.6e-10,
+        "at": [1, 2],
+        "volume": 6.104321,
+        "share": 1,
+    }
+    plastic = {"yielded": True, "steps": 2, "iterations": 9, "bodies": [{**body, "volumeError": 0.75}], "contacts": []}
+    plastic |= {key: 1.0 for key in ("storedElastic", "storedByHardening", "work", "dissipated")}
+    rubbed = {"friction": 0.3, "work": 3, "stored": 2, "dissipated": 1, "dragged": None, "contacts": [contact]}
+    said = screen(tmp_path / "a", {**SUMMARY, **rubbed, "plastic": {**plastic, "loadStepsError": "measured"}})
+    assert re.search(r"shear force +0.0155432 ± 2e-06 \(mesh\) ± 1e-09 \(load steps\)", said)
+    assert re.search(r"dissipated +1.23e-05 ± 3e-15 \(load steps\)", said)
+    assert re.search(r"sticking part +62.3 ± 1e-07 \(load steps\)", said)
+    assert re.search(r"greatest of b +9.47e-05 ± 1.6e-10 \(load steps\)", said), said
+    assert re.search(r"yielded area +6.10 ± 0.75 \(load steps\)", said)

@@ -184,3 +184,23 @@ def test_slices(tmp_path):
     mesh.add([(0, 0, 0), *((np.cos(a), np.sin(a), 0) for a in angles)], sides, slices)
     _, force, _ = run(tmp_path, mesh.text(), HEAVY, "-order", 2)
     assert abs(force["value"] - np.pi) < force["error"] < 0.05
+
+
+SECTOR = """body inner E 210000 nu 0
+body outer E 210000 nu 0
+contact outof hole
+symmetry foot
+symmetry end
+pressure {} 100
+"""
+
+
+@pytest.mark.parametrize("pressed, exact", [("rim", 1), ("bore", 0.5)])
+def test_pressed_sector(tmp_path, pressed, exact):
+    """Flat sides change a pressure's work on the displacement; symmetries at any angle cancel a resultant."""
+    summary, _, _ = run(tmp_path, data("shape/sector.geo"), SECTOR.format(pressed), "-order", 1)
+    way, force = summary["estimates"]["loads"][0]["way"], summary["estimates"]["contacts"][0]["force"]
+    exact *= 100 / 210000 * (1 + 0.25) / (1 - 0.25)
+    assert abs(way["value"] - exact) < way["error"] < 2.5 * abs(way["value"] - exact)
+    contact = summary["contacts"][0]
+    assert np.linalg.norm(contact["force"]) < 1e-12 * contact["normalForce"] and force["error"] < 1e-9

@@ -388,7 +388,7 @@ def told(folder, geo, case, space=0):
     places = [
         np.array(re.findall(r"^Point.*= \{(\S+), (\S+), (\S+)\};", text, re.M), float) for text in (picked, closer)
     ]
-    return *places, np.array(re.findall(r'F = "(\S+?)\+0\.25\*Max\(0,F\d+-(\S+)\)"', closer), float)
+    return *places, np.array(re.findall(r'F = Sprintf\("(\S+?)\+0\.25\*Max\(0,F%\.0f-(\S+)\)"', closer), float)
 
 
 def test_fine_along_all_of_a_contact(tmp_path):

@@ -134,3 +134,47 @@ cout << "ratio " << whole[points / 2] / bodyStiffness[points / 2] << endl;
 """
     printed = snippet(tmp_path, scene_text(scene) + text, "-h", 0.5, "-vtu", 0)
     assert float(printed.split("ratio ")[1].split()[0]) == pytest.approx(ratio, rel=1e-5)
+
+
+PRESSED_FIT = """units mm MPa
+state axisymmetric
+body tube E 196e3 nu 0.3
+body hub E 196e3 nu 0.3
+contact outside hole
+symmetry base
+move top 0 {}
+"""
+
+
+def test_pressed_as_it_is_drawn(tmp_path):
+    """A tube pressed into a hub in steps, from where nothing faced anything: the forces of one that is drawn there."""
+    geometry = data("sliding/press-fit.geo")
+    drawn = part(tmp_path / "drawn", geometry, PRESSED_FIT.format(0), "-set", "down", 22, "-estimate", 0)
+    flags = ["-distance", "exact", "-history", 1, "-steps", 8]
+    pressed = part(tmp_path / "pressed", geometry, PRESSED_FIT.format(-22), *flags)
+    here, there = (run.summary["contacts"][0]["normalForce"] for run in (pressed, drawn))
+    assert here == pytest.approx(there, rel=0.02)
+    moved = [float(line.split()[-1]) for line in pressed.stdout.splitlines() if "forces moved by" in line]
+    assert max(moved) < 1e6  # of the forces, where they vanish too
+    assert not any("inside the other body" in text for text in pressed.summary["warnings"])
+
+
+SEATED = """units mm MPa
+state axisymmetric
+body plug E 200e3 nu 0.3
+body seat E 100e3 nu 0.3
+contact {}
+symmetry axis
+clamp base
+move top 0 -7.02
+"""
+
+
+@pytest.mark.parametrize("pair, size", [("cone funnel", 1), ("cone funnel", 0.25)])
+def test_past_a_corner(tmp_path, pair, size):
+    """A cone that is longer than its seat: the contact is as long as the seat, no scrap past its end carries much."""
+    run = part(tmp_path, data("sliding/plug.geo"), SEATED.format(pair), "-distance", "exact", "-set", "h", size)
+    contact, known = run.summary["contacts"][0], run.estimates["contacts"][0]
+    assert abs(known["contactLength"]["value"] - 4 * sqrt(2)) < known["contactLength"]["error"]
+    scraps = run.contact["weight"] < 0.1 * np.median(run.contact["weight"][run.contact["pressure"] > 0])
+    assert (run.contact["pressure"] * run.contact["weight"])[scraps].sum() < 0.02 * contact["normalForce"]

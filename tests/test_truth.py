@@ -11,7 +11,7 @@ import foreign
 import numpy as np
 import pytest
 from foreign_parts import Draw, Sketch, parts
-from freefem import FREEFEM, ROOT, cases_of, data, execute, part
+from freefem import FREEFEM, ROOT, cases_of, data, execute, part, snippet, told
 from test_parts import Mesh, block, turn, vector
 from test_turning import rotation
 
@@ -733,3 +733,219 @@ def test_rim_between_two_held_faces(tmp_path, order):
     run = part(tmp_path, RIM, case, "-order", order, "-estimate", 0, space=True)
     assert 2e3 < run.summary["pressureMax"] < 1.2e4 and 1.5e4 < run.summary["contacts"][0]["normalForce"] < 3.5e4
     assert sum("more are held, and so is what is opposite" in text for text in run.summary["warnings"]) == 1
+
+
+SOFT_AND_STIFF = data("truth/soft-and-stiff.geo")
+CONFINED = 1000 * 0.7 / (1.3 * 0.4)  # the modulus of a column between walls, E 1000, nu 0.3
+
+
+def stacked(folder, ratio, end, *flags, expect=0):
+    """A soft column of height 2 below a stiff one of height 1, between walls."""
+    case = (
+        f"body soft E 1000 nu 0.3\nbody stiff E {1000 * ratio!r} nu 0.3\nsymmetry left\nsymmetry right\nsymmetry base\n"
+    )
+    return part(folder, SOFT_AND_STIFF, case + f"obstacle top plane 0 3 0 -1 {end}\n", *flags, expect=expect).summary
+
+
+@pytest.mark.parametrize(
+    "end, order", [("force 0 -10", 2), ("move 0 -0.01", 2), ("move 0 -0.01", 1), ("force 0 -10", 4)]
+)
+def test_stiff_body_on_a_soft_one(tmp_path, end, order):
+    """Rounding of the stiff body's stiffness times its motion would resist the motion like a ground, by 1 %."""
+    summary = stacked(tmp_path, 1e12, end, "-order", order)
+    way = summary["estimates"]["loads"][0]["way"] if "force" in end else {"value": 0.01, "error": 0}
+    force = summary["estimates"]["contacts"][0]["normalForce"]
+    assert way["value"] / 2 * CONFINED == pytest.approx(10 if "force" in end else 0.005 * CONFINED, rel=1e-7)
+    assert force["value"] == pytest.approx(way["value"] / 2 * CONFINED, rel=1e-7)
+    assert summary["supports"][2]["force"][1] == pytest.approx(force["value"], rel=1e-7)
+    assert (
+        abs(force["value"] - way["value"] / 2 * CONFINED)
+        <= force["error"] + CONFINED / 2 * way["error"]
+        < 1e-6 * force["value"]
+    )
+    assert summary["warnings"] == []
+    # the pressure is uniform; the overlaps' rounding moves it from point to point
+    pressure = summary["estimates"]["contacts"][0]["pressureMax"]
+    assert abs(pressure["value"] - force["value"]) <= pressure["error"] < 0.15 * force["value"]
+
+
+@pytest.mark.parametrize(
+    "body, end, force",
+    [
+        ("nu 0.3\nsymmetry left\nsymmetry right\nspring base 1e-10 1e-10", "move 0 -0.001", 1e-13),
+        ("nu 0.4999999999\nsymmetry left\nsymmetry base", "move 0 -0.001", 1000 / 0.75 * 0.001 / 3),
+    ],
+)
+def test_soft_springs_and_no_volume_change(tmp_path, body, end, force):
+    """The same for a body on springs 1e13 times as soft, and for a volume that hardly changes."""
+    geometry = SOFT_AND_STIFF.replace('Physical Surface("stiff") = {2};', "").replace(
+        '("soft") = {1}', '("soft") = {1, 2}'
+    )
+    case = f"body soft E 1000 {body}\nobstacle top plane 0 3 0 -1 {end}\n"
+    summary = part(tmp_path, geometry, case, "-order", 2).summary
+    assert summary["contacts"][0]["normalForce"] == pytest.approx(force, rel=1e-7)
+    found = summary["estimates"]["contacts"][0]["normalForce"]
+    assert abs(found["value"] - force) <= found["error"] < 1e-6 * force
+
+
+@pytest.mark.parametrize("order, geometry", [(1, "strain"), (2, "axisymmetric"), (3, "stress"), (4, "strain")])
+def test_forces_by_stresses(tmp_path, order, geometry):
+    """Forces by the stresses inside elements, straight and curved, are those of the stiffness matrix."""
+    case = f"state {geometry}\nbody ring E 1000 nu 0.3\nclamp inner\n"
+    case += "obstacle outer circle 0 0 R 1 inside move 0 -0.01\n"
+    (tmp_path / "a.case").write_text(case)
+    (tmp_path / "a.geo").write_text(data("truth/quarter-ring.geo"))
+    text = """include "edp/parts.edp"
+        real[int] u(ndof), byStresses(ndof);
+        for (int i = 0; i < ndof; i++) u[i] = sin(37. * i * i);
+        real[int] byMatrix = elasticStiffness * u, size = abs(byMatrix);
+        stressForces(u, byStresses);
+        byMatrix -= byStresses;
+        real[int] off = [byMatrix.linfty, size.linfty, stressCurved.n];
+        tell("off", off);
+    """
+    off = told(
+        snippet(
+            tmp_path,
+            text,
+            "-mesh",
+            "a.geo",
+            "-case",
+            "a.case",
+            "-order",
+            order,
+            "-estimate",
+            0,
+            "-vtu",
+            0,
+            "-out",
+            "out",
+        )
+    )
+    assert off["off"][1] > 1 and off["off"][0] < 1e-11 * off["off"][1] and (off["off"][2] > 0) == (order > 1)
+
+
+def test_too_stiff(tmp_path):
+    """Where nothing is left of the soft body's stiffness, the run says so."""
+    case = "body soft E 0.03 nu 0.25\nbody stiff E 1.5e13 nu 0.39\nsymmetry sides\nsymmetry sidesUp\nsymmetry base\n"
+    (tmp_path / "a.geo").write_text(data("truth/two-blocks.geo"))
+    (tmp_path / "a.case").write_text(case + "contact seat under\nobstacle top plane 0 2 0 -1 force 0 -3e-5\n")
+    files = ["-mesh", tmp_path / "a.geo", "-case", tmp_path / "a.case", "-vtu", "0", "-out", tmp_path / "out"]
+    code, stdout = execute([*FREEFEM, "edp/parts.edp", *files])
+    assert code == 20 and "too stiff for what carries it" in stdout
+
+
+def test_a_first_move_without_a_shape(tmp_path):
+    """The refusal names the line where the first move belongs."""
+    case = "body soft E 1 nu 0\nbody stiff E 1 nu 0\nsymmetry base\nobstacle top plane 0 3 0 -1\n"
+    case += "leg 1\nobstacle top move 0 -0.1\n"
+    (tmp_path / "a.geo").write_text(SOFT_AND_STIFF)
+    (tmp_path / "a.case").write_text(case)
+    files = ["-mesh", tmp_path / "a.geo", "-case", tmp_path / "a.case", "-out", tmp_path / "out"]
+    code, stdout = execute([*FREEFEM, "edp/parts.edp", *files])
+    assert code == 10 and "obstacle top: move without a shape; allowed: move behind the shape in line 4" in stdout
+
+
+def test_a_tie_that_carries_shear_alone(tmp_path):
+    """Its normal force is 0, and it carries."""
+    case = "body soft E 1000 nu 0\nbody stiff E 1000 nu 0\ntie seat under\nmove base 0 0\nmove top 0.001 0\n"
+    done = part(tmp_path, data("truth/two-blocks.geo"), case)
+    assert "carries nothing" not in done.stdout and re.search(r"shear force +0\.\d", done.stdout)
+
+
+def test_nearly_incompressible_bodies_ask_for_a_high_order(tmp_path):
+    """Where pressures are uncertain the advice is the order, as long as it can be raised."""
+    case = "body ring E 6 nu 0.49999999\nclamp inner\nobstacle outer plane 0 1 0 -1 move 0 -0.02\n"
+    geometry = data("truth/quarter-ring.geo")
+    low, high = (part(tmp_path / str(order), geometry, case, "-order", order).stdout for order in (2, 4))
+    assert "use -order 4, since a nu is near 0.5" in low and "raise -order" not in low
+    assert "use -order" not in high
+
+
+@pytest.mark.parametrize("group, cut", [(6, False), (7, True)])
+def test_slave_beyond_its_master(tmp_path, group, cut):
+    """A master that ends at an edge of its body needs no extension; one that ends within a flat side does."""
+    geometry = f"""SetFactory("OpenCASCADE");
+        Box(1) = {{0, 0, 0, 1, 1, 1}}; Box(3) = {{1, 0, 0, 1, 1, 1}};
+        BooleanFragments{{ Volume{{1}}; Delete; }}{{ Volume{{3}}; Delete; }}
+        Box(2) = {{-0.5, 0, 1.01, {2.0 if cut else 3.0}, 1, 1}};
+        e = 1e-4;
+        Physical Volume("low") = {{1, 3}}; Physical Volume("up") = {{2}};
+        Physical Surface("base") = Surface In BoundingBox{{-e, -e, -e, 2 + e, 1 + e, e}};
+        Physical Surface("seat") = Surface In BoundingBox{{-e, -e, 1 - e, {1 if cut else 2} + e, 1 + e, 1 + e}};
+        Physical Surface("under") = Surface In BoundingBox{{-1, -e, 1.01 - e, 3, 1 + e, 1.01 + e}};
+        Physical Surface("top") = Surface In BoundingBox{{-1, -e, 2.01 - e, 3, 1 + e, 2.01 + e}};
+        Mesh.MeshSizeMax = 0.5;"""
+    case = "body low E 1000 nu 0.3\nbody up E 1000 nu 0.3\ncontact under seat\nclamp base\nmove top 0 0 -0.02\n"
+    warnings = part(tmp_path, geometry, case, "-order", 1, "-estimate", 0, space=True).summary["warnings"]
+    assert any("extend the master" in text for text in warnings) == cut
+
+
+def pressed_rings(radii, hub, ring, interference):
+    """Lame's pressure between two rings in plane strain, and von Mises' stress of each at a radius."""
+    (a, b, c), (flex, flexes) = radii, [((1 + nu) / E, 1 - 2 * nu) for E, nu in (hub, ring)]
+    inward = flex[0] * b * (flex[1] * b**2 + a**2) / (b**2 - a**2)
+    outward = flexes[0] * b * (flexes[1] * b**2 + c**2) / (c**2 - b**2)
+    p = interference / (inward + outward)
+
+    def mises(body, r):
+        (mean, bend), nu = (
+            ((-p * b**2, -p * (a * b) ** 2), hub[1]) if body == "hub" else ((p * b**2, p * (b * c) ** 2), ring[1])
+        )
+        area = b**2 - a**2 if body == "hub" else c**2 - b**2
+        along, around = (mean - bend / r**2) / area, (mean + bend / r**2) / area
+        third = nu * (along + around)
+        return np.sqrt(((along - around) ** 2 + (around - third) ** 2 + (third - along) ** 2) / 2)
+
+    return p, mises
+
+
+@pytest.mark.parametrize("order, most", [(2, 0.02), (3, 5e-3), (4, 5e-6)])
+def test_stresses_beside_a_contact_about_an_axis(go, order, most):
+    """A stress at a contact feels what single edges of it do; together they do nothing."""
+    hub, ring = (200, 0.2), (5e5, 0.05)
+    case = f"state axisymmetric\nbody hub E {hub[0]} nu {hub[1]}\nbody ring E {ring[0]} nu {ring[1]}\n"
+    case += "contact shaft bore interference 0.05\nsymmetry floor\nsymmetry side\nstresses\n"
+    told = go(data("truth/two-rings.geo"), case, "-order", order)
+    mises = pressed_rings((8, 28, 35), hub, ring, 0.05)[1]
+    for one in told.summary["stresses"]:
+        true = mises(one["body"], one["at"][0])
+        assert abs(one["vonMises"] - true) <= one["error"] < most * true
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_a_pressure_between_parallel_symmetries_has_a_bound(go, space):
+    """Each of two planes of symmetry continues the bodies, and a uniform pressure ends at neither."""
+    hub, ring = (2e5, 0.3), (3e3, 0.2)
+    case = f"body hub E {hub[0]} nu {hub[1]}\nbody ring E {ring[0]} nu {ring[1]}\n"
+    case += "contact bore shaft interference 5e-5\n" + "".join(f"symmetry {name}\n" for name in ("floor", "side"))
+    if space:
+        told = go(data("truth/sector-of-rings.geo"), case + "symmetry low\nsymmetry high\n", space=True)
+    else:
+        told = go(
+            re.sub("few = {8}", "few = {2}", data("truth/two-rings.geo")), "state axisymmetric\n" + case, "-order", 1
+        )
+    true = pressed_rings((0.11, 0.18, 0.25) if space else (8, 28, 35), hub, ring, 5e-5)[0]
+    value, error = told.numbers["contacts.0.pressureMax"]
+    assert abs(value - true) <= error < 0.2 * true and not told.warnings
+
+
+@pytest.mark.parametrize("names", [("far", "near"), ("near", "far")])
+def test_a_force_across_the_second_of_parallel_symmetries(go, names):
+    """The image takes back what is across the plane that the contact reaches, whatever their order."""
+    sketch = Sketch(Draw())
+    (low, near, top, far), _ = sketch.outline([(-2, 0, 0.5), (2, 0, 0.3), (2, 2, 0.1), (-2, 2, 0.5)])
+    sketch.body("block", [low, near, top, far])
+    case = "body block E 1000 nu 0.3\nobstacle top circle 2 4.98 R 3\nclamp low\n"
+    case += f"symmetry {names[0]}\nsymmetry {names[1]}\n"
+    (contact,) = go(sketch.named(low=[low], near=[near], top=[top], far=[far]), case, "-order", 1).summary["contacts"]
+    assert contact["force"][0] == 0 and contact["force"][1] < -5
+    assert contact["across"] == ["near"]
+
+
+def test_a_sector_that_no_symmetry_holds(go):
+    """The parts of a press fit push each other away until points touch without a force: said, with no number for it."""
+    case = "body hub E 2e5 nu 0.3\nbody ring E 1e5 nu 0.2\ncontact shaft bore interference 1e-2\n"
+    told = go(data("truth/turned-rings.geo"), case)
+    assert told.summary["contacts"][0]["normalForce"] == 0 and "shaft bore touches, but carries nothing" in told.stdout
+    assert "nothing presses on anything" in told.warnings

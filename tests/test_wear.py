@@ -53,6 +53,15 @@ def test_column(tmp_path):
     assert rows(run)["depth"] == pytest.approx(0.02 - left[-1], abs=1e-11)
     assert run.contact["pressure"] == pytest.approx(stiffness * left[-1], rel=1e-7)
     assert (run.contact["status"] == 2).all()  # hard contact on the worn profile
+    # the force that is left, whose steps are as wrong as the depth's of what remains
+    left = 3 * stiffness * 0.02 * np.exp(-k * slide * cycles * stiffness)
+    force = worn(run)["normalForce"]
+    assert abs(force["value"] - left) < force["error"] and force["value"] == pytest.approx(
+        run.contact["pressure"][0] * 3
+    )
+    (line,) = (line for line in run.stdout.splitlines() if "normal force  " in line)
+    assert "by the wear steps" in line and ("error not known" in line or " ± " in line)
+    assert any("raise the number of steps after cycles" in text for text in run.summary["warnings"])
     limit = 0.02 * (1 - np.exp(-k * slide * cycles * stiffness))
     assert abs(worn(run)["depth"]["value"] - limit) < worn(run)["depth"]["error"] < 0.1 * limit
     assert run.summary["factorisations"] == 1 and run.summary["newton"] <= 3 * steps
@@ -242,8 +251,9 @@ def test_combinations(tmp_path, case, flags, words):
 @pytest.mark.parametrize(
     "row, words",
     cases_of(
-        [("0,0,1.5,2,0,x", "allowed: worn.csv of a run")],
+        [("0,0,1.5,2,0,x", "allowed: worn.csv of a run"), ("0,0,1.5,2,0,-1e-3", "line 2: depth -0.001: ")],
         [
+            ("0,0,1.5,2,0,-1e-3", "line 2: depth -0.001: "),
             ("0,0,1.5,2,0,x", "allowed: worn.csv of a run"),
             ("0,0,1.5,2,0", "line 2: not six numbers"),
             ("0,0,1.5,2,0,1,7", "allowed: worn.csv of a run"),

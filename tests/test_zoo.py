@@ -5,7 +5,9 @@ The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a f
 
 import os
 import re
+import shutil
 import subprocess
+import time
 
 import numpy as np
 import pytest
@@ -318,3 +320,170 @@ def test_ties_beside_contacts(tmp_path):
     assert 300 < found[0] < found[1] / 3
     # and of the two only the tie has shears
     assert part(tmp_path / "2", stack, bodies + contact, "-estimate", 0).stdout.count("shear force") == 1
+
+
+# ---------------------------------------------------------------- sizes of a case beside those of a geometry
+
+
+SHIPPED = [path for path in sorted(ROOT.glob("edp/*/*/*.geo")) if path.with_suffix(".case").exists()]
+
+
+def count(folder, mesh, case, space=0):
+    """How many elements the reader makes: triangles, in space tetrahedra."""
+    (folder / "a.case").write_text(case)
+    out = folder / "read"
+    words = [str(os.getpid()), mesh, out, folder / "a.case", str(space), "solve", ""]
+    done = subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], timeout=60, capture_output=True, text=True)
+    assert done.returncode == 0, (done.stdout, (out / "why").read_text())
+    rows = [row.split() for row in (out / "mesh.msh").read_text().splitlines()]
+    subprocess.run(["rm", "-r", out], check=True)
+    return sum(len(row) > 5 and row[1] == str(2 + 2 * space) for row in rows[rows.index(["$Elements"]) :])
+
+
+@pytest.mark.parametrize("geo", SHIPPED, ids=lambda path: path.stem)
+def test_shipped_geometries_take_sizes(tmp_path, geo):
+    """Each geometry of the package, with fields of its own or without, takes a size of a case."""
+    rows = [row.split() for row in geo.with_suffix(".case").read_text().splitlines() if row.strip()]
+    case = "".join(f"{' '.join(row)}\n" for row in rows if row[0] in ("group", "state"))
+    case += "".join(f"body {row[1]} E 1 nu 0\n" for row in rows if row[0] == "body")
+    first = next(row for row in rows if row[0] in ("contact", "obstacle", "tie"))
+    space = int("Physical Volume" in geo.read_text())
+    place = "plane 0 0 0 1 0 0" if space else "plane 0 0 1 0"
+    case += f"contact {first[1]} {first[2]}\n" if first[0] != "obstacle" else f"obstacle {first[1]} {place}\n"
+    assert count(tmp_path, geo, case + f"size {first[1]} {1 + 4 * space}\n", space) > 20
+
+
+STAMP = """Point(1) = {0, -20, 0, 1}; Point(2) = {20, -20, 0, 1}; Point(3) = {20, 0, 0, 1}; Point(4) = {0, 0, 0, 1};
+For k In {1:4}
+Line(k) = {k, k % 4 + 1};
+EndFor
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("top") = {3};
+"""
+FIELD = 'Field[{0}] = MathEval; Field[{0}].F = "1"; Background Field = {0}; Mesh.MeshSizeFromPoints = 0;\n'
+
+
+@pytest.mark.parametrize("field, name", [(0, "top"), (1, "top"), (3, "contact"), (99999, "contact")])
+def test_sizes_beside_own(tmp_path, field, name):
+    """A named size is taken beside sizes of points or a field of any number; what is not named keeps its size."""
+    (tmp_path / "a.geo").write_text(STAMP + (FIELD.format(field) if field else ""))
+    case = f"size {name} 0.2\nbody block E 1 nu 0\nclamp base\nobstacle top circle 10 5 5 move 0 -1\n"
+    (tmp_path / "a.case").write_text(case)
+    words = [str(os.getpid()), tmp_path / "a.geo", tmp_path / "read", tmp_path / "a.case", "0", "solve", ""]
+    subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], timeout=60, check=True)
+    rows = [row.split() for row in (tmp_path / "read/mesh.msh").read_text().splitlines()]
+    first = rows.index(["$Nodes"]) + 2
+    at = 1e-6 * np.array([row[1:3] for row in rows[first : first + int(rows[first - 1][0])]], float)
+    ends = np.array([row[-2:] for row in rows[rows.index(["$Elements"]) + 2 : -1] if row[1] == "1"], int) - 1
+    middle, length = at[ends].mean(axis=1), np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1)
+    base, near = middle[:, 1] < -19.99, (abs(middle[:, 1]) < 0.01) & (abs(middle[:, 0] - 10) < 0.5)
+    assert base.sum() == 20 and length[near].max() < 0.25
+
+
+def test_coarser_than_points(tmp_path):
+    """A size on a group counts where the geometry's points say a smaller one."""
+    (tmp_path / "a.geo").write_text(STAMP)
+    case = "size block 4\nbody block E 1 nu 0\nclamp base\nobstacle top circle 10 5 5 move 0 -1\n"
+    assert count(tmp_path, tmp_path / "a.geo", case) < 100
+
+
+OWN_WAYS = ["Mesh.MshFileVersion = 2.2; Mesh.SaveAll = 1;", "Mesh.MshFileVersion = 4.1; Mesh.Binary = 1;"]
+
+
+@pytest.mark.parametrize("own", OWN_WAYS, ids=["old", "binary"])
+def test_geometry_that_meshes_itself(tmp_path, own):
+    """A .geo file that ends with Mesh 3 and options of its own for a file takes sizes of the case as any other."""
+    geo, case = tmp_path / "a.geo", "body block E 1 nu 0\nclamp foot\nobstacle top sphere 2 2 5 R 3 move 0 0 -1\n"
+    text = BOXES.partition("Box(2)")[0] + 'Physical Volume("block") = {1}; Physical Surface("foot") = {5};\n'
+    text += 'Physical Surface("top") = {6}; Mesh.MeshSizeMax = 2;\n'
+    geo.write_text(text + "Mesh 3;\n" + own + "\n")
+    found = [count(tmp_path, geo, size + case, 1) for size in ("", "size top 0.5\n")]
+    geo.write_text(text)
+    assert found == [count(tmp_path, geo, size + case, 1) for size in ("", "size top 0.5\n")]
+    assert found[1] != found[0]
+
+
+SETS = """*NODE, NSET=all
+1, 0, 0, 0
+2, 1, 0, 0
+3, 0, 1, 0
+4, 0, 0, 1
+5, 2, 2, 2
+*ELEMENT, TYPE=C3D4, ELSET=block
+1, 1, 2, 3, 4
+2, 2, 3, 4, 5
+*NSET, NSET=foot
+1, 2, 3
+*SURFACE, NAME=face
+1, S1
+block, S2
+"""
+
+
+def test_sets_without_a_case(tmp_path):
+    """-check 1 lists the sets of an .inp file, with their sizes and places; what is no mesh is refused."""
+    (tmp_path / "a.inp").write_text(SETS)
+    command = [*FREEFEM, "edp/parts-3d.edp", "-check", 1, "-out", tmp_path / "out", "-mesh"]
+    code, said = execute([*command, tmp_path / "a.inp"])
+    rows = [line.split(maxsplit=3) for line in said.splitlines() if re.match("body|nodes|surface", line)]
+    whole = "(0, 0, 0) to (2, 2, 2)"
+    right = [["body", "block", "2", whole], ["nodes", "all", "5", whole]]
+    right += [["nodes", "foot", "3", "(0, 0, 0) to (1, 1, 0)"], ["surface", "face", "3", whole]]
+    assert code == 0 and sorted(rows) == right and not (tmp_path / "out").exists()
+    (tmp_path / "b.inp").write_text(SETS.partition("*ELEMENT")[0])
+    code, said = execute([*command, tmp_path / "b.inp"])
+    assert code == 10 and "no *ELEMENT of a body" in said
+
+
+def test_unv(tmp_path):
+    """A file of another format that gmsh knows is read; without faces that have numbers none are listed."""
+    text = BOXES.partition("Box(2)")[0] + 'Physical Volume("block") = {1}; Physical Surface("foot") = {5};\n'
+    mesh = gmsh(tmp_path, "a.unv", text, "-3", "-format", "unv")
+    case = "body block E 1 nu 0\nobstacle foot plane 0 0 -0.01 0 0 1\n"
+    assert count(tmp_path, mesh, case, 1) > 20
+    code, said = execute([*FREEFEM, "edp/parts-3d.edp", "-check", 1, "-out", tmp_path / "out", "-mesh", mesh])
+    assert code == 10 and "no bodies with faces" in said and "e+300" not in said
+
+
+@pytest.mark.parametrize("said, end", [("", "killed"), ("Error   : it goes on for ever", "error")])
+def test_gmsh_is_ended(tmp_path, said, end):
+    """A gmsh that does not end is ended by its first error, and when its run has been killed."""
+    (tmp_path / "gmsh").write_text(f"#!/bin/sh\necho $$ > {tmp_path}/process\necho '{said}'\nexec sleep 60\n")
+    (tmp_path / "gmsh").chmod(0o755)
+    (tmp_path / "a.geo").write_text(STAMP)
+    (tmp_path / "a.case").write_text("size top 1\nbody block E 1 nu 0\nobstacle top circle 10 5 5\n")
+    run = subprocess.Popen(["sleep", "60"])
+    words = [str(run.pid), tmp_path / "a.geo", tmp_path / "read", tmp_path / "a.case", "0", "solve", ""]
+    environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    reader = subprocess.Popen(["sh", ROOT / "edp/bodies/readable.sh", *words], env=environment)
+    try:
+        if end == "killed":
+            while not (tmp_path / "process").exists():
+                time.sleep(0.05)
+            run.kill()
+            run.wait()
+        assert reader.wait(timeout=20) == (130 if end == "killed" else 1)
+        if end == "error":
+            assert "it goes on for ever" in (tmp_path / "read/why").read_text()
+        number = (tmp_path / "process").read_text().strip()
+        assert not os.path.exists(f"/proc/{number}")
+    finally:
+        run.kill()
+        run.wait()
+
+
+def test_without_gmsh_or_room(tmp_path):
+    """Without gmsh the refusal names gmsh, no geometry; a limit of the size of files is no full disk alone."""
+    for name in (
+        "sh",
+        "awk",
+        "FreeFem++",
+        *"sed grep cksum tr cat head tail date dirname rm mkdir test wc dd sleep env".split(),
+    ):
+        (tmp_path / name).symlink_to(shutil.which(name))
+    (tmp_path / "a.geo").write_text(STAMP)
+    command = f"{' '.join(FREEFEM)} edp/parts.edp -mesh {tmp_path}/a.geo -check 1 -out {tmp_path}/out"
+    limited = ("ulimit -f 1;", "ulimit -f too small", 30)
+    for before, word, code in ((f"PATH={tmp_path}", "apt install gmsh), or a mesh", 10), limited):
+        done = subprocess.run(["sh", "-c", f"{before} {command}"], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == code and word in done.stdout and "(.geo" not in done.stdout, done.stdout

@@ -17,7 +17,7 @@ read=${TMPDIR:-/tmp}/faces-$1-$(date +%s)
 sh "$here/readable.sh" "$1" "$2" "$read" none "$4" check "$5"
 code=$?
 if test $code = 5; then
-    echo "out of disk: ${read%/*} is full; allowed: room there, or another folder, named by the variable TMPDIR"
+    echo "out of disk: ${read%/*} is full, or ulimit -f too small; allowed: room there, or another folder, named by the variable TMPDIR"
     rm -rf "$read"
     exit 30
 fi
@@ -26,6 +26,12 @@ if test $code != 4; then
         || echo "; allowed: a geometry (.geo, .step, .iges, .brep), or a mesh of gmsh's with numbers of faces")"
     rm -rf "$read"
     exit 10
+fi
+if test ! -s "$read/faces"; then
+    cat "$read/table"
+    rm -rf "$read"
+    echo "checked: the mesh alone; no case file was given"
+    exit
 fi
 if ! sh "$here/../case/folder.sh" "$1" open "$3"; then
     echo "-out ${3%/check}: not writable, or in use; allowed: a folder that can be written"

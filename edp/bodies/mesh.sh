@@ -5,8 +5,9 @@
 # Gives: MESH, whole and not older than any geometry, whoever else makes it meanwhile; in its $Comments "Gmsh" and gmsh's version; in a
 #        folder with a file .shared also MESH.of, the geometries' checksum, for there they may be another copy's of the package.
 # Exit codes: 0 done, 3 no gmsh, 4 no place to write, 5 gmsh failed, 6 no room, 130 interrupted.
-# gmsh's own exit code means little: what it wrote is looked at, then moved into place. It ends with its run, however that ends.
+# gmsh's own exit code means little: what it wrote is looked at, then moved into place.
 . "${programs:-${0%/*}/..}/case/process.sh"
+. "${programs:-${0%/*}/..}/bodies/watched.sh"
 run=$1
 mesh=$2
 geo=$3
@@ -30,27 +31,15 @@ for left in "$work"-*; do                   # of a run that was killed
 done
 work=$work-$run
 gmsh=
-trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; rm -rf "$work"; exit 130' HUP INT TERM
+trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; exit 130' HUP INT TERM
 mkdir "$work" 2> /dev/null || exit 4
+trap 'rm -rf "$work"' EXIT
 # gmsh moves points by a part of the whole for its first triangles: on a fine curve it may leave one between three points of the curve
 for part in "" 1e-11; do
-    gmsh "$@" ${part:+-setnumber Mesh.RandomFactor $part} -v 4 "$geo" ${AFTER:+"$AFTER"} -o "$work/gmsh.msh" > "$work/log" 2>&1 &
-    gmsh=$!
-    (
-        exec 3>&1 > /dev/null 2>&1
-        seconds=0
-        while sleep 1 3>&-; do
-            test -n "$(started "$run")" || break
-            seconds=$((seconds + 1))
-            test $seconds != 5 || test -n "$part" || test "$expected" = - \
-                || echo "gmsh meshes ${geo##*/}${expected:+: about $expected elements expected} ..." >&3
-        done
-        kill "$gmsh"
-    ) &
-    watch=$!
-    wait "$gmsh" 2> /dev/null
-    kill "$watch" 2> /dev/null
-    gmsh=
+    what="${geo##*/}${expected:+: about $expected elements expected}"
+    test -z "$part" && test "$expected" != - || what=-
+    watched "$work/log" "$what" "$@" ${part:+-setnumber Mesh.RandomFactor $part} -v 4 \
+        "$geo" ${AFTER:+"$AFTER"} "${programs:-${0%/*}/..}/bodies/format.geo" -o "$work/gmsh.msh"
     awk 'sub(/.*worst gamma = /, "") { flat = $1 < 1e-8 } END { exit !flat }' "$work/log" || break
 done
 if grep -q '^2.2 0 8' "$work/gmsh.msh" 2> /dev/null && grep -q PhysicalNames "$work/gmsh.msh" && ! grep -q ^Error "$work/log" \
@@ -69,5 +58,4 @@ else
     code=5
     dd if=/dev/zero of="$work/room" bs=1024 count=1024 2> /dev/null || code=6
 fi
-rm -rf "$work"
 exit $code

@@ -11,6 +11,7 @@
 # Exit codes: 0 done, 1 refused: FOLDER/why has one line, 2 FOLDER cannot be made, 3 the case file is refused, 4 only FOLDER/faces,
 #        5 no room for FOLDER.
 . "${0%/*}/../case/process.sh"
+. "${0%/*}/watched.sh"
 run=$1
 file=$2
 case $file in -*) file=./$file ;; esac
@@ -21,8 +22,10 @@ space=$5
 as=$6
 SETS=${7-}
 surface=${8-}
-flat="-2 -order 2 -setnumber Mesh.SaveAll 1"
+flat="-2 -order 2 -setnumber everything_ 1"
 meshes=${0%/*}/../../meshes
+gmsh=
+trap 'test -z "$gmsh" || kill "$gmsh" 2> /dev/null; exit 130' HUP INT TERM
 (umask 077 && mkdir "$folder") 2> /dev/null || { test -d "${folder%/*}" && test -w "${folder%/*}" && exit 5; exit 2; }
 (
     trap '' HUP INT TERM
@@ -44,6 +47,7 @@ no() {
     exit "${2:-1}"
 }
 
+noGmsh="; allowed: gmsh there (Debian: apt install gmsh), or a mesh in gmsh's version 2 text format"
 plane="the mesh is plane, it has no volumes: use edp/parts.edp"
 test -d "$file" && no "a folder, no mesh"
 test -f "$file" || no "no file: a pipe or a device"
@@ -74,6 +78,7 @@ after=
 finer="mesh with smaller elements"
 # in the plane the elements on all curves, with their numbers: gmsh would leave out those that have no name; and their middles
 every=${0%/*}/every-curve.geo
+format=${0%/*}/format.geo
 # a name with = would be an assignment to awk
 case $case_ in none) path=/dev/null ;; /*) path=$case_ ;; *) path=./$case_ ;; esac
 import=
@@ -85,6 +90,11 @@ case $kind in
     step | stp | brep | iges | igs) cad=1 ;;
     inp)
         overlap=1
+        if test "$case_" = none; then
+            LISTED=1 SPACE=$space awk -f "$meshes/inp.awk" "$path" "$file" > "$folder/table" 2> "$folder/log" || no "$(tail -n 1 "$folder/table")"
+            room 1
+            exit 4
+        fi
         SPACE=$space awk -f "$meshes/inp.awk" "$path" "$file" > "$folder/inp.msh" 2> "$folder/log" || no "$(tail -n 1 "$folder/inp.msh")"
         file=$folder/inp.msh ;;
     geo)
@@ -151,10 +161,30 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     meshed=0
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
     case $kind in geo) ;; *) if test $cad = 1; then way="$way -setnumber Mesh.MeshSizeFromCurvature 24"; else way=-save meshed=1; fi ;; esac
+    unrolled=$folder/unrolled.geo
+    # shapes that this format lacks are left out with an error, which says nothing about the geometry
+    test $meshed = 1 && : > "$unrolled" || cat > "$unrolled" << 'EOF'
+General.Verbosity = 0;
+Mesh.Format = 10;
+Save "whole.geo_unrolled";
+General.Verbosity = 4;
+Mesh.Format = 1;
+Mesh.MshFileVersion = 4.1;
+Mesh.SaveAll = 1;
+Mesh.Binary = 0;
+EOF
+    anew=$folder/anew.geo
+    : > "$anew"
     outline() {
         rm -f "$folder/outline.msh"
-        gmsh $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import "$file" "$folder/apart.geo" "${0%/*}/outline.geo" "$closer" \
-            -o "$folder/outline.msh" > "$folder/log" 2>&1 < /dev/null
+        watched "$folder/log" "an outline of ${file##*/}" $way -v 4 -format msh41 -setnumber Mesh.SaveAll 1 $SETS $import \
+            "$file" "$folder/apart.geo" "$unrolled" "${0%/*}/outline.geo" "$closer" "$anew" -o "$folder/outline.msh"
+        # a geometry that meshes itself while it is read
+        if test $meshed = 0 && ! test -s "$anew" && sed "/^Info *: Reading .*unrolled.geo'/q" "$folder/log" | grep -q '^Info *: Meshing [123]D'; then
+            echo 'Mesh 1;' > "$anew"
+            outline
+            return
+        fi
         ! test -s "$folder/apart.geo" || ! grep -q '^Error' "$folder/log" || no "-case $case_: bodies of it cannot be cut, joined or taken apart: $(complaint "$folder/log"); allowed: a STEP or BREP file, or a .geo file with SetFactory(\"OpenCASCADE\")" 3
         stopped "$folder/log"
         grep '^piece ' "$folder/log" > "$folder/pieces"
@@ -167,10 +197,10 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     test "$as" != check || table=$folder/table
     pick() {
         PICKS=${1-} SPACE=$space CASE=$case_ CAD=$cad MESHED=$meshed APART=$folder/apart.geo KEPT=$folder/kept PARENTS=$folder/pieces \
-            LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch CLOSER=$asks \
+            LEFT=$folder/left FACES=$folder/faces TABLE=$table TOUCH=$folder/touch CLOSER=$asks WHOLE=$folder/whole.geo_unrolled \
             awk -f "$meshes/pick.awk" -f "$meshes/near.awk" -f "$meshes/cad.awk" -f "$meshes/kinds.awk" -f "$meshes/touch.awk" < "$folder/outline.msh" > "$picked" 2> "$folder/log"
     }
-    command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH"
+    command -v gmsh > /dev/null || no "gmsh, which reads it, is not on the PATH$noGmsh"
     listBodies() {
         bodies=$(awk -v d=$((2 + space)) '/^\$/ { s = $1; row = 0; next }
             s == "$Entities" { if (++row == 1) { for (k = 1; k <= d; k++) from += $k; to = from + $(d + 1) }
@@ -189,6 +219,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     fi
     if test "$case_" = none; then
         pick || no "its faces cannot be listed"
+        ! grep -q '1e+300' "$table" || no "gmsh reads no bodies with faces out of it"
         room 1
         exit 4
     fi
@@ -212,7 +243,7 @@ if test -z "$again" && { test $cad = 1 || { test "$as" = check && command -v gms
     test $code != 4 || no "-case $case_: bodies that share a face with two others cannot be taken apart; allowed: apart in the geometry" 3
     test $code != 1 || no "$(tail -n 1 "$picked")" 3
     test $code = 0 || no "-case $case_: its groups cannot be picked: $(head -n 1 "$folder/log")" 3
-    { cat "$folder/apart.geo" "$picked"; test "$space" = 1 || cat "$every"; } > "$folder/after.geo"
+    { cat "$folder/apart.geo" "$picked"; ! grep -qE '^(size|cut|join)' "$folder/picks" || cat "$anew"; test "$space" = 1 || cat "$every"; } > "$folder/after.geo"
     picked=$folder/after.geo
     # what picks nothing is taken as it is
     test $cad = 1 || grep -qE '^(group|size|cut|join)' "$folder/picks" || picked=
@@ -242,12 +273,14 @@ case $kind in geo | step | stp | brep | iges | igs)
 esac
 # the second line of gmsh's format: version, 0 for text or 1 for binary, size of a real
 case $(head -c 200 "$file" | tr -d '\r\000' | sed -n '1{/^\$MeshFormat/!q};2{p;q}') in 4* | 2*" 1 "*) how=-save ;; esac
+# formats of others, which gmsh knows by their names
+case $kind in msh | inp | geo) ;; *) test "$file" != "$2" || how=${how:--save} ;; esac
 if test -n "$how"; then
-    command -v gmsh > /dev/null || no "not gmsh's version 2 text format, and gmsh, which would convert it, is not on the PATH"
-    gmsh "$how" $order -v 4 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/converted.msh" > "$folder/log" 2>&1 < /dev/null
+    command -v gmsh > /dev/null || no "gmsh, which would read it, is not on the PATH$noGmsh"
+    watched "$folder/log" "${file##*/}" "$how" $order -v 4 -format msh22 $SETS $import "$file" ${after:+"$after"} "$format" -o "$folder/converted.msh"
     stopped "$folder/log"
     test -s "$folder/converted.msh" || no "gmsh makes no mesh of it"
-    test "$how" != -3 || gmsh $flat -v 1 -format msh22 $SETS $import "$file" ${after:+"$after"} -o "$folder/surface.msh" > "$folder/log2" 2>&1 < /dev/null
+    test "$how" != -3 || watched "$folder/log2" - $flat -v 1 -format msh22 $SETS $import "$file" ${after:+"$after"} "$format" -o "$folder/surface.msh"
     test ! -s "$folder/surface.msh" || surface=$folder/surface.msh
     test "$how" = -save || sed -n '1s/.*\[Gmsh \([^],]*\).*/\1/p' "$folder/log" > "$folder/gmsh"
     file=$folder/converted.msh

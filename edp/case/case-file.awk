@@ -127,6 +127,9 @@ function readObstacle(   g, k, v, f, wear, shape, load, law, next_, over, rest) 
   over = 0
   g = group(dim - 1)
   if (legs > 1 && at < words && word[at + 1] == "move") { moveObstacle(g); return }
+  if (at < words && word[at + 1] ~ /^(move|force|law|friction|wear)$/)
+    no("obstacle " word[2] ": " word[at + 1] " without a shape; allowed: " (obstacles[g] ? word[at + 1] " behind the shape in line " \
+      seen[obstacleKey[g]] (word[at + 1] == "move" ? ", where that of the first leg stands" : "") : "a shape before it, as " example["obstacle"]))
   shape = readShape(v)
   load = law = "none"
   while (at < words) {

@@ -93,7 +93,7 @@ function scene(   e, R) {
   if (v[".pressureMax"] == 0) return
   e = error(".estimates.pressureMax")
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
-  worse(e, v[".pressureMax"], "greatest pressure", "raise -order, or refine at the contact (-h)")
+  worse(e, v[".pressureMax"], "greatest pressure", pointwise() ? "use -points segment" : "raise -order, or refine at the contact (-h)")
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
   else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
   if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
@@ -102,6 +102,7 @@ function scene(   e, R) {
   if (v[".force"] != 0 && size(R - v[".force"]) < 1e-4 * size(v[".force"]))
     print "  balance: contact force + support reaction = 0 (to " digits(size(R / v[".force"] - 1), 1) ")"
 }
+function pointwise() { return v[".parameters.points"] == "nodal" }   # between meshes that do not match averages are better
 function friction(c,   p, k, x, m, s) {
   p = ".contacts." c
   if (!known(p ".stickShare") || v[".friction"] == 0 && !known(p ".tied")) return
@@ -112,46 +113,60 @@ function friction(c,   p, k, x, m, s) {
   if (v[p ".tied"] == "false" && x == 0 && v[p ".stickShare"] == 0) return   # no friction, beside a tie
   if (!owned) print "  friction"
   twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0))
-  result("  sticking part", 100 * v[p ".stickShare"], 0, "%", "of the contact")
+  twofold("sticking part", 100 * v[p ".stickShare"], percents(p ".mesh.stickShare"), percents(p ".loadSteps.stickShare"), "%", "of the contact")
   twofold("dissipated", v[p ".dissipated"], -1, error(p ".loadSteps.dissipated"), "", "")
   if (known(p ".mesh.dissipatedLastStep.value"))
     twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", \
       v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "")
 }
+# three digits of x, or fewer by its error: of the mesh, which may have a greater one, none is known
+function few(x, e) { return x != 0 && e < 10 ^ (exponent(size(x)) - 1) ? leading(x) : shown(x, e) }
+function percents(path,   e) {
+  e = error(path)
+  return e < 0 ? e : 100 * e
+}
 function twofold(name, x, mesh, steps, unit, note,   e) {  # two errors, of the mesh and of the load steps
   e = bounded(x, mesh > steps ? mesh : steps)
-  put(sprintf("    %-24s %14s%s%s %s %s", name, exceeds(x, e) ? digits(x, 2) : shown(x, e), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
+  put(sprintf("    %-24s %14s%s%s %s %s", name, exceeds(x, e) ? digits(x, 2) : (mesh < 0 && steps >= 0 ? few(x, e) : shown(x, e)), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
 function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   p = ".contacts." c
   q = ".estimates.contacts." c
-  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] < 1e-12 * mostForce ? " touches, but carries nothing" : "")
-  print "  contact " v[p ".name"] note
-  if (note != "") return
   F = 0
   for (k = 0; k < count[p ".force"]; k++) F += v[p ".force." k] ^ 2
   F = sqrt(F)
+  note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] <= 1e-12 * mostForce && F <= 1e-12 * mostForce ? " touches, but carries nothing" : "")
+  print "  contact " v[p ".name"] note
+  if (note != "") return
   balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
-  e = error(q ".force")
+  e = ofWear(c, error(q ".force"), "normalForce")
   across = ""
   for (k = 0; k < count[p ".across"]; k++) across = across (k ? ", " : "without its part across ") "symmetry " v[p ".across." k]
   note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? (exceeds(F, e) && !balanced ? doubted(F, e) : "± " digits(e, 2) (balanced ? "" : " " percent(e, F))) : unknown(e))
   put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(note, across)))
   little = v[p ".normalForce"] < 1e-3 * mostForce
-  if (!balanced && !little) worse(e, F, "force of " v[p ".name"])
-  e = error(q ".normalForce")
-  result("  normal force", v[p ".normalForce"], e, force, unknown(e))
-  if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"])
-  e = error(q ".pressureMax")
-  result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(unknown(e), peak[c]))
+  if (!balanced && !little) worse(e, F, "force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
+  e = ofWear(c, error(q ".normalForce"), "normalForce")
+  result("  normal force", (size(v[p ".normalForce"]) < 1e-12 * F ? 0 : v[p ".normalForce"]), e, force, also(unknown(e), bySteps))
+  if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
+  e = ofWear(c, error(q ".pressureMax"), "pressureMax")
+  result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(also(unknown(e), bySteps), peak[c]))
   if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
-    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : known(p ".refine") ? v[p ".refine"] : "raise -order, or refine at the contact (size contact)")
+    4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : bySteps != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : \
+    pointwise() && known(p ".master") ? "use -points segment" : "raise -order, or refine at the contact (size contact)")
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
   result(dimension == 3 ? "  contact area" : "  contact length", x, e, unit, also(unknown(e), v[p ".contactPoints"] " of " v[p ".points"] " points"))
   friction(c)
+}
+function ofWear(c, e, key) {                  # the error e, or where wear is followed that of its steps
+  bySteps = ""
+  if (e >= 0 || !(v[".wear.contacts." c ".coefficient"] > 0)) return e
+  e = error(".wear.contacts." c "." key)
+  bySteps = e >= 0 ? "by the wear steps" : "error not known"
+  return e
 }
 function worn(c,   p, unit, left) {
   p = ".wear.contacts." c
@@ -163,7 +178,7 @@ function worn(c,   p, unit, left) {
 }
 function wornRow(name, path, unit, left,   e) {
   e = error(path)
-  put(sprintf("    %-24s %14s%s %s  %s", name, shown(v[path ".value"], e), e >= 0 ? " ± " off(v[path ".value"], e) " (wear steps)" : "", unit, \
+  put(sprintf("    %-24s %14s%s %s  %s", name, e >= 0 ? few(v[path ".value"], e) : shown(v[path ".value"], e), e >= 0 ? " ± " off(v[path ".value"], e) " (wear steps)" : "", unit, \
     e >= 0 ? left : "error not known"))
 }
 function stresses(   k, p, e, unit) {
@@ -266,7 +281,7 @@ function own(   k, p, e, word, times, j, with) {
 function plastic(   k, p, c, s, unit) {     # bodies that yield: of the mesh no error is known
   if (v[".plastic.yielded"] != "true") { print "  no body yields: the results are elastic ones"; return }
   unit = v[".units.0"] (known(".units.0") ? (v[".state"] == "axisymmetric" ? "^3" : "^2") : "")
-  print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations"
+  print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations: the error of the mesh is not known"
   for (k = 0; k < count[".plastic.bodies"]; k++) {
     p = ".plastic.bodies." k
     twofold("greatest of " v[p ".body"], v[p ".strainMax"], -1, known(p ".strainMaxError") ? v[p ".strainMaxError"] : -1, "", "at " vector(p ".at", 2, 0))

@@ -7,6 +7,7 @@ eye is where the picture's is. `Label` has the names of a case's bodies and grou
 """
 
 import argparse
+from pathlib import Path
 
 import numpy as np
 
@@ -91,7 +92,7 @@ def run(arguments: argparse.Namespace) -> None:
     text = state(bodies, units_of(chosen, arguments.units), arguments.view)
     if not arguments.out:
         enter(chosen.path, ["paraview.py", "paraview.png"])
-    for path in write_files({chosen.path / "paraview.py" if not arguments.out else arguments.out: text.encode()}):
+    for path in write_files({Path(arguments.out or chosen.path / "paraview.py"): text.encode()}):
         print(path)
 
 

@@ -1,0 +1,14 @@
+Point(1) = {0, 0, 0, 0.4};
+Point(2) = {0.5, 0, 0, 0.4};
+Point(3) = {1, 0, 0, 0.4};
+Point(4) = {0, 1, 0, 0.4};
+Point(5) = {0, 0.5, 0, 0.4};
+Line(1) = {2, 3};
+Circle(2) = {3, 1, 4};
+Line(3) = {4, 5};
+Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Physical Surface("ring") = {1};
+Physical Curve("outer") = {2};
+Physical Curve("inner") = {4};
