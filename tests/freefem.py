@@ -191,7 +191,7 @@ def execute(command, cwd=ROOT, env=None):
         timeout=TIMEOUT,
     )
     stdout = done.stdout.decode(errors="replace").replace(PLUGIN_SAYS, "", 1)
-    return done.returncode, re.sub(r"^gmsh meshes .* \.\.\.\n", "", stdout, flags=re.M)
+    return done.returncode, re.sub(r"^gmsh (meshes|has been at work on) .*\n", "", stdout, flags=re.M)
 
 
 @shared
