@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 from math import cos, pi, sin
 
@@ -105,7 +106,9 @@ def test_bars_that_expand(tmp_path):
 def test_open_gap(tmp_path):
     """Where nothing touches nothing shall be conducted: each bar has its own temperature."""
     case = f"{SOFT}contact face foot conductance 0.5\n{HELD}move top 0 0.1\nfilm top 2 1\n"
-    heat = solve(tmp_path, BARS, case, "-set", "n", 3)["heat"]
+    summary = solve(tmp_path, BARS, case, "-set", "n", 3)
+    heat = summary["heat"]
+    assert not any("rounding" in text for text in summary["warnings"])
     assert heat["contacts"] == [{"name": "face foot", "heat": 0, "conductance": 0, "jump": None}]
     assert [(body["least"], body["greatest"]) for body in heat["bodies"]] == [(0, 0), pytest.approx((1, 1), abs=1e-12)]
     assert heat["in"] == heat["out"] == 0
@@ -436,6 +439,19 @@ def test_heat_of_a_body_that_conducts_far_better(tmp_path):
     assert given == pytest.approx(-taken, rel=1e-9)
     assert given == pytest.approx(abs(heat["contacts"][0]["heat"]), rel=1e-9)
     assert 4 < given < 7
+
+
+@pytest.mark.parametrize("upper, off", [(2e6, 0), (2e10, 2e-3), (2e13, 2)])
+def test_rounding_of_heat_is_said(tmp_path, upper, off):
+    """Two groups hold a body's temperature: their shares are lost to rounding with a word, and only then."""
+    case = SOFT.replace("conduct upper 2", f"conduct upper {upper!r}")
+    case += f"{CONTACT}\n{HELD}move top 0 -1\ntemperature top 1\ntemperature beside 1\n"
+    summary = solve(tmp_path, BARS, case, "-set", "n", 3)
+    balance = sum(group["heat"] for group in summary["heat"]["groups"])
+    said = [text for text in summary["warnings"] if ": rounding may change the heat that it gives by " in text]
+    assert len(said) == 2 * (off > 0)
+    assert all(0.5 * off < float(re.search(r"gives by ([^,]+),", text)[1]) < off for text in said)
+    assert abs(balance) <= max(2 * off, 1e-6)
 
 
 def test_flux_and_film_beside_a_held_temperature(tmp_path):
