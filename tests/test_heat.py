@@ -103,9 +103,10 @@ def test_bars_that_expand(tmp_path):
     balanced(found["heat"])
 
 
-def test_open_gap(tmp_path):
+@pytest.mark.parametrize("above", ["film top 2 1", "temperature top 1\ntemperature beside 1"])
+def test_open_gap(tmp_path, above):
     """Where nothing touches nothing shall be conducted: each bar has its own temperature."""
-    case = f"{SOFT}contact face foot conductance 0.5\n{HELD}move top 0 0.1\nfilm top 2 1\n"
+    case = f"{SOFT}contact face foot conductance 0.5\n{HELD}move top 0 0.1\n{above}\n"
     summary = solve(tmp_path, BARS, case, "-set", "n", 3)
     heat = summary["heat"]
     assert not any("rounding" in text for text in summary["warnings"])

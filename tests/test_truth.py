@@ -748,18 +748,11 @@ def stacked(folder, ratio, end, *flags, expect=0):
 
 
 @pytest.mark.parametrize(
-    "end, order, ratio",
-    [
-        ("force 0 -10", 2, 1e12),
-        ("move 0 -0.01", 2, 1e12),
-        ("move 0 -0.01", 1, 1e12),
-        ("move 0 -0.01", 1, 1e10),
-        ("force 0 -10", 4, 1e12),
-    ],
+    "end, order", [("force 0 -10", 2), ("move 0 -0.01", 2), ("move 0 -0.01", 1), ("force 0 -10", 4)]
 )
-def test_stiff_body_on_a_soft_one(tmp_path, end, order, ratio):
-    """Rounding of the stiff body's stiffness times its motion would resist the motion like a ground: at 1e12 by 1 %."""
-    summary = stacked(tmp_path, ratio, end, "-order", order)
+def test_stiff_body_on_a_soft_one(tmp_path, end, order):
+    """Rounding of the stiff body's stiffness times its motion would resist the motion like a ground, by 1 %."""
+    summary = stacked(tmp_path, 1e12, end, "-order", order)
     way = summary["estimates"]["loads"][0]["way"] if "force" in end else {"value": 0.01, "error": 0}
     force = summary["estimates"]["contacts"][0]["normalForce"]
     assert way["value"] / 2 * CONFINED == pytest.approx(10 if "force" in end else 0.005 * CONFINED, rel=1e-7)
