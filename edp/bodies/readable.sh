@@ -1,8 +1,9 @@
-# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: sh readable.sh RUN FILE FOLDER CASE SPACE AS SETS [SURFACE]
+# readable.sh: a mesh file of the user's, checked and made readable for FreeFEM: 
+#        sh readable.sh RUN FILE FOLDER CASE SPACE AS SETS OPTIONS UNLIKE [SURFACE]
 # Needs: RUN, the number of the run's process; awk; gmsh for a geometry (.geo, .step, .stp, .iges, .igs, .brep), and for what is not
 #        version 2 text; CASE, a case file, or none: only FOLDER/faces is wanted; SPACE, 1 for bodies in space, 0 for the
 #        plane; AS: solve, check: FOLDER/faces is wanted, again: FILE is a mesh that has the case file's groups; SETS, options of
-#        gmsh that set numbers of a .geo file; SURFACE: gmsh's mesh of the same surfaces, of second order; of a geometry in space
+#        gmsh that set numbers of a .geo file; OPTIONS that the script has read, and flags that ties exclude; SURFACE: gmsh's mesh of the same surfaces, of second order; of a geometry in space
 #        it is made here.
 # Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
 #        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/told, a line each: gmsh's version, if it meshed
@@ -21,7 +22,9 @@ case_=$4
 space=$5
 as=$6
 SETS=${7-}
-surface=${8-}
+options=${8-}
+unlike=${9-}
+surface=${10-}
 flat="-2 -order 2 -setnumber everything_ 1"
 meshes=${0%/*}/../../meshes
 gmsh=
@@ -63,7 +66,7 @@ case $as$kind in solvegeo | solvestep | solvestp | solvebrep | solveiges | solve
     sources=$(sh "${0%/*}/reads.sh" "$run" "$file" "$case_")
     if test "$(printf '%s\n' "$sources" | wc -l)" = 2 && mkdir -p "$generated" 2> /dev/null; then
         memory=$generated/own-$(printf '%s\n' "$sources" "$SETS" "$space" | cksum | tr ' ' -).tar
-        from=$(cksum < "$file"; cksum < "$case_"; cat "${0%/*}"/*.sh "${0%/*}"/*.geo "${0%/*}"/../case/*.awk "$meshes"/*.awk | cksum)
+        from=$(cksum < "$file"; cksum < "$case_"; cat "${0%/*}"/*.sh "${0%/*}"/*.geo "${0%/*}"/../case/reader/*.py "$meshes"/*.awk | cksum)
         if tar -xof "$memory" -C "$folder" 2> /dev/null && test "$from" = "$(cat "$folder/from" 2> /dev/null)"; then
             after=$(sed -n 2p "$folder/told")
             if test -z "$after" || test -f "$after"; then exit 0; fi
@@ -139,13 +142,12 @@ stopped() {
     sed '/^Error/q' "$1" | grep -q '^Info *: Meshing [123]D' || no "gmsh cannot read it: $(complaint "$1")"
     no "gmsh reads it, but cannot mesh it: $(complaint "$1"); allowed: another size of elements, another algorithm of gmsh's (Mesh.Algorithm), or closed surfaces, as a torus, split in the geometry"
 }
-reader=${0%/*}/../case/case
 readCase() {
-    CASE=$case_ SPACE=$space SETS_OVERLAP=$overlap PICKS=${1-} AGAIN=$again BODIES=${bodies-} \
-        awk -f "$reader-words.awk" -f "$reader-grammar.awk" -f "$reader-groups.awk" -f "$reader-pushed.awk" -f "$reader-worn.awk" -f "$reader-heat.awk" -f "$reader-cad.awk" -f "$reader-file.awk" "$folder/names" "$path" > "$folder/case" 2> "$folder/log"
+    sh "${0%/*}/../case/read.sh" "$run" case "case=$case_" "names=$folder/names" "space=$space" "options=$options" "unlike=$unlike" \
+        "overlap=$overlap" "bodies=${bodies-}" "again=$again" "to=$folder/case" "picks=${1-}" > "$folder/log" 2>&1
     code=$?
     test $code -ne 1 || no "$(tail -n 1 "$folder/case")" 3
-    test $code -eq 0 || no "-case $case_: cannot be checked: $(head -n 1 "$folder/log")" 3
+    test $code -eq 0 || no "$(head -n 1 "$folder/log")" 3
 }
 
 # what a case file picks of a geometry, in a file that gmsh reads after it

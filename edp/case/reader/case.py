@@ -13,7 +13,7 @@ from typing import TypeVar
 from . import grammar as g
 from .fields import STATEMENTS, GroupName, Reading, Statement, read_statement, shown, usage_of
 from .groups import KINDS, Group, Groups, Where
-from .words import Line, Refusal, spells_number, split_case
+from .words import Line, Refusal, spells_number, split_case, split_line
 
 MOST = 1000  # statements, with those that stand behind a contact
 ONLY_ONE = "only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group"
@@ -376,6 +376,26 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
     if where.state == "axisymmetric" and case.thickness != 1:
         line = case.of(g.Thickness)[0].line
         yield Refusal("thickness with state axisymmetric; allowed: with strain and stress", line)
+
+
+def read_open(text: str, where: Where) -> tuple[Case, set[str]]:
+    """What of a text can be read before its mesh is: any name is a group. Also the words of lines that cannot be."""
+    spoilt: set[str] = set()
+    lines: list[Line] = []
+    for number, one in enumerate(text.removeprefix("\ufeff").split("\n")):
+        try:
+            lines.append(split_line(number + 1, one, lambda word: ""))
+        except Refusal:
+            spoilt.update(one.split())
+    groups = Groups(where, (), any_name=True)
+    rules = Rules(Case(where, groups))
+    for line in lines:
+        try:
+            if line.words:
+                rules.read(line)
+        except Refusal:
+            spoilt.update(line.words)
+    return rules.case, spoilt
 
 
 def read_case(text: str, where: Where, of_mesh: Sequence[Group]) -> Case:

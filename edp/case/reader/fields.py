@@ -66,7 +66,17 @@ class Part:
     refused: ClassVar[tuple[tuple[Condition, str], ...]] = ()
 
     def __init_subclass__(cls) -> None:
-        dataclass(kw_only=True)(cls)
+        # methods made for each of sixty classes would double the reader's start
+        dataclass(kw_only=True, init=False, repr=False, eq=False, match_args=False)(cls)
+
+    def __init__(self, **values: Any) -> None:
+        for item in dataclasses.fields(self):  # type: ignore[arg-type]
+            if item.name not in values and item.default_factory is not dataclasses.MISSING:
+                values[item.name] = item.default_factory()
+        vars(self).update(values)
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and vars(self) == vars(other)
 
 
 class Statement(Part):

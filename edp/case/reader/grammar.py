@@ -173,7 +173,7 @@ class SizedGroup:
         name = reading.need("a name")
         dimension = reading.where.dimension
         found = [Group(d, name) for d in (dimension, dimension - 1) if Group(d, name) in reading.groups.all]
-        if not found and name != "contact":
+        if not found and name != "contact" and not reading.groups.any_name:
             reading.line.no(reading.groups.why_not(dimension - 1, name, "size"))
         return found[0] if found else None
 

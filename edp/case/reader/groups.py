@@ -62,6 +62,7 @@ class Groups:
     picked: dict[str, int] = field(default_factory=dict)  # by the case: their dimensions
     cad: set[str] = field(default_factory=set)  # of cuts and joins
     only_body: str = ""  # of a geometry: a body that needs no group, for it is all there is
+    any_name: bool = False  # the mesh is not known yet
 
     def __post_init__(self) -> None:
         self.all = list(self.of_mesh)
@@ -105,7 +106,7 @@ class Groups:
 
     def why_not(self, dimension: int, name: str, statement: str) -> str:
         """Why a name is no group of that dimension, with those there are; nothing if it is one."""
-        if Group(dimension, name) in self.all:
+        if self.any_name or Group(dimension, name) in self.all:
             return ""
         names = self.listed(dimension)
         there = " ".join(names) or "none"

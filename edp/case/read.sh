@@ -1,0 +1,18 @@
+# read.sh: the reader of cases and meshes, case/reader/, in the first Python that can run it: sh read.sh RUN ARGUMENTS...
+# Needs: RUN, the number of the run's process; ARGUMENTS: those of case/read.py; Python 3.11 or later with numpy and gmsh's module:
+#        that of the environment's CONTACT_PYTHON, of the package's .venv, of the PATH, of the system.
+# Gives: what case/read.py gives. If there is no such Python, one line on standard output that says how to get it.
+# Exit codes: those of case/read.py, 12 no Python.
+here=${0%/*}
+export CONTACT_RUN="$1"
+shift
+for python in "$CONTACT_PYTHON" "$here/../../.venv/bin/python" python3 /usr/bin/python3; do
+    case $python in '') continue ;; */*) test -x "$python" || continue ;; esac
+    # -I: no module of the present folder takes the place of numpy
+    "$python" -I "$here/read.py" "$@"
+    code=$?
+    case $code in 12 | 126 | 127) ;; *) exit $code ;; esac
+done
+printf '%s\n' "case files are read by Python 3.11 or later with numpy and gmsh's module, and no Python here has both; allowed: Debian's \
+packages python3-numpy and python3-gmsh (make setup, or apt install python3-numpy python3-gmsh), or pip install numpy gmsh"
+exit 12
