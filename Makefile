@@ -36,7 +36,7 @@ export CONTACT_POSTPROCESS := $(PYTHON) -m postprocess
 endif
 
 SCENES  := $(sort disc-on-block $(patsubst edp/scenes/%.edp,%,$(filter-out %/two-bodies.edp,$(wildcard edp/scenes/*.edp))))
-SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
+SOURCES := $(shell find edp -name '*.idp' -o -name '*.sh' -o -name '*.py' -o -name '*.txt' 2>/dev/null) $(wildcard meshes/*.geo)
 SCRIPT  := $(if $(filter disc-on-block,$(SCENE)),edp/main.edp,edp/scenes/$(SCENE).edp)
 
 ifeq ($(filter $(SCENES),$(SCENE)),)
@@ -46,7 +46,7 @@ endif
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
-.PHONY: help paper paper-run setup system python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab choice test test-long test-all test-systems lint pages numbers doctor clean distclean
+.PHONY: help paper paper-run setup system reader python new install uninstall fast try-fast mpi petsc tools run figures pictures movie report bench bench-large bench-ranks bench-peers stability friction coverage verification conditioning models plasticity mutants tables labs kit notebooks page site check-lab choice test test-long test-all test-systems lint pages numbers doctor clean distclean
 
 # ---------------------------------------------------------------- the paper
 
@@ -85,7 +85,7 @@ echo "Installing $< into $(VENV)"; \
 	$$pip || { sleep 5; $$pip; }
 endef
 
-setup: $(VENV)/dev.stamp try-fast | system ## install what is missing: FreeFEM, gmsh, Python packages in .venv
+setup: $(VENV)/dev.stamp try-fast | system reader ## install what is missing: FreeFEM, gmsh, Python packages in .venv
 
 # Installs the Debian packages in $$missing, if any. A failed update is no reason to stop: the lists may be good enough, and if
 # not, the install fails.
@@ -115,6 +115,15 @@ system:
 	{ $(FIND_PYTHON); } || missing="$$missing python3 python3-venv"; \
 	$(INSTALL_MISSING)
 
+# Cases are read by Python with numpy and gmsh's module: Debian's packages, else the release of the program gmsh from PyPI.
+CASES_READ = sh edp/case/read.sh 0 ready >/dev/null 2>&1
+reader: | system
+	@! $(CASES_READ) || exit 0; \
+	( missing=' python3-numpy python3-gmsh'; $(INSTALL_MISSING) ) && $(CASES_READ) && exit 0; \
+	$(MAKE) -s --no-print-directory $(VENV)/run.stamp && $(PYTHON) -m pip install -q --no-input --disable-pip-version-check \
+	  "gmsh==$$(gmsh --version 2>&1 | grep -o '[0-9][0-9.]*')" && $(CASES_READ) && exit 0; \
+	sh edp/case/read.sh 0 ready; exit 1
+
 $(VENV)/run.stamp: requirements.txt | system
 	@{ $(FIND_PYTHON); } || { echo 'Please install Python 3.11 or newer, with its venv module'; exit 1; }; \
 	case $$found in \
@@ -123,7 +132,7 @@ $(VENV)/run.stamp: requirements.txt | system
 	esac
 	@touch $@
 
-$(VENV)/dev.stamp: requirements-dev.txt $(VENV)/run.stamp | system
+$(VENV)/dev.stamp: requirements-dev.txt $(VENV)/run.stamp | system reader
 	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || missing=' python3-venv'; $(INSTALL_MISSING)
 	@$(PYTHON) -m pip --version >/dev/null 2>&1 || $(PYTHON) -m ensurepip >/dev/null
 	@$(PIP_INSTALL)
@@ -384,7 +393,7 @@ $(VENV)-peers/run.stamp: requirements-peers.txt | system
 	}
 	@touch $@
 
-bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system ## the same tests solved by NGSolve, timed in turns with the package, and parts by CalculiX (ccx), into results/bench/
+bench-peers: $(VENV)/run.stamp $(VENV)-peers/run.stamp | system reader ## the same tests solved by NGSolve, timed in turns with the package, and parts by CalculiX (ccx), into results/bench/
 	@$(PYTHON) tests/campaigns/peers.py
 	@$(PYTHON) tests/campaigns/peers_condensed.py
 	@$(PYTHON) -m postprocess figure bench_peers --out $(RESULTS)/bench/bench_peers.pdf $(RESULTS)/bench
@@ -399,7 +408,7 @@ stability: $(VENV)/run.stamp | system ## counts and failures over laws, stiffnes
 friction: $(VENV)/run.stamp | system ## the part of make stability with friction: paths of loads that a seed draws, into results/friction/
 	@$(PYTHON) tests/campaigns/friction.py
 
-coverage: $(VENV)/run.stamp | system ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
+coverage: $(VENV)/run.stamp | system reader ## whether the estimates of the error hold, over scenes and over parts that a seed draws, into results/coverage/
 	@$(PYTHON) tests/campaigns/covered.py
 	@$(PYTHON) tests/campaigns/foreign.py
 
@@ -409,7 +418,7 @@ conditioning: $(VENV)/run.stamp | system ## condition of plain Newton's tangent 
 models: $(VENV)/run.stamp | system ## walls, tangents, plain Newton and xnewton on 75 problems and two meshes, into results/models/
 	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/models.py && $(DRAW_CAMPAIGN)
 
-plasticity: $(VENV)/run.stamp | system ## 48 problems of plastic bodies, hardness, first yield, CalculiX if it is there, into results/plasticity/
+plasticity: $(VENV)/run.stamp | system reader ## 48 problems of plastic bodies, hardness, first yield, CalculiX if it is there, into results/plasticity/
 	@PYTHONPATH=.:tests $(PYTHON) tests/campaigns/plasticity.py
 	@if command -v ccx >/dev/null; then PYTHONPATH=.:tests $(PYTHON) tests/campaigns/plasticity.py --calculix; \
 	else echo 'the comparison with CalculiX: no ccx here (Debian: calculix-ccx)'; fi
@@ -426,7 +435,7 @@ tables: $(VENV)/run.stamp ## write the campaigns' results into the tables of tes
 # ---------------------------------------------------------------- labs
 
 # Line by line as the labs' READMEs have them. Code 20: one of them stops a run early, as it says.
-labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), with their figures, into results/labs/
+labs: $(VENV)/run.stamp | system reader ## run every command of the labs (edp/labs), with their figures, into results/labs/
 	@for readme in edp/labs/*/README.md; do \
 	  sed -n '/^```sh/,/^```/p' $$readme | grep -v '^[`#]' | while read -r command; do \
 	    echo "$$command"; sh -c "$$(echo "$$command" | sed 's, results/, $(RESULTS)/,g;s,^.venv/,$(VENV)/,')" </dev/null; code=$$?; \
@@ -435,7 +444,7 @@ labs: $(VENV)/run.stamp | system ## run every command of the labs (edp/labs), wi
 	done
 
 # The run of lab 3 is the film of the slides.
-kit: $(VENV)/run.stamp | system ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
+kit: $(VENV)/run.stamp | system reader ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh, into results/kit/
 	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
 	@$(PYTHON) -m postprocess kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
 

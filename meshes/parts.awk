@@ -1,7 +1,7 @@
 # parts.awk: a mesh of any bodies as FreeFEM can read it: CASE=TABLE SPACE=0|1 MESH=FILE REGIONS=FILE MIDDLES=FILE CURVES=FILE
 #        RISES=FILE SURFACE=FILE NOTES=FILE
 #        LC_ALL=C awk -f msh.awk -f parts.awk -f cuts.awk -f same.awk -f planes.awk < FILE.msh
-# Needs: msh.awk, cuts.awk, same.awk, planes.awk; TABLE, the groups that are used (edp/case/case-file.awk); elements of first or second order. What no group of the
+# Needs: msh.awk, cuts.awk, same.awk, planes.awk; TABLE, the groups that are used (edp/case/reader/rows.py); elements of first or second order. What no group of the
 #        table names is left out, but every triangle (in space tetrahedron) must be in a body of the table.
 # Gives: MESH, first order, lengths a million times as large (FreeFEM takes elements below 1e-8 for degenerate), nodes numbered from 1
 #        in the file's order, each element once and turned the right way, boundaries numbered as in the table, regions as in REGIONS:

@@ -2,7 +2,7 @@
 #        PICKS=FILE SPACE=0|1 CASE=NAME CAD=0|1 MESHED=0|1 APART=FILE KEPT=FILE PARENTS=FILE LEFT=FILE FACES=FILE LC_ALL=C
 #        TABLE=FILE TOUCH=FILE CLOSER=FILE WHOLE=FILE awk -f pick.awk -f near.awk -f cad.awk -f kinds.awk -f touch.awk < OUTLINE.msh
 # Needs: OUTLINE.msh, a coarse mesh of all faces (in the plane curves), of second order, in gmsh's text format 4.1, its entities in
-#        it; PICKS, of case/case-file.awk, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
+#        it; PICKS, of case/reader/rows.py, may be missing; CASE, the case file as the user named it; CAD: 1 of a geometry without
 #        names, whose bodies are left out where no group has them; MESHED: 1 of a mesh, which has its sizes.
 # Gives: on standard output a .geo file to be read after the geometry: its groups and sizes, exit code 0;  APART, if bodies that
 #        "between" names share faces: a .geo file that gives each its own; if bodies are cut or joined, one that does this, and

@@ -44,6 +44,7 @@ PACKAGES = {
     "FreeFem++": "freefem++ libfreefem++ libfreefem++-dev libopenblas0-pthread",
     "gmsh": "gmsh",
     "python": "python3 python3-venv",
+    "gmsh's module": "python3-gmsh python3-numpy",
     "make": "make",
     "chromium": "chromium",
     "mpi": "openmpi-bin libopenmpi-dev",
@@ -54,6 +55,7 @@ ELSEWHERE = {
     "Darwin": {
         "FreeFem++": f"the official .dmg from {RELEASES}, in /Applications; its Contents/ff-VERSION/bin on the PATH",
         "gmsh": f"brew install gmsh, or {GMSH}",
+        "gmsh's module": "pip install gmsh numpy",
         "python": "brew install python, or https://www.python.org",
         "make": "xcode-select --install",
         "chromium": "brew install --cask chromium",
@@ -63,6 +65,7 @@ ELSEWHERE = {
     "Windows": {
         "FreeFem++": f"Debian or Ubuntu in WSL, then as there; the .exe of {RELEASES} has no POSIX shell",
         "gmsh": f"{GMSH}; its folder must be on the PATH",
+        "gmsh's module": "pip install gmsh numpy",
         "python": "https://www.python.org",
         "make": "the MSYS2 package make; simplest: WSL",
         "chromium": "any Chromium on the PATH",
@@ -72,6 +75,7 @@ ELSEWHERE = {
     "": {
         "FreeFem++": f"your system's packages, or {RELEASES}",
         "gmsh": f"your system's packages, or {GMSH}",
+        "gmsh's module": "your system's packages, or pip install gmsh numpy",
         "python": "your system's packages: Python 3.11 or newer with its venv module",
         "make": "your system's packages",
         "chromium": "your system's packages",
@@ -241,7 +245,9 @@ def plugin_path(works: bool) -> list:
 def find_gmsh() -> list:
     version = gmsh_version() if shutil.which("gmsh") else ""
     found = f"{version}, {shutil.which('gmsh')}" if version else "not on the PATH, or does not run"
-    return [Finding("gmsh", bool(version), found, True, hint("gmsh"))]
+    code, _ = answer(["sh", str(ROOT / "edp/case/read.sh"), "0", "ready"])
+    module = Finding("  its module", code == 0, "for Python, with numpy: reads cases", False, hint("gmsh's module"))
+    return [Finding("gmsh", bool(version), found, True, hint("gmsh")), module]
 
 
 def numbers(version: str) -> tuple:

@@ -21,6 +21,7 @@ import test_contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
+sys.path.append(str(EDP / "case"))  # the reader of cases
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
@@ -419,17 +420,11 @@ def columns():
 
 def statements():
     """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
-    tables = (EDP / "case/case-grammar.awk").read_text()
-    reader = tables + '\nBEGIN { for (k in usage) print "usage " k ": " usage[k]'
-    reader += '; for (k in example) print "example " k ": " example[k] }'
+    from reader import Where, fields
 
-    def usages(space):
-        environment = {**os.environ, "CASE": "", "SPACE": space, "LC_ALL": "C"}
-        command = ["awk", reader, "/dev/null", "/dev/null"]
-        said = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True).stdout
-        return [dict(re.findall(rf"^{kind} (\w+): (.*)$", said, re.M)) for kind in ("usage", "example")]
-
-    (plane, examples), (space, _) = usages("0"), usages("1")
+    places = Where(), Where(space=True)
+    plane, space = ({word: fields.usage(word, where) for word in fields.STATEMENTS} for where in places)
+    examples = {word: fields.shown(cls.example, Where()) for word, cls in fields.STATEMENTS.items() if cls.example}
 
     def lines(usage):
         """A long usage: a line for each of its options."""

@@ -694,8 +694,7 @@ def test_refused(lines, tmp_path_factory):
         ),
     ],
 )
-def test_joined_at_a_distance(height, how, said, tmp_path, monkeypatch):
-    monkeypatch.setenv("RUBS", "1")
+def test_joined_at_a_distance(height, how, said, tmp_path):
     mesh = gmsh(tmp_path, "part.step", STACK.replace("0, 0, 3, 1", f"0, 0, {height}, 1"), "-0")
     case = STACKED.replace("0 0 5 ", f"0 0 {2 + float(height)} ") + f"join low high {how}\n"
     code, why, *_ = readable(tmp_path, mesh, case)

@@ -9,6 +9,8 @@ import subprocess
 import numpy as np
 import pytest
 from freefem import FREEFEM, MOVED, ROOT, Run, data, execute, flag_text, part, script, snippet, told
+from reader import Group, Refusal, Where, read_case
+from reader.fields import STATEMENTS, shown
 
 from postprocess.closed_forms import pin_angle, pin_pressure, plane_modulus
 
@@ -129,9 +131,8 @@ def read(folder, case, mesh="block.msh", space=0):
     """(exit code, what bodies/readable.sh says) of a case file's text."""
     (folder / "a.case").write_text(case)
     out = folder / "copy"
-    done = subprocess.run(
-        ["sh", ROOT / "edp/bodies/readable.sh", str(os.getpid()), folder / mesh, out, "a.case", str(space)], cwd=folder
-    )
+    given = [str(os.getpid()), folder / mesh, out, "a.case", str(space), "solve", "", "friction"]
+    done = subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *given], cwd=folder)
     why = (out / "why").read_text().strip() if (out / "why").exists() else ""
     table = (out / "case").read_text() if (out / "case").exists() else ""
     subprocess.run(["rm", "-rf", out], check=True)
@@ -181,31 +182,31 @@ REFUSED = [
 ]
 
 
+def groups(space):
+    """Those of block() and of cube()."""
+    names = list(SPACE_GROUPS.values()) if space else ["bottom", "right", "top", "left"]
+    return [Group(2 + space, "block"), *(Group(1 + space, name) for name in names)]
+
+
 @pytest.mark.parametrize("case, words", REFUSED)
-def test_case_is_refused(plane, case, words):
+def test_case_is_refused(case, words):
     """Each mistake: one line that names the file, the line, the word, and what is allowed."""
-    code, why, _ = read(plane, case)
-    assert code == 3
+    with pytest.raises(Refusal) as found:
+        read_case(case, Where(friction="", wear=False, plastic=False), groups(0))
+    why = found.value.text("a.case")
     assert why.startswith("-case a.case, ") and words in why and "\n" not in why
     assert "allowed" in why
 
 
 @pytest.mark.parametrize("space", [0, 1])
-def test_examples_of_statements(tmp_path, monkeypatch, space):
+def test_examples_of_statements(space):
     """The example beside each statement of the grammar is one: the reader takes it."""
-    monkeypatch.setenv("RUBS", "1")
-    monkeypatch.setenv("FLOWS", "1")
-    grammar = (ROOT / "edp/case/case-grammar.awk").read_text() + "\nBEGIN { for (k in example) print example[k] }"
-    environment = {**os.environ, "SPACE": str(space), "CASE": "", "RUBS": "1", "LC_ALL": "C"}
-    said = subprocess.run(
-        ["awk", grammar], env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL
-    ).stdout
-    examples = {line.split()[0]: line.split() for line in said.splitlines()}
+    where = Where(space=bool(space))
+    examples = {word: shown(cls.example, where).split() for word, cls in STATEMENTS.items() if cls.example}
     assert len(examples) >= 25
-    (tmp_path / "block.msh").write_text((cube if space else block)(Mesh()).text())
     bodies = ("body", "expand", "weight", "spin", "conduct", "plastic")
     for word, words in examples.items():
-        left_out = ("group", "size", "law", "preload", "leg", "cut", "join", "cycles")
+        left_out = ("group", "size", "preload", "leg", "cut", "join", "cycles")
         if word in left_out or (space and word in ("thickness", "state", "plastic")):
             continue
         if word not in ("line", "about", "gravity", "thickness", "state"):
@@ -217,13 +218,15 @@ def test_examples_of_statements(tmp_path, monkeypatch, space):
             first += "conduct block 1\n" * (word != "conduct") + "temperature bottom 0\n"
         obstacle = f"obstacle {'left' if space else 'right'} plane 9 0 {'0 -1 0 0' if space else '-1 0'}\n"
         lines = first + " ".join(words) + "\n" if word not in ("state", "thickness") else " ".join(words) + "\n" + first
-        code, why, _ = read(tmp_path, lines + obstacle * (word not in ("tie",)), space=space)
-        assert code == 0 or "axisymmetric" in why, (word, why)
+        case = lines + obstacle * (word not in ("tie",))
+        try:
+            read_case(case, Where(space=bool(space)), groups(space))
+        except Refusal as refusal:
+            assert "axisymmetric" in str(refusal), (word, str(refusal))
 
 
-def test_obstacle_in_a_later_phase(plane, monkeypatch):
+def test_obstacle_in_a_later_phase(plane):
     """Its move alone, and a circle with or without R: the table is the same."""
-    monkeypatch.setenv("RUBS", "1")
     lines = STEEL + "clamp bottom\nobstacle top circle 1.5 5 {}3 move 0 0 friction 0.1\n"
     lines += "leg 1\nleg 2\nobstacle top {}move 0 -0.1\n"
     tables = [read(plane, lines.format(*words)) for words in (("R ", "circle 1.5 5 R 3 "), ("", ""))]

@@ -188,9 +188,10 @@ gravity 1 0 | gravity off the axis
 cut c block plane 0 0 1 0 | cut c: a plane that is not across the axis
 spin block 1 about 0 0 | about: more than the statement takes
 """
+AXISYMMETRIC = [line.split(" | ") for line in AXISYMMETRIC.strip().splitlines()]
 
 
-@pytest.mark.parametrize("line, words", [line.split(" | ") for line in AXISYMMETRIC.strip().splitlines()])
+@pytest.mark.parametrize("line, words", AXISYMMETRIC)
 def test_rings(line, words):
     """What state axisymmetric excludes; the plane does not, but for the spin about a point."""
     assert words in refused(f"state axisymmetric\n{GOOD}{line}")
@@ -216,9 +217,10 @@ obstacle left move 0 1 | obstacle left: 0 obstacles of it
 force left 0 1 rigid | left: a rigid group's force in two legs; allowed there: a force that is free
 force left 0 1 free | force left: first stated in leg 2
 """
+PHASES = [line.split(" | ") for line in PHASES.strip().splitlines()]
 
 
-@pytest.mark.parametrize("lines, words", [line.split(" | ") for line in PHASES.strip().splitlines()])
+@pytest.mark.parametrize("lines, words", PHASES)
 def test_later_load_phases(lines, words):
     assert words in refused(f"{LEGS}leg 4\n" + lines.replace(" / ", "\n"))
 

@@ -1,17 +1,25 @@
 """edp/TROUBLESHOOTING.md against the sources: every warning, refusal and failure is there, and no other."""
 
+import dataclasses
 import re
 
 import pytest
+import test_heat
+import test_parts
+import test_reader
 from freefem import ROOT
+from reader import Group, Refusal, Where, read_case
+from reader.modules import Run, modules, needs
+from test_reader import GOOD, STEEL
 
 PAGE = (ROOT / "edp/TROUBLESHOOTING.md").read_text()
 KINDS = {  # heading of the page: the functions whose argument is the text
     "Warnings": r"warn|warnFirst",
     "Refused flags and files": r"refuse",
-    "Refused case files": r"no",
+    "Refused case files": r"case/reader",
     "Runs without convergence": r"stopped",
 }
+LINES = "\n".join(f"line l{k} 0 0 1 1" for k in range(1000))
 LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
@@ -38,8 +46,51 @@ def words(expression):
     return re.sub("…+", "…", said)
 
 
+def refusals():
+    """What the reader says of the spoilt cases of other tests, and of a few more: without the file's name."""
+    worn, legs = f"{GOOD}contact left right wear 1 friction 0.2\ncycles 9\n", f"{GOOD}pressure right 2\n"
+    both = f"{worn}obstacle right plane 4 0 -1 0 wear 1 slide 2\nleg 2\nleg 2"
+    pair = "body a E 1 nu 0\nbody b E 1 nu 0\n"
+    cut = f"{GOOD}cut c block plane 1 1 1 0\npreload c 1\ngroup c near 0 0"
+    dense = GOOD.replace("nu 0.3", "nu 0.3 density 2") + "gravity 1 -9\nweight block 0 1"
+    moved = legs.replace("clamp bottom", "move bottom 0 1") + "leg 1\nforce left 0 1\nleg 1\nforce left 0 2"
+    cases = [(GOOD + lines.replace(" / ", "\n"), {}) for lines, _ in test_reader.REFUSED]
+    cases += [(f"state axisymmetric\n{GOOD}{line}", {}) for line, _ in test_reader.AXISYMMETRIC]
+    cases += [(f"{legs}leg 4\nleg 4\n" + lines.replace(" / ", "\n"), {}) for lines, _ in test_reader.PHASES]
+    cases += [(GOOD + line, where) for where, line, _ in test_reader.SCRIPTS]
+    cases += [(case, {"friction": "", "wear": False, "plastic": False}) for case, _ in test_parts.REFUSED]
+    cases += [
+        (GOOD + line, {}) for line in ('clamp le"ft"', "clamp \x07", "about a.b 0 0", "contact left right law table")
+    ]
+    cases += [(text, {}) for text in (f"{legs}leg 1\npressure right 3", f"{worn}leg 2", both, dense, moved, cut)]
+    cases += [(f"{legs}leg 1\nforce left 0 0 rigid", {}), (GOOD + "about p 0 0\n" * 1 + "stresses\n" + LINES, {})]
+    cases += [(f"thickness 1\n{STEEL}", {"space": True}), (f"{STEEL}plastic block 1 1", {"space": True})]
+    cases += [(f"{pair}clamp base", {"bodies": "7 8"}), ("body pin E 1 nu 0\nclamp base", {"bodies": "7"})]
+    cases += [(f"{pair}group a-b near 0 0\njoin a b tie", {"bodies": "7 8"})]
+    for case, where in cases:
+        alone = not where.get("bodies")
+        groups = (
+            test_parts.groups(where.get("space", False)) if alone else [Group(2, "a"), Group(2, "b")] * ("join" in case)
+        )
+        with pytest.raises(Refusal) as found:
+            read_case(case, Where(**where), groups)
+        yield re.sub(r"^-case a.case, (line \d+: )?", "", found.value.text("a.case"))
+    for change in test_heat.CHANGES.values():
+        case = test_heat.CASE
+        for old, new in zip(change[::2], change[1::2], strict=True):
+            case = case.replace(old, new)
+        yield re.sub(r"^-case a.case, (line \d+: )?", "", test_heat.read(case))
+    need = needs(read_case(test_heat.CASE, Where(), test_heat.GROUPS))
+    for change, run in (({}, {"own": False}), ({"friction": True}, {}), ({"plastic": True}, {}), ({}, {"axis": True})):
+        with pytest.raises(Refusal) as found:
+            modules(dataclasses.replace(need, **change), Run(space=False, **run))
+        yield str(found.value)
+
+
 def messages(functions):
     """[(file, text)] of every call of the functions; of a variable the texts that its file assigns to it."""
+    if functions == "case/reader":
+        return [("case/reader", text) for text in refusals()]
     found = []
     for path in sorted(path for kind in ("idp", "edp", "awk") for path in ROOT.glob(f"edp/**/*.{kind}")):
         text = re.sub(r"^\s*(?://|#).*", "", path.read_text(), flags=re.M)

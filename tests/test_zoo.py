@@ -68,7 +68,7 @@ def readable(folder, mesh, case, space=1, sets=""):
     (folder / "a.case").write_text(case)
     out = folder / "read"
     environment = {**os.environ, "LC_ALL": "C"}
-    given = [str(os.getpid()), mesh, out, folder / "a.case", str(space), "solve", sets]
+    given = [str(os.getpid()), mesh, out, folder / "a.case", str(space), "solve", sets, "friction wear plastic"]
     command = ["sh", "edp/bodies/readable.sh", *given]
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     why = (out / "why").read_text().strip() if (out / "why").exists() else ""

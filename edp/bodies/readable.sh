@@ -5,7 +5,7 @@
 #        plane; AS: solve, check: FOLDER/faces is wanted, again: FILE is a mesh that has the case file's groups; SETS, options of
 #        gmsh that set numbers of a .geo file; OPTIONS that the script has read, and flags that ties exclude; SURFACE: gmsh's mesh of the same surfaces, of second order; of a geometry in space
 #        it is made here.
-# Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/case-file.awk, with the regions of meshes/parts.awk
+# Gives: FOLDER/mesh.msh, see meshes/parts.awk, and FOLDER/case, see case/reader/rows.py, with the regions of meshes/parts.awk
 #        behind it, and FOLDER/middles, FOLDER/curves, in space FOLDER/rises; FOLDER/told, a line each: gmsh's version, if it meshed
 #        FILE; the file that gmsh read after the geometry; what makes smaller elements, in words; bodies that are left out; FOLDER/faces:
 #        the geometry's faces with their numbers (meshes/pick.awk). FOLDER is new, and goes when the run has ended, however it ended: the run takes it away itself if it can.

@@ -1,4 +1,4 @@
-"""The reader's program: read.py COMMAND ARGUMENTS..., see reader/command.py. Exit code 12: this Python cannot run it."""
+"""The reader's program: read.py COMMAND NAME=VALUE... (reader/command.py). Exit code 12: this Python cannot run it."""
 
 import sys
 from importlib.util import find_spec

@@ -6,7 +6,7 @@
 here=${0%/*}
 export CONTACT_RUN="$1"
 shift
-for python in "$CONTACT_PYTHON" "$here/../../.venv/bin/python" python3 /usr/bin/python3; do
+for python in "$CONTACT_PYTHON" "${CONTACT_CACHE:+$CONTACT_CACHE/venv/bin/python}" "$here/../../.venv/bin/python" python3 /usr/bin/python3; do
     case $python in '') continue ;; */*) test -x "$python" || continue ;; esac
     # -I: no module of the present folder takes the place of numpy
     "$python" -I "$here/read.py" "$@"

@@ -1,5 +1,19 @@
 # unknown-flag.awk: the refusal of a word that is no flag of a scene, with the flag that was meant, if that can be guessed
-# Read by awk after case-words.awk. In the environment: CONTACT_WORD: the word; CONTACT_FLAGS: the scene's flags, each after a blank.
+# In the environment: CONTACT_WORD: the word; CONTACT_FLAGS: the scene's flags, each after a blank.
+# how many letters must be put in, left out or exchanged to make one word of the other
+function distance(a, b,   i, j, d, cost) {
+  for (i = 0; i <= length(a); i++) d[i, 0] = i
+  for (j = 0; j <= length(b); j++) d[0, j] = j
+  for (i = 1; i <= length(a); i++)
+    for (j = 1; j <= length(b); j++) {
+      d[i, j] = d[i - 1, j] < d[i, j - 1] ? d[i - 1, j] + 1 : d[i, j - 1] + 1
+      cost = d[i - 1, j - 1] + (substr(a, i, 1) != substr(b, j, 1))
+      if (cost < d[i, j]) d[i, j] = cost
+      if (i > 1 && j > 1 && substr(a, i, 1) == substr(b, j - 1, 1) && substr(a, i - 1, 1) == substr(b, j, 1) && d[i - 2, j - 2] + 1 < d[i, j])
+        d[i, j] = d[i - 2, j - 2] + 1
+    }
+  return d[length(a), length(b)]
+}
 BEGIN {
   given = ENVIRON["CONTACT_WORD"]
   all = ENVIRON["CONTACT_FLAGS"]

@@ -251,9 +251,6 @@ class Rules:
         groups, where = self.case.groups, self.case.where
         if Group(where.dimension - 1, s.on.name) in groups.of_mesh and not where.again:
             self.no(s, f"{s.on}: the mesh or geometry has a group of this name; allowed: another name")
-        for other in self.case.statements:
-            if isinstance(other, g.PickedGroup) and other.name == s.on.name:
-                self.no(s, f"{s.on}: a group of this name in line {other.line}; allowed: another name")
 
 
 def with_zeros(s: Statement) -> str:

@@ -1,7 +1,8 @@
-"""What FreeFEM and bodies/readable.sh ask of the reader: `main([COMMAND, NAME=VALUE, ...])`, one line each with an answer.
+"""What FreeFEM and bodies/readable.sh ask of the reader: `main([COMMAND, NAME=VALUE, ...])`.
 
-    modules  the modules that a case asks for        case= space= own= flags= to=
-    case     a case with the groups of its mesh      case= names= space= options= unlike= overlap= bodies= again= to= picks=
+    ready    nothing: whether this Python can run it
+    modules  which modules a case asks for       case= space= own= check= flags= to=
+    case     a case with the groups of its mesh  case= names= space= options= unlike= overlap= bodies= again= to= picks=
 
 `to`: the file that the answer goes to. Exit codes: 0 done; 1 refused: the answer is one line; 12: see read.py.
 """
@@ -9,7 +10,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .case import read_case, read_open
@@ -38,7 +39,10 @@ def groups_of(path: str) -> list[Group]:
 
 
 def ask_modules(of: Words) -> None:
-    """How many macros the second start of FreeFEM has, and these, a line each; a case that cannot be read as yet is no fault here."""
+    """How many macros the second start of FreeFEM has, and these, a line each.
+
+    A case that cannot be read yet is no fault here.
+    """
     flags = of["flags"].split("\n")
     run = Run(
         space=of["space"] == "1",
@@ -71,7 +75,7 @@ def ask_case(of: Words) -> None:
         answer(of["picks"], "".join(f"{line}\n" for line in picks(case)))
 
 
-COMMANDS = {"modules": ask_modules, "case": ask_case}
+COMMANDS: dict[str, Callable[[Words], None]] = {"ready": lambda of: None, "modules": ask_modules, "case": ask_case}
 
 
 def main(arguments: Sequence[str]) -> int:
