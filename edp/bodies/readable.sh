@@ -309,7 +309,6 @@ if grep -q "of gmsh's type [3567]: " "$folder/why"; then
     file=$folder/cut.msh
     check
 fi
-cat "$folder/regions" >> "$folder/case" 2> /dev/null
 test $code = 0 || room 1024
 room 1
 test $code -le 1 || no "cannot be checked: is awk there, and room in ${folder%/*}?"

@@ -1,7 +1,7 @@
 """The reader of case files: a text becomes typed statements, or a refusal of one line.
 
-`read_case` (case.py) reads; grammar.py declares the statements; modules.py decides on modules; rows.py writes the rows
-of numbers that FreeFEM reads.
+`read_case` (case.py) reads; grammar.py declares the statements; modules.py decides on modules; values.py writes what
+FreeFEM reads.
 """
 
 from .case import Case, read_case

@@ -15,7 +15,7 @@ from .fields import STATEMENTS, GroupName, Reading, Statement, read_statement, s
 from .groups import KINDS, Group, Groups, Where
 from .words import Line, Refusal, spells_number, split_case, split_line
 
-MOST = 1000  # statements, with those that stand behind a contact
+MOST = 1000  # statements
 ONLY_ONE = "only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group"
 LATER = "move, rotate, pressure, traction, weight, a free force or moment, an obstacle's move"
 WITHOUT_SHAPE = "move force law friction wear".split()
@@ -124,9 +124,8 @@ class Rules:
             where.phase += 1
             self.first_leg = self.first_leg or s.line
         self.case.statements.append(s)
-        behind = (getattr(s, name, None) for name in ("friction", "conductance", "wear"))
         aside = (g.Units, g.State, g.Thickness, g.PickedGroup, g.Size, g.Join, g.Spin, g.Gravity)
-        self.rows += 0 if isinstance(s, aside) else 1 + isinstance(s, g.Tie) + sum(part is not None for part in behind)
+        self.rows += not isinstance(s, aside)
         if self.rows > MOST:
             self.no(s, f"more than {MOST} statements; allowed: fewer")
 

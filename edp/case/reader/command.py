@@ -16,7 +16,8 @@ from pathlib import Path
 from .case import read_case, read_open
 from .groups import Group, Where
 from .modules import Run, modules, needs
-from .rows import picks, rows
+from .picks_text import picks
+from .values import table
 from .words import Refusal
 
 Words = dict[str, str]  # the arguments by their names
@@ -70,7 +71,7 @@ def ask_case(of: Words) -> None:
         again=of["again"] != "",
     )
     case = read_case(text_of(of["case"]), where, groups_of(of["names"]))
-    answer(of["to"], rows(case))
+    answer(of["to"], table(case))
     if of["picks"]:
         answer(of["picks"], "".join(f"{line}\n" for line in picks(case)))
 

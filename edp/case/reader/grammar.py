@@ -7,6 +7,7 @@ A new statement is a class here: its parser, its refusals, its usage and its row
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 
 from .fields import (
     STATEMENTS,
@@ -514,6 +515,13 @@ class Moment(Statement, word="moment", example="moment core 21600{| axis 0 0 1}"
         if self.size == 0 and (not where.phase or not isinstance(self.how, Spread)):
             return f"moment {self.on}: 0{' of a rigid group' if where.phase else ''}; allowed: another number"
         return ""
+
+    @property
+    def couple(self) -> Vector3:
+        """The moment as a vector; in the plane across it."""
+        axis = self.axis or (0.0, 0.0, 1.0)
+        length = sqrt(sum(c * c for c in axis))
+        return axis[0] * (self.size / length), axis[1] * (self.size / length), axis[2] * (self.size / length)
 
     def key(self) -> object:
         return isinstance(self.how, Spread), "moment", self.on

@@ -1,0 +1,93 @@
+"""A case as FreeFEM reads it: the problem as a whole, then each statement with its groups, and its values by name.
+
+A value has the name of its field in grammar.py: `angle`; a component `centre.x`; what stands behind a keyword
+`friction.coefficient`. Where a word chooses what follows, that is a text: `shape ball`. What is left out has no value.
+options/parts/statements.idp has a function for each.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+
+from . import grammar as g
+from .case import Case
+from .fields import Part, Statement, Vector3
+from .groups import Group, Where
+
+Value = tuple[str, float | str]
+ASIDE = (g.Units, g.State, g.Thickness, g.PickedGroup, g.Size, g.Join, g.Gravity)  # no statements of their own there
+
+
+def flat(part: Part, before: str = "") -> Iterator[Value]:
+    """The values of a statement, or of what stands behind a keyword: numbers and texts by their names."""
+    for item in dataclasses.fields(part):  # type: ignore[arg-type]
+        name, value = before + item.name, getattr(part, item.name)
+        match value:
+            case float() | int():
+                yield name, float(value)
+            case str() if value:
+                yield name, value
+            case (float() as x, float() as y, float() as z):
+                yield from vector(name, (x, y, z))
+            case Part() if not isinstance(value, Statement):
+                yield name, type(value).__name__.lower()
+                yield from flat(value, f"{name}.")
+
+
+def vector(name: str, value: Vector3) -> list[Value]:
+    return [(f"{name}.{axis}", component) for axis, component in zip("xyz", value, strict=True)]
+
+
+def values(s: Statement, where: Where, density: float) -> list[Value]:
+    """Those of a statement, and those that follow from them."""
+    found = [(name, value) for name, value in flat(s) if name != "line"]
+    if isinstance(s, g.Moment):
+        found += vector("couple", s.couple)
+    if isinstance(s, g.Spin):
+        found.append(("density", density))
+        if s.axis is None:
+            found += vector("axis", (0.0, 1.0, 0.0) if where.state == "axisymmetric" else (0.0, 0.0, 1.0))
+    return found
+
+
+def weights(s: g.Gravity, dense: dict[Group, float], used: list[Group]) -> Iterator[tuple[Group, list[Value]]]:
+    """Gravity is a weight of each body with a density."""
+    for group in used:
+        if group in dense:
+            x, y, z = s.value
+            yield group, vector("value", (x * dense[group], y * dense[group], z * dense[group]))
+
+
+def table(case: Case) -> str:
+    """The problem as a whole, the groups by their labels, then the statements; each has a line of
+
+    word, line of the case, labels of its groups (0: none), the statement that it changes (-1: none), numbers, texts
+    """
+    used = case.used()
+    label = {group: k + 1 for k, group in enumerate(used)}
+    dense = {s.on: s.density for s in case.of(g.Body) if s.density}
+    rows: list[str] = []
+    place: dict[int, int] = {}  # by statement
+
+    def put(word: str, line: int, groups: list[Group], changes: int, found: list[Value]) -> None:
+        numbers = [f"{name} {value:.17g}" for name, value in found if isinstance(value, float)]
+        texts = [f"{name} {value}" for name, value in found if isinstance(value, str)]
+        sides = [label[group] for group in groups[:2]] + [0] * (2 - len(groups))
+        head = f"{word} {line} {sides[0]} {sides[1]} {changes} {len(numbers)} {len(texts)}"
+        rows.append("\n".join([head, *numbers, *texts]))
+
+    for s in case.statements:
+        if not isinstance(s, ASIDE):
+            changes = -1 if s.changes is None else place[id(s.changes)]
+            place[id(s)] = len(rows)
+            word = s.word if changes < 0 else "change"
+            density = dense.get(s.on, 0.0) if isinstance(s, g.Spin) else 0.0
+            put(word, s.line, [group for _, group in s.groups()], changes, values(s, case.where, density))
+    for gravity in case.of(g.Gravity):
+        for group, found in weights(gravity, dense, used):
+            put("weight", gravity.line, [group], -1, found)
+    head = [f"units {case.units}", f"state {case.where.state}", f"thickness {case.thickness:.17g}"]
+    head.append(f"groups {len(used)}")
+    groups = [f"{group.dimension} {group.name}" for group in used]
+    return "\n".join([*head, *groups, f"statements {len(rows)}", *rows]) + "\n"
