@@ -56,6 +56,13 @@ def kind_of(text: str, space: bool) -> str:
     raise MeshRefusal(f"*ELEMENT, TYPE={text}: not read{what}; allowed: {allowed(space)}")
 
 
+def fields_of(text: bytes, signs: bytes) -> tuple[Floats | None, Ints, Ints]:
+    """All numbers, if each stands between commas; the lines that are not blank, and how many numbers they have."""
+    blanks = text.replace(b",", b" ")
+    apart = not re.search(rb"[^,\s][ \t]+[^,\s]|,[ \t]*,", text)
+    return all_numbers(blanks, signs) if apart else None, *words_of_lines(blanks)
+
+
 def trim(text: str) -> str:
     return text.strip(' \t\r"')
 
@@ -132,20 +139,19 @@ class Keyword:
             self.no("an instance that is moved; allowed: places in the nodes themselves", self.rows()[0][0])
 
     def read_nodes(self) -> None:
-        found = all_numbers(self.text.replace(b",", b" "), b"+-.eE")
-        words = words_of_lines(self.text.replace(b",", b" "))[1]
+        found, lines, words = fields_of(self.text, b"+-.eE")
         into = self.new_set("NSET", "NSET", False)
         if not len(words):
             return
-        if found is not None and (words == words[0]).all() and words[0] > 2 and not re.search(rb",[ \t]*,", self.text):
+        if found is not None and (words == words[0]).all() and words[0] > 2:
             rows = found.reshape(len(words), -1)[:, :4]
         else:
             rows = np.array([self.node(line, fields) for line, fields in self.rows()])
         rows = np.column_stack([rows, np.zeros((len(rows), 4 - rows.shape[1]))])
-        if (rows[:, 0] < 1).any():
+        if (rows[:, 0] < 1).any() or (np.abs(rows) >= 1e150).any():
             for line, fields in self.rows():
                 self.node(line, fields)
-        self.deck.nodes.append(np.column_stack([rows, words_of_lines(self.text)[0] + self.line]))
+        self.deck.nodes.append(np.column_stack([rows, lines + self.line]))
         into.append(rows[:, 0].astype(np.int64))
 
     def node(self, line: int, fields: list[str]) -> list[float]:
@@ -154,7 +160,7 @@ class Keyword:
         if len(numbers) < 3 or not numbers[0].isdecimal() or int(numbers[0]) < 1:
             self.no("no node: number and places; allowed: number, x, y, z", line)
         for word in numbers:
-            if not spells_number(word):
+            if not spells_number(word) or abs(float(word)) >= 1e150:
                 self.no(f"node {numbers[0]}: the coordinate {word} is no number", line)
         return [float(word) for word in numbers] + [0.0] * (4 - len(numbers))
 
@@ -166,9 +172,7 @@ class Keyword:
         except MeshRefusal as refusal:
             self.no(str(refusal))
         kind, order = ORDER[word][0], ORDER[word][1].split()
-        text = self.text.replace(b",", b" ")
-        found = all_numbers(text, b"")
-        lines, words = words_of_lines(text)
+        found, lines, words = fields_of(self.text, b"")
         width = len(order) + 1
         starts = np.cumsum(words) - words
         into = self.new_set("ELSET", "ELSET", False)
@@ -207,7 +211,7 @@ class Keyword:
                 first, last, step = (int(word or 0) for word in [*fields, "", ""][:3])
                 into.append(np.arange(first, last + 1, step or 1))
             return
-        found = all_numbers(self.text.replace(b",", b" "), b"")
+        found = fields_of(self.text, b"")[0]
         if found is not None:
             into.append(found.astype(np.int64))
             return
@@ -235,8 +239,9 @@ def read_deck(path: Path, space: bool) -> Deck:
     text = path.read_bytes() + b"\n"
     deck, parts, line, at = Deck(space), 0, 0, 0
     marks = list(re.finditer(rb"^\*(?!\*)[^\n]*", text, re.M))
-    for mark, after in zip(marks, [*(mark.start() for mark in marks[1:]), len(text)], strict=True):
+    for k, mark in enumerate(marks):
         line, at = line + text.count(b"\n", at, mark.start()), mark.start()
+        after = marks[k + 1].start() if k + 1 < len(marks) else len(text)
         behind = re.sub(rb"^\*\*[^\n]*", b"", text[mark.end() : after], flags=re.M)
         keyword = Keyword(deck, mark[0].decode(errors="surrogateescape"), behind, line + 1)
         parts += keyword.section == "PART"

@@ -408,12 +408,9 @@ class Bodies:
             at += [self.x[middles[own][on]], self.x[middles[second][curved]]]
         if surface:
             around = self.face[outer][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-            known, places = middles_on(surface, self.x)
-            keys = self.keys(around)
-            found = np.minimum(np.searchsorted(known, keys), max(len(known) - 1, 0))
-            hit = known[found] == keys if len(known) else np.zeros(len(keys), bool)
-            ends.append(around[hit])
-            at.append(places[found[hit]])
+            row, middle = middles_on(surface, self.x, around)
+            ends.append(around[row])
+            at.append(surface.places[middle])
         all_ends, all_at = np.concatenate(ends), np.concatenate(at)
         once = np.sort(np.unique(self.keys(all_ends), return_index=True)[1])
         all_ends, all_at = all_ends[once], all_at[once]
@@ -452,43 +449,41 @@ def uses(case: Case) -> tuple[set[Group], set[Group], list[g.Contact | g.Tie]]:
     return slaves, others, pairs
 
 
-def middles_on(surface: Mesh, x: Floats) -> tuple[Ints, Floats]:
-    """The keys of edges of a mesh of the same surfaces, as edges of this one, and the places of their middles.
+def middles_on(surface: Mesh, x: Floats, edges: Ints) -> tuple[Ints, Ints]:
+    """The rows of edges that a mesh of the same surfaces has too, and its nodes in their middles.
 
     gmsh may cut extruded quadrangles along the other diagonal: its middle is that of the one that is there.
     """
     blocks = [block for block in surface.blocks if block.kind == 9]
     if not blocks:
-        return np.zeros(0, np.int64), np.zeros((0, 3))
+        return np.zeros(0, np.int64), np.zeros(0, np.int64)
     nodes = np.concatenate([block.nodes for block in blocks])
-    entity = np.concatenate([block.entity for block in blocks])
-    row = same_places(surface.places, x)
-    ends = row[nodes[:, [[0, 1], [1, 2], [2, 0]]]].reshape(-1, 2)
-    tip, middle = row[nodes[:, [2, 0, 1]]].reshape(-1), nodes[:, 3:6].reshape(-1)
-    entity = np.repeat(entity, 3)
-    whole = (ends >= 0).all(axis=1)
-    ends, tip, middle, entity = ends[whole], tip[whole], middle[whole], entity[whole]
-    key = keys_of(ends, len(x))
+    entity = np.repeat(np.concatenate([block.entity for block in blocks]), 3)
+    place = same_places(np.concatenate([x, surface.places]))
+    own = place[len(x) :]
+    key = keys_of(own[nodes[:, [[0, 1], [1, 2], [2, 0]]]].reshape(-1, 2), len(place))
+    tip, middle = own[nodes[:, [2, 0, 1]]].reshape(-1), nodes[:, 3:6].reshape(-1)
     order = np.lexsort((np.arange(len(key)), entity, key))
     pair = np.flatnonzero((key[order[1:]] == key[order[:-1]]) & (entity[order[1:]] == entity[order[:-1]]))
     one, other = order[pair], order[pair + 1]
-    across = np.column_stack([tip[one], tip[other]])
-    whole = (across >= 0).all(axis=1)
-    keys = np.concatenate([keys_of(across[whole], len(x)), key])[::-1]
-    middles = np.concatenate([middle[other][whole], middle])[::-1]  # the edges themselves go first
+    across = keys_of(np.column_stack([tip[one], tip[other]]), len(place))
+    # the last one of an edge goes first, and the edges themselves before those across
+    keys, middles = np.concatenate([across, key])[::-1], np.concatenate([middle[other], middle])[::-1]
     known, first = np.unique(keys, return_index=True)
-    return known, surface.places[middles[first]]
+    wanted = keys_of(place[edges], len(place))
+    at = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
+    row = np.flatnonzero(known[at] == wanted)
+    return row, middles[first[at[row]]]
 
 
-def same_places(places: Floats, x: Floats) -> Ints:
-    """By place the row of x that is the same to the last digit, -1: none."""
-    both = np.concatenate([x, places]) + 0.0
+def same_places(x: Floats) -> Ints:
+    """By row the first one that is the same to the last digit."""
+    both = x + 0.0  # no -0
     order = np.lexsort((np.arange(len(both)), *both.T))
     new = np.append(True, (both[order[1:]] != both[order[:-1]]).any(axis=1))
-    first = order[np.flatnonzero(new)[np.cumsum(new) - 1]]
     row = np.empty(len(both), np.int64)
-    row[order] = np.where(first < len(x), first, -1)
-    return row[len(x) :]
+    row[order] = order[np.flatnonzero(new)[np.cumsum(new) - 1]]
+    return row
 
 
 class Cuts:

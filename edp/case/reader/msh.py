@@ -64,7 +64,7 @@ class Section:
         assert found is not None
         if not found[1].strip():
             self.said = -1  # cut off
-        elif not re.fullmatch(rb"[ \t]*[0-9]+[ \t]*\r?", found[1]):
+        elif not re.fullmatch(rb"[ \t]*[0-9]+[ \t\r]*", found[1]):
             line = self.first + self.text.count(b"\n", 0, found.start(1))
             refuse(f"line {line}: the number of lines of ${self.name} is no number")
         else:
