@@ -191,14 +191,6 @@ def test_arcs():
     assert not any(face.hollow for face in disc)
 
 
-def test_measures_of_a_cad_kernel():
-    """They replace those of the triangles."""
-    made = solid(box(0, 0, 0))
-    made.measure[1] = 7.0, np.array([0.0, 0.25, 0.5])
-    face = geo.faces(made)[0]
-    assert face.area == 7 and list(face.spot) == [0, 0.25, 0.5]
-
-
 # ---------------------------------------------------------------- neighbours
 
 

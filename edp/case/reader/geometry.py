@@ -33,7 +33,6 @@ class Outline:
     bodies: dict[int, list[int]]
     pieces: dict[int, Array]
     names: dict[int, str] = field(default_factory=dict)
-    measure: dict[int, tuple[float, Array]] = field(default_factory=dict)  # of a CAD kernel: area and its centre
     groups: dict[tuple[int, str], list[int]] = field(default_factory=dict)
     entities: list[int] = field(default_factory=list)
 
@@ -122,9 +121,6 @@ def look(gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]
         nodes = model.mesh.getElementsByType(kind, face)[1]
         if len(nodes):
             made.pieces[face] = where[np.asarray(nodes, dtype=int)].reshape(-1, corners, 3)
-        if cad:
-            centre = np.array(model.occ.getCenterOfMass(dimension - 1, face))
-            made.measure[face] = float(model.occ.getMass(dimension - 1, face)), centre
     return made
 
 
@@ -171,7 +167,7 @@ def solid_angle(pieces: Array, centre: Array) -> float:
 
 def flat(nodes: Array) -> Array | None:
     """The normal of the plane through the middle in which all nodes lie."""
-    normal: Array = np.linalg.svd(nodes, full_matrices=True)[2][2]
+    normal: Array = np.linalg.svd(nodes, full_matrices=False)[2][2]
     return normal if np.abs(nodes @ normal).max() < ON else None
 
 
@@ -250,8 +246,7 @@ def face_of(made: Outline, number: int) -> Face:
     pieces = made.pieces[number]
     areas, middles = measures(pieces, made.space)
     area, middle = float(areas.sum()), np.average(middles, axis=0, weights=areas)
-    area, middle = made.measure.get(number, (area, middle))
-    all_nodes = pieces.reshape(-1, 3) - middle
+    all_nodes = pieces[:: 1 + len(pieces) // 60].reshape(-1, 3) - middle  # a few hundred nodes tell a surface
     size = float(np.linalg.norm(all_nodes.max(0) - all_nodes.min(0))) + 1e-300
     nodes = all_nodes / size
     face = Face(number, "other", middle, np.zeros(3), area, made.sides[number])
@@ -261,7 +256,7 @@ def face_of(made: Outline, number: int) -> Face:
     elif ball := sphere(nodes, 3 if made.space else 2):
         face.kind = "sphere" if made.space else "circle"
         face.spot, face.radius = middle + size * ball[0], size * ball[1]
-        if made.space and number not in made.measure:
+        if made.space:
             face.area = solid_angle(pieces, face.spot) * face.radius**2
     elif made.space and (found := cone(nodes, start_axis(pieces))):
         point, face.way, radius, slope = found
@@ -273,7 +268,7 @@ def face_of(made: Outline, number: int) -> Face:
 
 def line_normal(nodes: Array) -> Array | None:
     """The normal of a straight curve in the plane."""
-    along = np.linalg.svd(nodes[:, :2])[2][0]
+    along = np.linalg.svd(nodes[:, :2], full_matrices=False)[2][0]
     normal = np.array([-along[1], along[0], 0.0])
     return normal if np.abs(nodes @ normal).max() < ON else None
 

@@ -305,7 +305,9 @@ class Session:
                 else:
                     bodies = [(top, tag) for body in what for tag in own[body]]
                 _, parts = occ.fragment(bodies, tools)
-                pieces = {body[1]: [tag for d, tag in new if d == top] for body, new in zip(bodies, parts, strict=False)}
+                pieces = {
+                    body[1]: [tag for d, tag in new if d == top] for body, new in zip(bodies, parts, strict=False)
+                }
                 for body in [what] if how == "cut" else what:
                     own[body] = [tag for old in own[body] for tag in pieces[old]]
                 every = [tag for new in own.values() for tag in new]
@@ -341,6 +343,7 @@ class Session:
             model.removePhysicalGroups()
         for dimension, name, numbers in plan.groups:
             if numbers:
+                model.removePhysicalName(name)  # of a group that is gone
                 model.setPhysicalName(dimension, model.addPhysicalGroup(dimension, numbers), name)
         if plan.cad:
             self.gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 12)
@@ -528,12 +531,16 @@ def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> 
             both = "bodies that share a face with two others cannot be taken apart"
             raise Refusal(f"{both}; allowed: apart in the geometry")
     picks.check_ties()
-    if picks.wishes() and (job.cad or job.check):
-        made.touch = picks.untold()
-    if job.check:
-        made.table, made.faces = picks.table(), picks.pieces()
+
+    def tell() -> None:
+        if picks.wishes() and (job.cad or job.check):
+            made.touch = picks.untold()
+        if job.check:
+            made.table, made.faces = picks.table(), picks.pieces()
+
     groups = [(d, name) for _, d, name, _ in picks.wishes()]
     if operations := picks.operations():
+        tell()
         before, plan.rename = picks, True
         groups = [*picks.made.groups, *groups]
         plan.operations += operations
@@ -550,6 +557,8 @@ def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> 
             break
         closer.append((picks.store.closer(), picks.store.finest))
         picks.renew(session.look(closer))
+    if not operations:
+        tell()
     plan.groups = [(d, name, picks.of(d, name)) for d, name in groups]
     made.left = picks.left()
 

@@ -60,7 +60,7 @@ class Store:
 
     @property
     def space(self) -> bool:
-        return self.corners == 6
+        return bool(self.corners == 6)
 
     def balls(self, nodes: Array) -> tuple[Array, Array, Array]:
         centre = np.einsum("n,pnk->pk", MIDDLE[self.corners], nodes)
@@ -254,7 +254,8 @@ class Store:
         if len(around):
             ask = far & (deep == 0)
             deep[ask] = np.where(self.surrounded(places[ask], around), 1, -1)
-        return slave[~far | (deep == 1)]
+        zone: Numbers = slave[~far | (deep == 1)]
+        return zone
 
     asks = True  # whether a closer outline may be asked for
 
@@ -288,9 +289,10 @@ class Shape:
         """From outside or inside."""
         off = places - self.place
         along = off @ self.way
-        if not self.radius:
-            return np.abs(along)
-        return np.abs(np.linalg.norm(off - along[:, None] * self.way, axis=1) - self.radius)
+        if self.radius:
+            along = np.linalg.norm(off - along[:, None] * self.way, axis=1) - self.radius
+        found: Array = np.abs(along)
+        return found
 
 
 def first_of_cell(places: Array, wide: float) -> Numbers:

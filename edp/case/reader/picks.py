@@ -255,9 +255,7 @@ class Picks:
     def table(self) -> str:
         """What -check 1 prints of bodies and faces."""
         self.made.names = {body: name for body in self.made.bodies if (name := self.named(body))}
-        told = {
-            bodies: all(self.stated(*bodies, *pair) for pair in pairs) for bodies, pairs in self.touching.items()
-        }
+        told = {bodies: all(self.stated(*bodies, *pair) for pair in pairs) for bodies, pairs in self.touching.items()}
         on = by_face(self.touching)
         return table(self.made, self.faces, on) + statements(self.made, self.faces, self.touching, told)
 
@@ -453,12 +451,9 @@ class Picks:
     def of_contacts(self, h: float) -> dict[str, Any] | None:
         """Around the places where contacts are; ties have none beside contacts: their surfaces touch all over."""
         store, low = self.store, self.dimension - 1
-        pairs: list[g.Contact | g.Tie] = [*self.case.of(g.Contact)]
-        touches = [s for s in self.case.statements if isinstance(s, (g.Contact, g.Tie, g.Obstacle)) and not s.changes]
-        if pairs or self.case.of(g.Obstacle):
-            touches = [s for s in touches if not isinstance(s, g.Tie)]
         zones, wide = [], 0.0
-        for s in touches:
+        touching: list[g.Contact | g.Obstacle | g.Tie] = [*self.case.touching] or [*self.case.of(g.Tie)]
+        for s in touching:
             shape, master, around = None, np.zeros(0, int), np.zeros(0, int)
             slave = store.of(self.of(low, (s.on if isinstance(s, g.Obstacle) else s.slave).name))
             if isinstance(s, g.Obstacle):
