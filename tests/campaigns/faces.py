@@ -17,7 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "edp/case"))
 
-from reader import geometry, neighbours  # noqa: E402
+from reader.mesher import prepare  # noqa: E402
 from reader.gmsh_process import GmshError  # noqa: E402
 
 LAST_DIGITS = 2e-3  # of numbers that are printed with four digits: rounding, and the middle of a coarse outline
@@ -45,10 +45,7 @@ def python(file, space):
     """The same of Python, its own CPU seconds with those of gmsh's process."""
     begun, own = seconds(), sum(os.times()[:2])
     try:
-        made = geometry.outline(file, space)
-        faces = geometry.faces(made)
-        pairs = neighbours.touching(made, faces)
-        text = geometry.table(made, faces, neighbours.by_face(pairs)) + neighbours.statements(made, faces, pairs)
+        text = prepare(file, space, None, None, Path(tempfile.gettempdir()), check=True).table
     except GmshError as error:
         text = f"refused: {error}"
     return text, seconds() - begun + sum(os.times()[:2]) - own

@@ -1,41 +1,45 @@
 """The bodies and faces of a geometry: their kinds, places, normals or axes, radii, areas, and what lies on both sides.
 
-`outline(file, space)` lets gmsh open a file and mesh its faces coarsely, of second order; `faces(outline)` makes the
-table of it, `table(outline)` the text of -check 1. In the plane bodies are surfaces, and faces are curves. A kind is
+`look(gmsh, cad, space)` meshes the faces of the geometry that gmsh has open coarsely, of second order; `faces(outline)`
+makes the table of it, `table(outline)` the text of -check 1. In the plane bodies are surfaces, and faces are curves. A kind is
 told where all nodes lie on it within 1e-6 of the face's size, by least squares; gmsh's own names for kinds are not
 used, for a cylinder may be a surface of revolution or a spline there.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from .gmsh_process import GmshError, in_child
-
 Array = npt.NDArray[np.float64]
 ON = 1e-6  # of a face's size: nodes so near to a shape lie on it
 GAUSS = ((-np.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (np.sqrt(0.6), 5 / 18))
-CAD = {".step", ".stp", ".brep", ".iges", ".igs"}
 TRIANGLE, LINE = 9, 8  # gmsh's types of second order
 
 
 @dataclass
 class Outline:
-    """What gmsh made: by body its faces, by face the nodes of its pieces (pieces, 6 or 3, 3), by body its name."""
+    """What gmsh made: by body its faces, by face the nodes of its pieces (pieces, 6 or 3, 3), by body its name.
+
+    entities: all faces; groups: by dimension and name the bodies or faces of the file's own groups.
+    """
 
     space: bool
     bodies: dict[int, list[int]]
     pieces: dict[int, Array]
     names: dict[int, str] = field(default_factory=dict)
-    measure: dict[int, tuple[float, Array]] = field(default_factory=dict)  # of a CAD kernel: area and its centre
-    version: str = ""
+    groups: dict[tuple[int, str], list[int]] = field(default_factory=dict)
+    entities: list[int] = field(default_factory=list)
 
-    @property
+    def __post_init__(self) -> None:
+        self.entities = self.entities or list(self.pieces)
+
+    @cached_property
     def sides(self) -> dict[int, list[int]]:
         """By face: the bodies that it bounds."""
         found: dict[int, list[int]] = {face: [] for face in self.pieces}
@@ -44,9 +48,9 @@ class Outline:
                 found.setdefault(face, []).append(body)
         return found
 
-    @property
+    @cached_property
     def diagonal(self) -> float:
-        nodes = np.concatenate([piece.reshape(-1, 3) for piece in self.pieces.values()])
+        nodes = np.concatenate([piece.reshape(-1, 3) for piece in self.pieces.values()] or [np.zeros((1, 3))])
         return float(np.linalg.norm(nodes.max(0) - nodes.min(0)))
 
 
@@ -66,50 +70,57 @@ class Face:
     hollow: bool = False
 
 
-def outline(file: Path, space: bool, limit: float = float("inf")) -> Outline:
-    """The outline of a geometry, made in a process of its own."""
-    made: Outline = in_child(lambda gmsh: look(gmsh, file, space), f"an outline of {file.name}", limit)
-    return made
-
-
-def look(gmsh: Any, file: Path, space: bool) -> Outline:
-    """Opens a geometry, meshes its faces as far as curvature asks for, and takes them apart."""
-    cad, dimension = file.suffix.lower() in CAD, 3 if space else 2
+def distance_field(gmsh: Any, places: Sequence[Sequence[float]], size: str) -> int:
+    """The number of a field of sizes; size: by the distance from places, which it names {}."""
     model = gmsh.model
-    gmsh.open(str(file))
-    if not model.getEntities(dimension):
-        raise GmshError(f"no {'solid' if space else 'surface'} in it")
+    first = 1 + max((tag for _, tag in model.getEntities(0)), default=0)
+    tags = [model.geo.addPoint(*place, 0, first + k) for k, place in enumerate(places)]
+    model.geo.synchronize()
+    away, growing = model.mesh.field.add("Distance"), model.mesh.field.add("MathEval")
+    model.mesh.field.setNumbers(away, "PointsList", tags)
+    model.mesh.field.setString(growing, "F", size.format(f"F{away}"))
+    return int(growing)
+
+
+def look(gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]] = ()) -> Outline:
+    """Meshes the faces of what gmsh has open as far as curvature asks for, and takes them apart.
+
+    closer: places where the outline must be finer, and the sizes there.
+    """
+    dimension, model = 3 if space else 2, gmsh.model
     model.mesh.clear()
     low, high = np.array(model.getBoundingBox(-1, -1)).reshape(2, 3)
-    size = model.mesh.field.add("MathEval")
-    model.mesh.field.setString(size, "F", f"{np.linalg.norm(high - low) / 15:.17g}")
-    model.mesh.field.setAsBackgroundMesh(size)
+    fields = [model.mesh.field.add("MathEval")]
+    model.mesh.field.setString(fields[0], "F", f"{np.linalg.norm(high - low) / 15:g}")
+    for places, finest in closer:
+        growing = f"{finest:.9g}+0.25*Max(0,{{}}-{2 * finest:.9g})"
+        fields.append(distance_field(gmsh, places.tolist(), growing))
+    least = model.mesh.field.add("Min")
+    model.mesh.field.setNumbers(least, "FieldsList", fields)
+    model.mesh.field.setAsBackgroundMesh(least)
     settings = {"MeshSizeFromPoints": 0, "MeshSizeExtendFromBoundary": 1, "MinimumCirclePoints": 16, "MeshSizeMin": 0}
+    # of gmsh's own curves its curvature ends in an endless loop (4.8)
     settings |= {"MeshSizeFactor": 1, "ElementOrder": 2, "MeshSizeFromCurvature": 24 if cad else 0}
     for name, value in settings.items():
         gmsh.option.setNumber(f"Mesh.{name}", value)
     model.mesh.generate(dimension - 1)
     bodies = {
-        tag: [abs(face) for _, face in model.getBoundary([(dimension, tag)], combined=False, oriented=False)]
+        tag: list(dict.fromkeys(abs(face) for _, face in model.getBoundary([(dimension, tag)], False, False)))
         for _, tag in model.getEntities(dimension)
     }
-    made = Outline(space, {tag: list(dict.fromkeys(faces)) for tag, faces in bodies.items()}, {})
-    made.version = str(gmsh.option.getString("General.Version"))
-    for of, tag in model.getPhysicalGroups(dimension):
-        members = model.getEntitiesForPhysicalGroup(of, tag)
-        if len(members) == 1:  # a group of several bodies names none of them
-            made.names[int(members[0])] = model.getPhysicalName(of, tag)
+    made = Outline(space, bodies, {}, entities=[tag for _, tag in model.getEntities(dimension - 1)])
+    for of, tag in model.getPhysicalGroups():
+        if of >= dimension - 1 and (name := model.getPhysicalName(of, tag)):
+            made.groups[of, name] = [int(member) for member in model.getEntitiesForPhysicalGroup(of, tag)]
+    made.names = {own[0]: name for (of, name), own in made.groups.items() if of == dimension and len(own) == 1}
     tags, places, _ = model.mesh.getNodes()
     where = np.zeros((int(max(tags, default=0)) + 1, 3))
     where[np.asarray(tags, dtype=int)] = np.asarray(places).reshape(-1, 3)
     kind, corners = (TRIANGLE, 6) if space else (LINE, 3)
-    for _, face in model.getEntities(dimension - 1):
+    for face in made.entities:
         nodes = model.mesh.getElementsByType(kind, face)[1]
         if len(nodes):
             made.pieces[face] = where[np.asarray(nodes, dtype=int)].reshape(-1, corners, 3)
-        if cad:
-            centre = np.array(model.occ.getCenterOfMass(dimension - 1, face))
-            made.measure[face] = float(model.occ.getMass(dimension - 1, face)), centre
     return made
 
 
@@ -156,7 +167,7 @@ def solid_angle(pieces: Array, centre: Array) -> float:
 
 def flat(nodes: Array) -> Array | None:
     """The normal of the plane through the middle in which all nodes lie."""
-    normal: Array = np.linalg.svd(nodes, full_matrices=True)[2][2]
+    normal: Array = np.linalg.svd(nodes, full_matrices=False)[2][2]
     return normal if np.abs(nodes @ normal).max() < ON else None
 
 
@@ -235,8 +246,7 @@ def face_of(made: Outline, number: int) -> Face:
     pieces = made.pieces[number]
     areas, middles = measures(pieces, made.space)
     area, middle = float(areas.sum()), np.average(middles, axis=0, weights=areas)
-    area, middle = made.measure.get(number, (area, middle))
-    all_nodes = pieces.reshape(-1, 3) - middle
+    all_nodes = pieces[:: 1 + len(pieces) // 60].reshape(-1, 3) - middle  # a few hundred nodes tell a surface
     size = float(np.linalg.norm(all_nodes.max(0) - all_nodes.min(0))) + 1e-300
     nodes = all_nodes / size
     face = Face(number, "other", middle, np.zeros(3), area, made.sides[number])
@@ -246,7 +256,7 @@ def face_of(made: Outline, number: int) -> Face:
     elif ball := sphere(nodes, 3 if made.space else 2):
         face.kind = "sphere" if made.space else "circle"
         face.spot, face.radius = middle + size * ball[0], size * ball[1]
-        if made.space and number not in made.measure:
+        if made.space:
             face.area = solid_angle(pieces, face.spot) * face.radius**2
     elif made.space and (found := cone(nodes, start_axis(pieces))):
         point, face.way, radius, slope = found
@@ -258,7 +268,7 @@ def face_of(made: Outline, number: int) -> Face:
 
 def line_normal(nodes: Array) -> Array | None:
     """The normal of a straight curve in the plane."""
-    along = np.linalg.svd(nodes[:, :2])[2][0]
+    along = np.linalg.svd(nodes[:, :2], full_matrices=False)[2][0]
     normal = np.array([-along[1], along[0], 0.0])
     return normal if np.abs(nodes @ normal).max() < ON else None
 

@@ -16,8 +16,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
+
+from .words import Refusal
 
 T = TypeVar("T")
 DEATH_OF_PARENT = 1  # prctl's PR_SET_PDEATHSIG
@@ -28,9 +30,9 @@ class GmshError(Exception):
     """gmsh cannot do it, in its own words or in ours; no sentence: the reader adds the file and what is allowed."""
 
 
-def start(module: Any) -> Any:
+def start(module: Any, options: Sequence[str] = ()) -> Any:
     """Starts gmsh's module: no files of options, no text on the terminal, the first error ends what is asked."""
-    module.initialize(readConfigFiles=False)
+    module.initialize(["gmsh", *options], readConfigFiles=False)
     module.option.setNumber("General.Terminal", 0)
     module.option.setNumber("General.AbortOnError", 2)
     module.option.setNumber("General.NumThreads", 1)
@@ -70,7 +72,8 @@ def in_child(
 ) -> T:
     """What task(gmsh) returns, in a process of its own; `what`: its name in the lines that say that gmsh is at work.
 
-    Raises GmshError if gmsh refuses, crashes, ends by itself, or takes longer than `limit` seconds.
+    Raises GmshError if gmsh refuses, crashes, ends by itself, or takes longer than `limit` seconds; a Refusal or an
+    OSError of the task comes back as it is.
     """
     parent = os.getpid()
     inlet, outlet = os.pipe()
@@ -92,12 +95,20 @@ def in_child(
             os.waitpid(child, 0)
     if not answer:
         code = os.waitstatus_to_exitcode(status)
-        raise GmshError(f"gmsh crashed ({signal.Signals(-code).name})" if code < 0 else "it ends gmsh (Exit)")
+        why = f"gmsh crashed ({signal.Signals(-code).name})" if code < 0 else "it ends gmsh (Exit)"
+        raise GmshError(f"gmsh makes no mesh of it: {why}")
     done, value = pickle.loads(answer)
     if not done:
-        raise GmshError(value)
+        raise value
     result: T = value
     return result
+
+
+def end_with(parent: int) -> None:
+    """This process, a child, ends when its parent does."""
+    ctypes.CDLL(None).prctl(DEATH_OF_PARENT, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(0)
 
 
 def work(task: Callable[[Any], Any], outlet: int, parent: int) -> None:
@@ -105,9 +116,7 @@ def work(task: Callable[[Any], Any], outlet: int, parent: int) -> None:
     try:
         faulthandler.disable()
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        ctypes.CDLL(None).prctl(DEATH_OF_PARENT, signal.SIGKILL)
-        if os.getppid() != parent:
-            os._exit(0)
+        end_with(parent)
         nothing = os.open(os.devnull, os.O_RDWR)
         for stream in (0, 1, 2):
             os.dup2(nothing, stream)
@@ -116,8 +125,10 @@ def work(task: Callable[[Any], Any], outlet: int, parent: int) -> None:
 
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # the module sets its own
             answer = True, task(start(gmsh))
+        except (GmshError, Refusal, OSError) as error:
+            answer = False, error
         except Exception as error:
-            answer = False, str(error) or type(error).__name__
+            answer = False, GmshError(str(error) or type(error).__name__)
         with os.fdopen(outlet, "wb") as pipe:
             pickle.dump(answer, pipe, protocol=pickle.HIGHEST_PROTOCOL)
     finally:

@@ -82,12 +82,11 @@ def to_segment(q: Array, a: Array) -> Array:
 
 
 def distances(places: Array, pieces: Array) -> Array:
-    """(places, pieces): from each place to each flat piece between corners."""
-    q = places[:, None] - pieces[None, :, 0]
-    a = (pieces[:, 1] - pieces[:, 0])[None]
-    if pieces.shape[1] == 3:
+    """From places to flat pieces between corners: (..., 3) and (..., 6 or 3, 3)."""
+    q, a = places - pieces[..., 0, :], pieces[..., 1, :] - pieces[..., 0, :]
+    if pieces.shape[-2] == 3:
         return to_segment(q, a)
-    b = (pieces[:, 2] - pieces[:, 0])[None]
+    b = pieces[..., 2, :] - pieces[..., 0, :]
     aa, ab, bb, qa, qb = ((x * y).sum(-1) for x, y in ((a, a), (a, b), (b, b), (q, a), (q, b)))
     det = aa * bb - ab * ab + 1e-300
     u, v = (qa * bb - qb * ab) / det, (qb * aa - qa * ab) / det
@@ -106,29 +105,37 @@ def part_on(f: Array, g: Array, near: float) -> bool:
         places = places[((places >= low) & (places <= high)).all(axis=1)]
         if len(places):
             alike = (ways_g @ ways_f[k]) ** 2 > 0.5
-            if (distances(places, g[alike]) < play_f[k] + play_g[alike]).any():
+            if (distances(places[:, None], g[alike]) < play_f[k] + play_g[alike]).any():
                 return True
     return False
 
 
 def touching(made: Outline, found: list[Face]) -> Touching:
     """The pairs of faces on each other, by pairs of bodies."""
-    faces = {face.number: face for face in found}
-    near = 1e-6 * made.diagonal
-    boxes = {n: (p.reshape(-1, 3).min(0) - near, p.reshape(-1, 3).max(0)) for n, p in made.pieces.items()}
+    near, sides = 1e-6 * made.diagonal, made.sides
     pairs: Touching = {}
-    for a, b in combinations(made.bodies, 2):
-        for f in made.bodies[a]:
-            for g in made.bodies[b]:
-                if f == g or f not in faces or g not in faces:
-                    continue
-                if (boxes[f][0] > boxes[g][1]).any() or (boxes[g][0] > boxes[f][1]).any():
-                    continue
-                if not one_shape(faces[f], faces[g], near, made.diagonal) or not opposite(faces[f], faces[g]):
-                    continue
-                if part_on(made.pieces[f], made.pieces[g], near) or part_on(made.pieces[g], made.pieces[f], near):
-                    pairs.setdefault((a, b), []).append((f, g))
-    return pairs
+    low = np.array([made.pieces[face.number].min((0, 1)) - near for face in found])
+    high = np.array([made.pieces[face.number].max((0, 1)) for face in found])
+    order = {body: k for k, body in enumerate(made.bodies)}
+    for i, one in enumerate(found):
+        meet = (low[i] <= high[i + 1 :]).all(axis=1) & (low[i + 1 :] <= high[i]).all(axis=1)
+        for other in (found[i + 1 + int(k)] for k in np.flatnonzero(meet)):
+            if not one_shape(one, other, near, made.diagonal) or not opposite(one, other):
+                continue
+            f, g = made.pieces[one.number], made.pieces[other.number]
+            if not part_on(f, g, near) and not part_on(g, f, near):
+                continue
+            for a in sides[one.number]:
+                for b in (b for b in sides[other.number] if b != a):
+                    swap = order[a] > order[b]
+                    pair = (other.number, one.number) if swap else (one.number, other.number)
+                    pairs.setdefault((b, a) if swap else (a, b), []).append(pair)
+    places = {body: {face: k for k, face in enumerate(own)} for body, own in made.bodies.items()}
+    return {
+        (a, b): sorted(pairs[a, b], key=lambda pair: (places[a][pair[0]], places[b][pair[1]]))
+        for a, b in combinations(made.bodies, 2)
+        if (a, b) in pairs
+    }
 
 
 def by_face(pairs: Touching) -> dict[int, list[int]]:
@@ -140,14 +147,20 @@ def by_face(pairs: Touching) -> dict[int, list[int]]:
     return found
 
 
-def statements(made: Outline, found: list[Face], pairs: Touching) -> str:
-    """For each pair of bodies that touch: the statements of a case that say what happens there."""
+def statements(
+    made: Outline, found: list[Face], pairs: Touching, told: dict[tuple[int, int], bool] | None = None
+) -> str:
+    """For each pair of bodies that touch: the statements of a case that say what happens there; told: it has some."""
     area = {face.number: face.area for face in found}
     many, sides = ("volumes", "faces") if made.space else ("surfaces", "curves")
     text = ""
     for (a, b), both in pairs.items():
         listed = ", ".join(f"{f} on {g}" for f, g in both)
-        text += f"\n{many} {a} and {b} touch ({sides} {listed}): nothing joins them until the case file says how\n"
+        done = (told or {}).get((a, b))
+        how = "the case file says how" if done else "nothing joins them until the case file says how"
+        text += f"\n{many} {a} and {b} touch ({sides} {listed}): {how}\n"
+        if done:
+            continue
         names = []
         for body in (a, b):
             if body not in made.names:
