@@ -46,7 +46,7 @@ class ElementSides:
 
 def every(inside: Bools) -> Bools:
     """By row whether all are."""
-    found: Bools = inside.all(axis=1)
+    found: Bools = np.logical_and.reduce(inside, axis=1)
     return found
 
 
