@@ -25,7 +25,7 @@ import numpy as np
 from . import grammar as g
 from .case import Case
 from .groups import Group
-from .mesh import Bools, Floats, Ints, Mesh, MeshRefusal, keys_of, table
+from .mesh import Bools, Floats, Ints, Mesh, MeshRefusal, components, keys_of, table
 from .rows import brief
 from .simplices import cut_to_simplices
 
@@ -415,19 +415,6 @@ class Bodies:
         once = np.sort(np.unique(self.keys(all_ends), return_index=True)[1])
         all_ends, all_at = all_ends[once], all_at[once]
         return all_ends, all_at - (self.x[all_ends[:, 0]] + self.x[all_ends[:, 1]]) / 2
-
-
-def components(count: int, one: Ints, other: Ints) -> Ints:
-    """By element the first one that it hangs together with, by pairs of neighbours (Shiloach and Vishkin, 1982)."""
-    root = np.arange(count)
-    while len(one):
-        a, b = root[one], root[other]
-        apart = a != b
-        one, other, a, b = one[apart], other[apart], a[apart], b[apart]
-        root[np.maximum(a, b)] = np.minimum(a, b)
-        while (root[root] != root).any():
-            root = root[root]
-    return root
 
 
 def uses(case: Case) -> tuple[set[Group], set[Group], list[g.Contact | g.Tie]]:

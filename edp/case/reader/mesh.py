@@ -53,7 +53,7 @@ SIDES = {
     (3, 4): "012 031 132 230",
     (3, 8): "0123 4765 0451 1562 2673 3740",
     (3, 6): "012 354 0341 1452 2530",
-    (3, 5): "0321 014 124 234 304",
+    (3, 5): "0123 041 142 243 340",
 }
 # nodes in the middle of sides
 CENTRES = {10: {"0123": 8}, 13: {"0143": 15, "2035": 16, "1254": 17}, 14: {"0123": 13}}
@@ -209,3 +209,16 @@ def alone(sides: list[Side]) -> list[Bools]:
     keys = np.concatenate([side.key for side in sides])
     _, same, count = np.unique(keys, return_inverse=True, return_counts=True)
     return np.split(count[same] == 1, np.cumsum([len(side.key) for side in sides])[:-1])
+
+
+def components(count: int, one: Ints, other: Ints) -> Ints:
+    """By element the first one that it hangs together with, by pairs of neighbours (Shiloach and Vishkin, 1982)."""
+    root = np.arange(count)
+    while len(one):
+        a, b = root[one], root[other]
+        apart = a != b
+        one, other, a, b = one[apart], other[apart], a[apart], b[apart]
+        root[np.maximum(a, b)] = np.minimum(a, b)
+        while (root[root] != root).any():
+            root = root[root]
+    return root
