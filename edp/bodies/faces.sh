@@ -21,6 +21,7 @@ if test $code = 5; then
     rm -rf "$read"
     exit 30
 fi
+test $code != 12 || exit 10
 if test $code != 4; then
     echo "-mesh $2: $(cat "$read/why" 2> /dev/null || echo "cannot be read")$(grep -q '; allowed: ' "$read/why" 2> /dev/null \
         || echo "; allowed: a geometry (.geo, .step, .iges, .brep), or a mesh of gmsh's with numbers of faces")"

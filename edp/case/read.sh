@@ -1,14 +1,16 @@
-# read.sh: the reader of cases and meshes, case/reader/, in the first Python that can run it: sh read.sh RUN ARGUMENTS...
-# Needs: RUN, the number of the run's process; ARGUMENTS: those of case/read.py; Python 3.11 or later with numpy and gmsh's module:
-#        that of the environment's CONTACT_PYTHON, of the package's .venv, of the PATH, of the system.
-# Gives: what case/read.py gives. If there is no such Python, one line on standard output that says how to get it.
-# Exit codes: those of case/read.py, 12 no Python.
+# read.sh: the reader of cases and meshes, case/reader/, in the first Python that can run it: sh read.sh RUN COMMAND NAME=VALUE...
+# Needs: RUN, the number of the run's process; COMMAND NAME=VALUE...: those of case/reader/command.py; Python 3.11 or later with numpy and
+#        gmsh's module: that of the environment's CONTACT_PYTHON, of the package's .venv, of the PATH, of the system; CONTACT_READER: one that
+#        is known to be fit, or nothing.
+# Gives: what the command gives. If there is no such Python, one line on standard output that says how to get it.
+# Exit codes: those of the command, 12 no Python.
 here=${0%/*}
 export CONTACT_RUN="$1"
 shift
+# -I: no module of the present folder takes the place of numpy
+test ! -x "$CONTACT_READER" || exec "$CONTACT_READER" -I "$here/read.py" "$@"
 for python in "$CONTACT_PYTHON" "${CONTACT_CACHE:+$CONTACT_CACHE/venv/bin/python}" "$here/../../.venv/bin/python" python3 /usr/bin/python3; do
     case $python in '') continue ;; */*) test -x "$python" || continue ;; esac
-    # -I: no module of the present folder takes the place of numpy
     "$python" -I "$here/read.py" "$@"
     code=$?
     case $code in 12 | 126 | 127) ;; *) exit $code ;; esac

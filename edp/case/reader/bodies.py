@@ -26,8 +26,8 @@ from . import grammar as g
 from .case import Case
 from .groups import Group
 from .mesh import Bools, Floats, Ints, Mesh, MeshRefusal, components, keys_of, table
-from .rows import brief
 from .simplices import cut_to_simplices
+from .words import brief
 
 BIG = 1e6  # as large as the user's lengths
 AT_ONCE = "; allowed: "
@@ -37,7 +37,7 @@ AT_ONCE = "; allowed: "
 class Written:
     """What a run is told about its files.
 
-    text: behind the case's table; groups: by label, also those of split symmetries; split: of these the statement's.
+    text: of the file regions; groups: by label, also those of split symmetries; split: of these the statement's.
     """
 
     text: str
@@ -710,25 +710,3 @@ def write_bodies(
     text += [f"{label} {of.one(label)}" for label in sorted(of.same_as)]
     text += [f"cuts {len(of.cut_nodes)}", *(f"{label} {now[node] - 1}" for label, node in of.cut_nodes)]
     return Written("\n".join(text) + "\n", of.groups, of.mirrors.split)
-
-
-def with_split(rows: str, written: Written) -> str:
-    """A case's rows with the statements and groups of symmetries in several planes."""
-    if not written.split:
-        return rows
-    lines, table_ = rows.split("\n"), []
-    symmetry = {int(w[2]): line for line in lines if (w := line.split()) and w[0] == "symmetry"}
-    more = [symmetry[old].replace(f" {old} ", f" {new} ", 1) for new, old in written.split.items()]
-    skip = 0
-    for line in lines:
-        word, _, rest = line.partition(" ")
-        if skip:
-            skip -= 1
-        elif word == "groups":
-            skip = int(rest)
-            table_ += [f"groups {len(written.groups)}", *(f"{one.dimension} {one}" for one in written.groups)]
-        elif word == "statements":
-            table_.append(f"statements {int(rest) + len(more)}")
-        else:
-            table_ += [*more, line] if word == "files" else [line]
-    return "\n".join(table_)

@@ -1,10 +1,12 @@
-"""What FreeFEM and bodies/readable.sh ask of the reader: `main([COMMAND, NAME=VALUE, ...])`.
+"""What FreeFEM and the shell programs of the package ask of the reader: `main([COMMAND, NAME=VALUE, ...])`.
 
     ready    nothing: whether this Python can run it
-    modules  which modules a case asks for       case= space= own= check= flags= to=
-    case     a case with the groups of its mesh  case= names= space= options= unlike= overlap= bodies= again= to= picks=
+    modules  the macros of a case's second start  case= space= own= check= flags= to=
+    problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= cache=
+    again    another mesh of a geometry           file= space= plan= view= to=
 
-`to`: the file that the answer goes to. Exit codes: 0 done; 1 refused: the answer is one line; 12: see read.py.
+`to`: the file that the answer goes to; case=none: -check 1 without a case. Exit codes: 0 done; 1 refused, in one line;
+of `problem` those of problem.run(); 12: see read.py; 130: interrupted.
 """
 
 from __future__ import annotations
@@ -13,34 +15,16 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .case import read_case, read_open
-from .groups import Group, Where
+from .case import read_open
+from .groups import Where
 from .modules import Run, modules, needs
-from .picks_text import picks
-from .values import table
-from .words import Refusal
+from .words import Refusal, text_of
 
 Words = dict[str, str]  # the arguments by their names
 
 
-def text_of(case: str) -> str:
-    """A case file's text; bytes that are no letters are kept."""
-    with open(case, encoding="utf-8", errors="surrogateescape", newline="\n") as file:
-        return file.read()
-
-
-def answer(path: str, text: str) -> None:
-    Path(path).write_text(text, encoding="utf-8", errors="surrogateescape", newline="\n")
-
-
-def groups_of(path: str) -> list[Group]:
-    """Groups as gmsh's text has them: dimension, number, "name"."""
-    lines = (line.split(maxsplit=2) for line in text_of(path).splitlines())
-    return [Group(int(size), name.strip().strip('"')) for size, _, name in lines]
-
-
-def ask_modules(of: Words) -> None:
-    """How many macros the second start of FreeFEM has, and these, a line each.
+def ask_modules(of: Words) -> int:
+    """Writes which Python this is, how many macros the second start of FreeFEM has, and these, a line each.
 
     A case that cannot be read yet is no fault here.
     """
@@ -53,42 +37,57 @@ def ask_modules(of: Words) -> None:
         axis="-axis" in flags,
         check=of["check"] == "1",
     )
-    asked = modules(needs(*read_open(text_of(of["case"]), Where(space=run.space))), run)
+    try:
+        asked = modules(needs(*read_open(text_of(of["case"]), Where(space=run.space))), run)
+    except Refusal as refusal:
+        Path(of["to"]).write_text(refusal.text(of["case"]) + "\n", errors="surrogateescape")
+        return 1
     macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
-    answer(of["to"], "\n".join([str(len(macros)), *macros]) + "\n")
+    Path(of["to"]).write_text("\n".join([sys.executable, str(len(macros)), *macros]) + "\n")
+    return 0
 
 
-def ask_case(of: Words) -> None:
-    """The table of the case, and what it picks on a geometry."""
-    options = of["options"].split()
+def ask_problem(of: Words) -> int:
+    """Reads mesh and case into the run's folder; modules that take time to load are loaded here."""
+    from .problem import Problem, run
+
+    options, sets = of["options"].split(), of["sets"].split()
     where = Where(
         space=of["space"] == "1",
         friction=(of["unlike"] or "1") if "friction" in options else "",
         wear="wear" in options,
         plastic="plastic" in options,
-        overlap=of["overlap"] != "",
-        bodies=of["bodies"],
-        again=of["again"] != "",
+        again=of["as"] == "again",
     )
-    case = read_case(text_of(of["case"]), where, groups_of(of["names"]))
-    answer(of["to"], table(case))
-    if of["picks"]:
-        answer(of["picks"], "".join(f"{line}\n" for line in picks(case)))
+    pairs = [(name, float(value)) for name, value in zip(sets[1::3], sets[2::3], strict=True)]
+    cache = Path(of["cache"]) if of["cache"] else None
+    check = of["as"] == "check"
+    return run(Problem(Path(of["file"]), of["case"], Path(of["folder"]), where, pairs, check, cache, of["surface"]))
 
 
-COMMANDS: dict[str, Callable[[Words], None]] = {"ready": lambda of: None, "modules": ask_modules, "case": ask_case}
+def ask_again(of: Words) -> int:
+    from .gmsh_process import GmshError
+    from .mesher import again
+
+    try:
+        again(Path(of["file"]), of["space"] == "1", Path(of["plan"]), Path(of["view"]), Path(of["to"]))
+    except (GmshError, OSError):
+        return 1
+    return 0
+
+
+COMMANDS: dict[str, Callable[[Words], int]] = {
+    "ready": lambda of: 0,
+    "modules": ask_modules,
+    "problem": ask_problem,
+    "again": ask_again,
+}
 
 
 def main(arguments: Sequence[str]) -> int:
     """Runs a command; its exit code."""
     command, *rest = arguments
-    of = {name: value for name, _, value in (word.partition("=") for word in rest)}
     try:
-        COMMANDS[command](of)
-    except Refusal as refusal:
-        answer(of["to"], refusal.text(of["case"]) + "\n")
-        return 1
-    except BrokenPipeError:
-        sys.stderr.close()
-        return 1
-    return 0
+        return COMMANDS[command]({name: value for name, _, value in (word.partition("=") for word in rest)})
+    except KeyboardInterrupt:
+        return 130

@@ -8,7 +8,7 @@ options/parts/statements.idp has a function for each.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from . import grammar as g
 from .case import Case
@@ -59,23 +59,28 @@ def weights(s: g.Gravity, dense: dict[Group, float], used: list[Group]) -> Itera
             yield group, vector("value", (x * dense[group], y * dense[group], z * dense[group]))
 
 
-def table(case: Case) -> str:
+def table(case: Case, groups: Sequence[Group] = (), split: Mapping[int, int] | None = None) -> str:
     """The problem as a whole, the groups by their labels, then the statements; each has a line of
 
     word, line of the case, labels of its groups (0: none), the statement that it changes (-1: none), numbers, texts
+
+    groups: by label, if some are split, and split: the labels of these by those of the groups in the case.
     """
     used = case.used()
     label = {group: k + 1 for k, group in enumerate(used)}
+    groups = groups or used
     dense = {s.on: s.density for s in case.of(g.Body) if s.density}
     rows: list[str] = []
     place: dict[int, int] = {}  # by statement
 
-    def put(word: str, line: int, groups: list[Group], changes: int, found: list[Value]) -> None:
+    def put(word: str, line: int, on: list[Group], changes: int, found: list[Value]) -> None:
         numbers = [f"{name} {value:.17g}" for name, value in found if isinstance(value, float)]
         texts = [f"{name} {value}" for name, value in found if isinstance(value, str)]
-        sides = [label[group] for group in groups[:2]] + [0] * (2 - len(groups))
-        head = f"{word} {line} {sides[0]} {sides[1]} {changes} {len(numbers)} {len(texts)}"
-        rows.append("\n".join([head, *numbers, *texts]))
+        sides = [label[group] for group in on[:2]] + [0] * (2 - len(on))
+        same = [new for new, old in (split or {}).items() if word == "symmetry" and old == sides[0]]
+        for first in (sides[0], *same):
+            head = f"{word} {line} {first} {sides[1]} {changes} {len(numbers)} {len(texts)}"
+            rows.append("\n".join([head, *numbers, *texts]))
 
     for s in case.statements:
         if not isinstance(s, ASIDE):
@@ -88,6 +93,5 @@ def table(case: Case) -> str:
         for group, found in weights(gravity, dense, used):
             put("weight", gravity.line, [group], -1, found)
     head = [f"units {case.units}", f"state {case.where.state}", f"thickness {case.thickness:.17g}"]
-    head.append(f"groups {len(used)}")
-    groups = [f"{group.dimension} {group.name}" for group in used]
-    return "\n".join([*head, *groups, f"statements {len(rows)}", *rows]) + "\n"
+    head += [f"groups {len(groups)}", *(f"{group.dimension} {group.name}" for group in groups)]
+    return "\n".join([*head, f"statements {len(rows)}", *rows]) + "\n"

@@ -134,3 +134,14 @@ def split_case(text: str, usage: Callable[[str], str]) -> list[Line]:
     """All lines of a case file that have words."""
     lines = text.removeprefix("\ufeff").split("\n")
     return [line for k, text in enumerate(lines) if (line := split_line(k + 1, text, usage)).words]
+
+
+def text_of(case: str) -> str:
+    """A case file's text; bytes that are no letters are kept."""
+    with open(case, encoding="utf-8", errors="surrogateescape", newline="\n") as file:
+        return file.read()
+
+
+def brief(value: float) -> str:
+    """A number as people write it."""
+    return str(int(value)) if value == int(value) and abs(value) < 2**31 else f"{value:.6g}"

@@ -1,0 +1,133 @@
+"""A problem read as a whole: mesh or geometry, and case; the files of a run's folder, which FreeFEM reads.
+
+case: values.py; mesh.msh, middles, curves, rises, notes, regions: bodies.py; told, a line each: gmsh's version, if it
+meshed the file; the plan of a geometry, for `again`; what makes smaller elements, in words; bodies that are left out;
+how many pairs of bodies touch that no statement tells of, and these; table, faces, for -check 1: what the geometry has,
+for the screen and for a picture.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from .abaqus import listing, read_inp
+from .bodies import write_bodies
+from .case import Case, read_case
+from .gmsh_process import GmshError
+from .groups import Group, Where
+from .mesh import Mesh, MeshRefusal, groups_of
+from .mesher import KINDS, Prepared, Sets, check_file, convert, prepare, write_whole
+from .msh import read_msh
+from .sides import pick_on_mesh
+from .values import table
+from .words import Refusal, split_case, text_of
+
+FINER = "mesh with smaller elements"
+
+
+@dataclass
+class Problem:
+    """What is to be read, and where to. case: none for -check 1 without; cache: where meshes are kept."""
+
+    file: Path
+    case: str
+    folder: Path
+    where: Where
+    sets: Sets = ()
+    check: bool = False
+    cache: Path | None = None
+    surface: str = ""  # of a mesh made anew: that of the same surfaces, of second order
+
+
+def write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8", errors="surrogateescape", newline="\n")
+
+
+def is_text_of_gmsh(file: Path) -> bool:
+    """Whether it is gmsh's version 2 text; a file that says nothing of its format is read as one, and refused there."""
+    if file.suffix.lower() != ".msh":
+        return False
+    with file.open("rb") as opened:
+        lines = opened.read(200).replace(b"\r", b"").split(b"\n")
+    words = lines[1].split() if lines[0].startswith(b"$MeshFormat") and len(lines) > 1 else []
+    return not words or not (words[0].startswith(b"4") or (words[0].startswith(b"2") and words[1:2] == [b"1"]))
+
+
+def words_of(text: str) -> set[str]:
+    """All words of a case: what sets of a mesh it may name."""
+    return {word for line in split_case(text, lambda word: "") for word in line.words}
+
+
+def read_mesh(of: Problem, text: str) -> Mesh:
+    """A mesh of whatever format."""
+    check_file(of.file, of.sets)
+    if of.file.suffix.lower() == ".inp":
+        of.where.overlap = True
+        return read_inp(of.file, of.where.space, words_of(text))
+    if is_text_of_gmsh(of.file):
+        return read_msh(of.file)
+    convert(of.file, of.folder / "converted.msh")
+    return read_msh(of.folder / "converted.msh")
+
+
+def tell_faces(of: Problem) -> None:
+    """-check 1 without a case: the table of bodies and faces, or of sets."""
+    check_file(of.file, of.sets)
+    if of.file.suffix.lower() == ".inp":
+        write(of.folder / "table", listing(of.file, of.where.space))
+        return
+    made = prepare(of.file, of.where.space, None, None, of.folder, of.sets, True)
+    write(of.folder / "table", made.table)
+    write(of.folder / "faces", made.faces)
+
+
+def read_problem(of: Problem) -> None:
+    """Writes the files of the folder; raises a Refusal of the case, a GmshError or MeshRefusal of the mesh, an OSError."""
+    text = text_of(of.case)
+    made = Prepared([], finer=FINER)
+
+    def read(groups: Sequence[Group], bodies: str) -> Case:
+        of.where.bodies = bodies
+        return read_case(text, of.where, groups)
+
+    if of.file.suffix.lower() in KINDS:
+        made = prepare(of.file, of.where.space, text, read, of.folder, of.sets, of.check, of.cache)
+        mesh = read_msh(Path(made.mesh))
+        case = read(groups_of(mesh, of.where.space), "") if made.case is None else made.case
+    else:
+        mesh = read_mesh(of, text)
+        case = read(groups_of(mesh, of.where.space), "")
+        mesh = mesh if of.where.again else pick_on_mesh(mesh, case)
+    surface = Path(made.surface or of.surface or os.devnull)
+    straight = not of.where.space and of.file.suffix.lower() in KINDS
+    written = write_bodies(mesh, case, of.folder, of.where.space, straight, read_msh(surface) if surface.is_file() else None)
+    write(of.folder / "regions", written.text)
+    write(of.folder / "case", table(case, written.groups, written.split))
+    told = [made.version, made.plan, made.finer, made.left, str(len(made.touch)), *made.touch]
+    write(of.folder / "told", "\n".join(told) + "\n")
+    if made.table:
+        write(of.folder / "table", made.table)
+        write(of.folder / "faces", made.faces)
+
+
+def run(of: Problem) -> int:
+    """Reads; the exit code: 0 done, 1 the mesh and 3 the case is refused, with a line in the file why, 4 no case, 5 no room."""
+    why, code = "", 0
+    try:
+        if of.case == "none":
+            tell_faces(of)
+            return 4
+        read_problem(of)
+        return 0
+    except Refusal as refusal:
+        why, code = refusal.text(of.case), 3
+    except (GmshError, MeshRefusal) as error:
+        why, code = str(error), 1
+    except OSError as error:
+        why, code = error.strerror or str(error), 5
+    except MemoryError:
+        return 5
+    return code if write_whole(of.folder / "why", why + "\n") else 5
