@@ -17,6 +17,7 @@ from pathlib import Path
 
 from .case import read_open
 from .groups import Where
+from .kept import keep, place_of, take
 from .modules import Run, modules, needs
 from .words import Refusal, text_of
 
@@ -48,7 +49,13 @@ def ask_modules(of: Words) -> int:
 
 
 def ask_problem(of: Words) -> int:
-    """Reads mesh and case into the run's folder; modules that take time to load are loaded here."""
+    """Reads mesh and case into the run's folder, or takes what a run before has kept of them."""
+    folder, cache = Path(of["folder"]), Path(of["cache"]) if of["cache"] else None
+    alike = (of["space"], of["sets"], of["options"], of["unlike"])
+    place = place_of(Path(of["file"]), of["case"], cache, *alike) if cache and of["as"] == "solve" else None
+    if place and take(place, folder):
+        return 0
+    # modules that take time to load
     from .problem import Problem, run
 
     options, sets = of["options"].split(), of["sets"].split()
@@ -60,9 +67,11 @@ def ask_problem(of: Words) -> int:
         again=of["as"] == "again",
     )
     pairs = [(name, float(value)) for name, value in zip(sets[1::3], sets[2::3], strict=True)]
-    cache = Path(of["cache"]) if of["cache"] else None
     check = of["as"] == "check"
-    return run(Problem(Path(of["file"]), of["case"], Path(of["folder"]), where, pairs, check, cache, of["surface"]))
+    code = run(Problem(Path(of["file"]), of["case"], folder, where, pairs, check, cache, of["surface"]))
+    if code == 0 and place:
+        keep(folder, place)
+    return code
 
 
 def ask_again(of: Words) -> int:

@@ -10,7 +10,6 @@ OSError that there is no room. What stands for itself is kept: the mesh by all t
 from __future__ import annotations
 
 import errno
-import hashlib
 import json
 import os
 import platform
@@ -19,7 +18,6 @@ import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import partial
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -30,11 +28,10 @@ from .case import Case
 from .geometry import Outline, distance_field, look
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
+from .kept import CAD, checksum, stands_alone
 from .picks import Picks
 from .words import CONTROL, Refusal
 
-CAD = {".step", ".stp", ".brep", ".iges", ".igs"}
-KINDS = {".geo", *CAD}
 SEWN = ["-setnumber", "Geometry.OCCSewFaces", "1", "-setnumber", "Geometry.OCCMakeSolids", "1"]
 PLANE = "the mesh is plane, it has no volumes: use edp/parts.edp"
 NO_NAMES = "no physical groups: bodies and boundaries have no names"
@@ -44,7 +41,6 @@ OTHER_MESH = (
     "in the geometry"
 )
 PICKS = re.compile(r"^[ \t]*(group|size|cut|join)[ \t]", re.M)
-READS = re.compile("merge|include|shapefromfile|filename|systemcall|getenv|onelab", re.I)
 TURNS = 6  # closer outlines
 Sets = Sequence[tuple[str, float]]
 Reader = Callable[[Sequence[Group], str], Case]
@@ -106,31 +102,7 @@ class Job:
         return words if self.space else [*words, "-order", "2"]
 
     def key(self, *more: object) -> str:
-        """A checksum of the geometry and all else that a mesh comes of."""
-        own = [repr([self.space, self.options, module_version(), *more]).encode(), self.file.read_bytes()]
-        for source in sorted(Path(__file__).parent.glob("*.py")):
-            own.append(source.read_bytes())
-        return hashlib.blake2b(b"\0".join(own), digest_size=12).hexdigest()
-
-
-def module_version() -> str:
-    """Of gmsh's module, without starting it."""
-    spec = find_spec("gmsh")
-    if spec is None or spec.origin is None:
-        return ""
-    with open(spec.origin, encoding="utf-8", errors="replace") as module:
-        found = re.search(r'GMSH_API_VERSION = "(.*)"', module.read(8192))
-    return found[1] if found else str(os.path.getsize(spec.origin))
-
-
-def stands_alone(file: Path) -> bool:
-    """Whether a geometry reads no other file, and nothing that only gmsh knows."""
-    if Path(f"{file}.opt").exists():
-        return False
-    if file.suffix.lower() != ".geo":
-        return True
-    lines = file.read_text(errors="replace").splitlines()
-    return not any(READS.search(re.sub(r"//.*", "", re.sub(r'"[^"]*"', " ", line))) for line in lines)
+        return checksum(self.file, self.space, self.options, *more)
 
 
 def constants(text: str) -> list[str]:

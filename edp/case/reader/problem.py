@@ -18,8 +18,9 @@ from .bodies import write_bodies
 from .case import Case, read_case
 from .gmsh_process import GmshError
 from .groups import Group, Where
+from .kept import KINDS
 from .mesh import Mesh, MeshRefusal, groups_of
-from .mesher import KINDS, Prepared, Sets, check_file, convert, prepare, write_whole
+from .mesher import Prepared, Sets, check_file, convert, prepare, write_whole
 from .msh import read_msh
 from .sides import pick_on_mesh
 from .values import table

@@ -1,0 +1,81 @@
+"""What a run before has read of the same geometry and case, kept beside the mesh: a folder with the files of that run.
+
+Kept is what stands for itself: a geometry that reads no other file, a case without files of its own. This module loads
+neither numpy nor gmsh's module, so that a run that finds its files waits for none of them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+from importlib.util import find_spec
+from pathlib import Path
+
+from .words import text_of
+
+CAD = {".step", ".stp", ".brep", ".iges", ".igs"}
+KINDS = {".geo", *CAD}  # of geometries
+READS = re.compile("merge|include|shapefromfile|filename|systemcall|getenv|onelab", re.I)
+FILES = re.compile(r"(^|[ \t\"])(table|from)([ \t\"]|$)", re.M)  # what names a file in a case
+
+
+def module_version() -> str:
+    """Which gmsh module there is, without starting it."""
+    spec = find_spec("gmsh")
+    if spec is None or spec.origin is None:
+        return ""
+    found = os.stat(spec.origin)
+    return f"{spec.origin} {found.st_size} {found.st_mtime_ns}"
+
+
+def stands_alone(file: Path) -> bool:
+    """Whether a geometry reads no other file, and nothing that only gmsh knows."""
+    if Path(f"{file}.opt").exists():
+        return False
+    if file.suffix.lower() != ".geo":
+        return True
+    lines = file.read_text(errors="replace").splitlines()
+    return not any(READS.search(re.sub(r"//.*", "", re.sub(r'"[^"]*"', " ", line))) for line in lines)
+
+
+def checksum(file: Path, *more: object) -> str:
+    """Of a geometry, of all else that is made of it, of gmsh's module and of the reader itself."""
+    own = [repr([module_version(), *more]).encode(errors="surrogateescape"), file.read_bytes()]
+    own += [source.read_bytes() for source in sorted(Path(__file__).parent.glob("*.py"))]
+    return hashlib.blake2b(b"\0".join(own), digest_size=12).hexdigest()
+
+
+def place_of(file: Path, case: str, cache: Path, *more: object) -> Path | None:
+    """Where the files of this problem are kept; None: it does not stand for itself."""
+    try:
+        if file.suffix.lower() not in KINDS or not Path(case).is_file() or not stands_alone(file):
+            return None
+        text = text_of(case)
+        return None if FILES.search(text) else cache / f"own-{checksum(file, text, case, *more)}"
+    except (OSError, ValueError):
+        return None
+
+
+def take(place: Path, folder: Path) -> bool:
+    """Copies what is kept into a run's folder; whether it is there, and the mesh that it tells of."""
+    try:
+        told = (place / "told").read_text(errors="surrogateescape").split("\n")
+        if told[1] and not Path(told[1]).is_file():
+            return False
+        for file in place.iterdir():
+            shutil.copyfile(file, folder / file.name)
+    except OSError:
+        return False
+    return True
+
+
+def keep(folder: Path, place: Path) -> None:
+    """Keeps the files of a folder, whole or not at all."""
+    part = place.with_name(f".making-{place.name}-{os.getpid()}")
+    try:
+        shutil.copytree(folder, part)
+        part.rename(place)
+    except OSError:
+        shutil.rmtree(part, ignore_errors=True)
