@@ -1,12 +1,14 @@
 """The reader of case files: typed statements, refusals, rules between statements, modules. Function calls alone."""
 
+import re
+
 import pytest
 from freefem import data
 from reader import Group, Refusal, Where, read_case
 from reader import grammar as g
 from reader.fields import STATEMENTS, Statement, boundary, number, option, shown, usage
 from reader.modules import Run, modules, needs
-from reader.rows import picks, rows
+from reader.values import table
 from reader.words import distance, nearest, split_line
 
 PLANE = [Group(2, "block"), *(Group(1, name) for name in ("bottom", "right", "top", "left"))]
@@ -34,20 +36,24 @@ def only(case, kind):
     return found
 
 
-def table(case):
-    """The rows without their heads: a list of words each."""
-    lines = rows(case).splitlines()
-    at = next(k for k, line in enumerate(lines) if line.startswith("statements "))
-    return [line.split() for line in lines[at + 1 : at + 1 + int(lines[at].split()[1])]]
-
-
-def numbers(row):
-    """A row's numbers, without zeros at the end."""
-    found = [float(word) for word in row[7:]]
-    assert len(found) == 16
-    while found and found[-1] == 0:
-        found.pop()
+def said(case, *splits):
+    """The statements as FreeFEM reads them: word, line, labels of its groups, what it changes, values by name."""
+    lines = table(case, *splits).splitlines()
+    at = next(k for k, line in enumerate(lines) if line.startswith("statements ")) + 1
+    found = []
+    while at < len(lines):
+        word, line, first, second, changes, numbers, texts = lines[at].split()
+        values = dict(line.split(" ", 1) for line in lines[at + 1 : at + 1 + int(numbers) + int(texts)])
+        for name in list(values)[: int(numbers)]:
+            values[name] = float(values[name])
+        found.append((word, int(line), (int(first), int(second)), int(changes), values))
+        at += 1 + len(values)
+    assert len(found) == int(next(line for line in lines if line.startswith("statements ")).split()[1])
     return found
+
+
+def vector(values, name):
+    return [values[f"{name}.{axis}"] for axis in "xyz"]
 
 
 # ---------------------------------------------------------------- words
@@ -289,8 +295,8 @@ def test_whole_case():
 def test_gravity_and_weights():
     dense = GOOD.replace("nu 0.3", "nu 0.3 density 2") + "gravity 1 -9\n"
     assert "gravity, and a weight of block in line 5" in refused(f"{dense}weight block 0 1")
-    (row,) = [row for row in table(read(dense)) if row[0] == "weight"]
-    assert numbers(row) == [2, -18] and row[1] == "4"
+    ((_, line, *_, values),) = [row for row in said(read(dense)) if row[0] == "weight"]
+    assert vector(values, "value") == [2, -18, 0] and line == 4
 
 
 def test_wear_by_friction():
@@ -360,94 +366,109 @@ def test_changes_in_later_phases():
         (g.Pressure, 7, 4), (g.ObstacleMove, 8, 3), (g.Obstacle, 10, 3), (g.Pressure, 11, 4),
     ]  # fmt: skip
     assert case.where.phase == 3
-    found = [row for row in table(case) if row[0] == "to"]
-    assert [row[3] for row in found] == ["3", "2", "2", "3"]
-    assert [numbers(row) for row in found] == [
-        [7],
-        [0, 0, 0, 0, 0, 1.5, 5, 0, 0, 0, 0, 3, 0, 0, -0.3],
-        [0] * 5 + [1.5, 5, 0, 0, 0, 0, 3],
-        [],
-    ]
+    found = [(of, values) for word, _, _, of, values in said(case) if word == "change"]
+    assert [of for of, _ in found] == [3, 2, 2, 3]
+    assert [values.get("value") for _, values in found] == [7, None, None, 0]
+    assert [vector(values, "drive.by") for _, values in found[1:3]] == [[0, -0.3, 0], [0, 0, 0]]
 
 
-ROWS = """
-move left 1 2 | move 4 4 0 none none none | 1 2
-rotate left 1 2 3 | rotate 4 4 0 none none none | 1 2 0 0 0 1 3
-force left 1 2 | force 4 4 0 none none none | 1 2
-force left 1 2 free at 3 4 | spread 4 4 0 none force none | 1 2 0 3 4 0 1
-force left 1 2 rigid | force 4 4 0 rigid force none | 1 2
-moment left 5 | spread 4 4 0 none moment none | 0 0 5
-moment left 5 rigid | force 4 4 0 rigid moment none | 0 0 5
-moment left 5 about 1 2 | force 4 4 0 about moment none | 0 0 5 1 2 0 1
-spring left 1 2 | spring 4 4 0 none none none | 1 2
-traction left 1 2 | traction 4 4 0 none none none | 1 2
-weight block 1 2 | weight 4 1 0 none none none | 1 2
-expand block 1 -2 | expand 4 1 0 none none none | 1 -2
-preload left 3 | preload 4 4 0 none none none | 3
-plastic block 3 4 | plastic 4 1 0 none none none | 3 4
-line l 1 2 3 4 | line 4 0 0 l none none | 1 2 0 3 4
-about p 1 2 | about 4 0 0 p none none | 1 2
-stresses | stresses 4 0 0 none none none |
-leg 3 | leg 4 0 0 none none none | 3
-contact left right gap vertical interference 0.5 | contact 4 4 5 vertical none none | 0 0 0 0 -0.5
-contact left right law exponential beta 2 p0 3 d0 -4 interference 1 | contact 4 4 5 none none exponential | 0 0 3 2 -5
-obstacle left plane 1 2 3 4 force 5 6 | obstacle 4 4 0 plane force none | 0 0 0 0 0 1 2 0 3 4 0 0 0 5 6
+VALUES = """
+move left 1 2 | move 4 0 | by 1 2 0
+rotate left 1 2 3 | rotate 4 0 | centre 1 2 0; axis 0 0 1; angle 3
+force left 1 2 | force 4 0 | resultant 1 2 0
+force left 1 2 free at 3 4 | force 4 0 | resultant 1 2 0; how free; how.at 3 4 0
+force left 1 2 rigid | force 4 0 | resultant 1 2 0; how rigid
+moment left 5 | moment 4 0 | size 5; how spread; couple 0 0 5
+moment left 5 about 1 2 | moment 4 0 | size 5; how about; how.point 1 2 0; couple 0 0 5
+spring left 1 2 | spring 4 0 | x 1; y 2; z 0
+weight block 1 2 | weight 1 0 | value 1 2 0
+expand block 1 -2 | expand 1 0 | coefficient 1; warmer -2
+plastic block 3 4 | plastic 1 0 | yield_stress 3; hardening 4
+line l 1 2 3 4 | line 0 0 | name l; begin 1 2 0; end 3 4 0
+stresses | stresses 0 0 |
+leg 3 | leg 0 0 | steps 3
+contact left right gap vertical interference 0.5 | contact 4 5 | vertical 1; interference 0.5
+contact left right law exponential beta 2 p0 3 d0 -4 | contact 4 5 | vertical 0; interference 0; law law; law.name exponential; law.kappa 0; law.m 0; law.p0 3; law.beta 2; law.d0 -4
+tie left right | tie 4 5 |
+obstacle left plane 1 2 3 4 force 5 6 | obstacle 4 0 | shape plane; shape.place 1 2 0; shape.direction 3 4 0; shape.radius 0; shape.inside 0; drive pushed; drive.by 5 6 0; interference 0
 """
 
 
 @pytest.mark.parametrize(
-    "line, head, values", [[cell.strip() for cell in line.split("|")] for line in ROWS.strip().splitlines()]
+    "line, head, values", [[cell.strip() for cell in line.split("|")] for line in VALUES.strip().splitlines()]
 )
-def test_rows(line, head, values):
-    """What FreeFEM reads of a statement: words, the groups' places, numbers."""
-    row = table(read(GOOD + line))[3]
-    assert row[:7] == head.split()
-    assert numbers(row) == [float(word) for word in values.split()]
+def test_values(line, head, values):
+    """What FreeFEM reads of a statement: its word, the labels of its groups, its values by name."""
+    word, at, groups, of, found = said(read(GOOD + line))[3]
+    assert f"{word} {groups[0]} {groups[1]}" == head and (at, of) == (4, -1)
+    expected = {}
+    for name, *value in (each.split() for each in values.split(";") if each.strip()):
+        numbers = [float(each) if re.fullmatch(r"[-.\d]+", each) else each for each in value]
+        expected |= {name: numbers[0]} if len(numbers) == 1 else {f"{name}.{k}": x for k, x in zip("xyz", numbers)}
+    assert found == expected
 
 
-def test_rows_behind_a_contact():
-    """Friction, wear and conductance are rows of their own."""
-    worn = "contact left right friction 0.1 compliance 2 limit 3 wear 4\ncycles 9\nleg 1\nleg 1"
-    assert [(row[0], row[1], row[2], numbers(row)) for row in table(read(GOOD + worn))[3:]] == [
-        ("contact", "4", "4", []), ("friction", "4", "0", [0.1, 2, 3]), ("wear", "4", "4", [4]),
-        ("cycles", "5", "0", [9, 20]), ("leg", "6", "0", [1]), ("leg", "7", "0", [1]),
-    ]  # fmt: skip
+def test_values_of_heat_and_wear():
+    worn = "contact left right friction 0.1 wear 4\ncycles 9\nleg 1\nleg 1"
+    found = said(read(GOOD + worn))[3:]
+    assert [word for word, *_ in found] == ["contact", "cycles", "leg", "leg"]
+    assert (found[0][4]["wear.coefficient"], found[0][4]["wear.slide"], found[1][4]) == (
+        4,
+        0,
+        {"count": 9, "steps": 20},
+    )
+    friction = {name: found[0][4][f"friction.{name}"] for name in ("coefficient", "compliance", "limit")}
+    assert friction == {"coefficient": 0.1, "compliance": 0, "limit": 0} and found[0][4]["friction"] == "friction"
     warm = "contact left right conductance 5 hardness 6 exponent 2\nconduct block 1 expand 2 from 3\nfilm top 1 4"
-    assert [(row[0], numbers(row)) for row in table(read(GOOD + warm))[4:]] == [
-        ("conductance", [5, 2, 6]), ("conduct", [1, 2, 3]), ("film", [1, 4]),
-    ]  # fmt: skip
+    contact, conduct, film = (values for *_, values in said(read(GOOD + warm))[3:])
+    hard = [contact[f"conductance.{name}"] for name in ("value", "hardness.value", "hardness.exponent")]
+    assert hard == [5, 6, 2] and film == {"coefficient": 1, "around": 4}
+    assert [conduct[name] for name in ("conductivity", "expand.coefficient", "expand.stress_free")] == [1, 2, 3]
 
 
-def test_rows_in_space():
-    """Axes, moments along them, cylinders, spins behind all others."""
+def test_values_in_space():
+    """Axes, moments along them, cylinders, spins with the density of their body."""
     dense = GOOD_SPACE.replace("nu 0.3", "nu 0.3 density 2")
     lines = "spin block 7 about 1 2 3 axis 4 5 6\nrotate left 1 2 3 4 5 6 0.5\nmoment right 10 axis 0 3 4\n"
     lines += "obstacle right cylinder 1 2 3 4 5 6 R 7"
-    found = table(read(dense + lines, space=True))[3:]
-    assert [row[0] for row in found] == ["rotate", "spread", "obstacle", "spin"]
-    assert [numbers(row) for row in found] == [
-        [1, 2, 3, 4, 5, 6, 0.5],
-        [0, 6, 8],
-        [0] * 5 + [1, 2, 3, 4, 5, 6, 7],
-        [7, 1, 2, 3, 4, 5, 6, 2],
-    ]
+    spin, turn, moment, cylinder = (values for *_, values in said(read(dense + lines, space=True))[3:])
+    assert (spin["speed"], vector(spin, "about"), vector(spin, "axis"), spin["density"]) == (7, [1, 2, 3], [4, 5, 6], 2)
+    assert (vector(turn, "centre"), vector(turn, "axis"), turn["angle"]) == ([1, 2, 3], [4, 5, 6], 0.5)
+    assert vector(moment, "couple") == [0, 6, 8]
+    assert (cylinder["shape"], vector(cylinder, "shape.direction"), cylinder["shape.radius"]) == (
+        "cylinder",
+        [4, 5, 6],
+        7,
+    )
     ring = "state axisymmetric\n" + GOOD.replace("nu 0.3", "nu 0.3 density 2") + "spin block 7"
-    assert numbers(table(read(ring))[-1]) == [7, 0, 0, 0, 0, 1, 0, 2]
-    assert numbers(table(read(ring.partition("\n")[2]))[-1]) == [7, 0, 0, 0, 0, 0, 1, 2]
+    assert vector(said(read(ring))[-1][4], "axis") == [0, 1, 0]
+    assert vector(said(read(ring.partition("\n")[2]))[-1][4], "axis") == [0, 0, 1]
+
+
+def test_symmetry_in_several_planes():
+    """The groups that it is split into: a statement for each."""
+    case = read(GOOD + "symmetry left")
+    groups = [*case.used()[:3], Group(1, "left 1"), Group(1, "left 2")]
+    found = said(case, groups, {5: 4})
+    assert [(word, sides) for word, _, sides, *_ in found[3:]] == [("symmetry", (4, 0)), ("symmetry", (5, 0))]
+    assert table(case, groups, {5: 4}).splitlines()[3:9] == [
+        "groups 5",
+        "2 block",
+        "1 bottom",
+        "1 top",
+        "1 left 1",
+        "1 left 2",
+    ]
 
 
 def test_files(tmp_path, monkeypatch):
-    """Tables of laws and worn profiles, by their rows; a folder and an empty file are none."""
+    """Tables of laws and worn profiles; a folder and an empty file are none."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "law.csv").write_text("0,1\n")
     (tmp_path / "empty.csv").write_text("")
-    text = rows(
-        read(
-            f"{GOOD}contact left right law table law.csv d0 -1\n"
-            "obstacle right plane 9 0 -1 0 wear 1 slide 2 from law.csv\ncycles 5"
-        )
-    )
-    assert text.endswith("files 2\n3 law.csv\n5 law.csv\n")
+    lines = "contact left right law table law.csv d0 -1\nobstacle right plane 9 0 -1 0 wear 1 slide 2 from law.csv\ncycles 5"
+    contact, obstacle, _ = (values for *_, values in said(read(GOOD + lines))[3:])
+    assert (contact["law.file"], obstacle["wear.profile"]) == ("law.csv", "law.csv")
     for name in ("empty.csv", ".", "none"):
         assert f"{name}: no such file, or empty" in refused(f"{GOOD}contact left right law table {name} d0 -1")
 
@@ -462,12 +483,6 @@ def test_groups_that_a_case_picks():
         "obstacle faces plane 1 2 0 1\n"
     )
     case = read(text, [], bodies="1 2")
-    assert picks(case) == [
-        "group\t1\t2\tshell\tsurfaces 1", "group\t2\t1\ttip\tnear 1 2 0", "group\t3\t2\tcore\tbox 0 0 0 1 1 0",
-        "group\t6\t1\twall\tplane 0 0 0 0 1 0", "group\t7\t1\tfaces\tbetween\tshell\tcore",
-        "contact\t8\ttip\twall\tcontact", "size\t9\tcontact\t0.5", "size\t10\tcore\t2",
-        "obstacle\t11\tfaces\tplane 1 2 0 0 1 0 0 0",
-    ]  # fmt: skip
     assert [(group.dimension, group.name) for group in case.used()] == [
         (2, "shell"),
         (2, "core"),
@@ -483,12 +498,8 @@ def test_joins_and_cuts():
     case = read(text, TWO[:2])
     contact = only(case, g.Contact)
     assert (contact.slave.name, contact.master.name, contact.friction.coefficient) == ("a-b", "b-a", 0.2)
-    assert picks(case) == [
-        "join\t3\ta\tb\tcontact", "group\t3\t1\ta-b\tbetween\ta\tb", "group\t3\t1\tb-a\tbetween\tb\ta",
-        "contact\t3\ta-b\tb-a\tcontact", "cut\t4\tc\ta\t0\t0\t0\t0\t1\t0",
-    ]  # fmt: skip
     tied = read(text.replace("contact friction 0.2", "tie"), TWO[:2])
-    assert [row[0] for row in table(tied)] == ["body", "body", "contact", "tied", "cut", "preload"]
+    assert [word for word, *_ in said(tied)] == ["body", "body", "tie", "cut", "preload"]
     assert "no contact" in refused(text.replace("contact friction 0.2", "part"), TWO[:2])
     assert "friction: more than the statement takes; allowed: join" in refused(text.replace("contact", "part"), TWO[:2])
     assert "c: a cut or a join has a group of this name" in refused("group c near 0 0\n" + text, TWO[:2])
@@ -498,10 +509,9 @@ def test_joins_and_cuts():
 def test_bodies_without_names():
     """One body alone needs no group; several need one each."""
     case = read("body pin E 1 nu 0\nobstacle top plane 0 0 0 1\ngroup top curves 3", [], bodies="7")
-    assert picks(case)[0] == "group\t0\t2\tpin\tsurfaces 7"
-    assert picks(case)[2] == "group\t3\t1\ttop\tcurves 3"
+    assert case.groups.only_body == "pin"
     near = "group top near 0 0\ngroup pin near 1 1\nbody pin E 1 nu 0\nobstacle top plane 0 0 0 1"
-    assert picks(read(near, [], bodies="7"))[:2] == ["group\t1\t1\ttop\tnear 0 0 0", "group\t2\t2\tpin\tnear 1 1 0"]
+    assert read(near, [], bodies="7").groups.only_body == ""
     again = f"group left near 0 0\ngroup block near 0 0\n{GOOD}"
     assert "left: the mesh or geometry has a group of this name" in refused(again)
     read(again, again=True)
