@@ -388,9 +388,7 @@ line l 1 2 3 4 | line 0 0 | name l; begin 1 2 0; end 3 4 0
 stresses | stresses 0 0 |
 leg 3 | leg 0 0 | steps 3
 contact left right gap vertical interference 0.5 | contact 4 5 | vertical 1; interference 0.5
-contact left right law exponential beta 2 p0 3 d0 -4 | contact 4 5 | vertical 0; interference 0; law law; law.name exponential; law.kappa 0; law.m 0; law.p0 3; law.beta 2; law.d0 -4
 tie left right | tie 4 5 |
-obstacle left plane 1 2 3 4 force 5 6 | obstacle 4 0 | shape plane; shape.place 1 2 0; shape.direction 3 4 0; shape.radius 0; shape.inside 0; drive pushed; drive.by 5 6 0; interference 0
 """
 
 
@@ -404,8 +402,27 @@ def test_values(line, head, values):
     expected = {}
     for name, *value in (each.split() for each in values.split(";") if each.strip()):
         numbers = [float(each) if re.fullmatch(r"[-.\d]+", each) else each for each in value]
-        expected |= {name: numbers[0]} if len(numbers) == 1 else {f"{name}.{k}": x for k, x in zip("xyz", numbers)}
+        expected |= (
+            {name: numbers[0]}
+            if len(numbers) == 1
+            else {f"{name}.{k}": x for k, x in zip("xyz", numbers, strict=False)}
+        )
     assert found == expected
+
+
+def test_values_of_laws_and_obstacles():
+    lines = "contact left right law exponential beta 2 p0 3 d0 -4\nobstacle left plane 1 2 3 4 force 5 6"
+    contact, obstacle = (values for *_, values in said(read(GOOD + lines))[3:])
+    law = {"name": "exponential", "kappa": 0, "m": 0, "p0": 3, "beta": 2, "d0": -4}
+    assert {name: contact[f"law.{name}"] for name in law} == law and contact["law"] == "law"
+    assert (obstacle["shape"], obstacle["shape.radius"], obstacle["shape.inside"], obstacle["drive"]) == (
+        "plane",
+        0,
+        0,
+        "pushed",
+    )
+    assert [vector(obstacle, f"shape.{name}") for name in ("place", "direction")] == [[1, 2, 0], [3, 4, 0]]
+    assert vector(obstacle, "drive.by") == [5, 6, 0]
 
 
 def test_values_of_heat_and_wear():
@@ -466,8 +483,8 @@ def test_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "law.csv").write_text("0,1\n")
     (tmp_path / "empty.csv").write_text("")
-    lines = "contact left right law table law.csv d0 -1\nobstacle right plane 9 0 -1 0 wear 1 slide 2 from law.csv\ncycles 5"
-    contact, obstacle, _ = (values for *_, values in said(read(GOOD + lines))[3:])
+    lines = "contact left right law table law.csv d0 -1\nobstacle right plane 9 0 -1 0 wear 1 slide 2 from law.csv\n"
+    contact, obstacle, _ = (values for *_, values in said(read(f"{GOOD}{lines}cycles 5"))[3:])
     assert (contact["law.file"], obstacle["wear.profile"]) == ("law.csv", "law.csv")
     for name in ("empty.csv", ".", "none"):
         assert f"{name}: no such file, or empty" in refused(f"{GOOD}contact left right law table {name} d0 -1")
