@@ -50,9 +50,7 @@ def kind_of(text: str, space: bool) -> str:
         return "P" + found[1]
     if found := LINE.fullmatch(text):
         return "L" + found[1]
-    what = next(
-        (f", {name}" for word, name in NO_SOLID.items() if re.match(rf"{word}\d|{word}$|{word}[A-Z]?\d", text)), ""
-    )
+    what = next((f", {name}" for word, name in NO_SOLID.items() if re.match(rf"{word}[A-Z]?(\d|$)", text)), "")
     raise MeshRefusal(f"*ELEMENT, TYPE={text}: not read{what}; allowed: {allowed(space)}")
 
 

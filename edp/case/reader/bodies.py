@@ -717,8 +717,8 @@ def with_split(rows: str, written: Written) -> str:
     if not written.split:
         return rows
     lines, table_ = rows.split("\n"), []
-    symmetry = {int(w[2]): line for line in lines if (w := line.split()) and w[0] == "symmetry"}
-    more = [symmetry[old].replace(f" {old} ", f" {new} ", 1) for new, old in written.split.items()]
+    symmetry = {int(w[2]): w for line in lines if (w := line.split()) and w[0] == "symmetry"}
+    more = [" ".join([*symmetry[old][:2], str(new), *symmetry[old][3:]]) for new, old in written.split.items()]
     skip = 0
     for line in lines:
         word, _, rest = line.partition(" ")
