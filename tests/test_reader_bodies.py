@@ -286,6 +286,54 @@ def test_rises(tmp_path):
     assert "middles 8\n" in written.text and len((tmp_path / "middles").read_text().split("\n")) == 9
 
 
+def test_order_of_the_file(tmp_path):
+    """Elements of several kinds stay in the file's order; a quadrangle with a missing node is refused."""
+    text = ALONE.replace(
+        "5 2 2 5 1 1 2 3\n6 2 2 5 1 1 4 3\n7 2 2 6 2 5 6 7\n8 2 2 6 2 5 7 8",
+        "5 3 2 5 1 5 6 7 8\n6 2 2 5 1 1 2 3\n7 2 2 5 1 1 4 3",
+    )
+    text = text.replace("$Elements\n8\n", "$Elements\n7\n")
+    case = "body low E 1 nu 0.3\nclamp base\ncontact foot top\n"
+    files, _, _ = made_of(tmp_path, text, case)
+    solids = [line.split()[5:] for line in files["mesh.msh"].split("\n") if line.split()[1:3] == ["2", "2"]]
+    assert solids == [["5", "6", "7"], ["5", "7", "8"], ["1", "2", "3"], ["1", "3", "4"]]
+    with pytest.raises(MeshRefusal, match=r"element 5 \(line 29\): a node that is missing: 9"):
+        made_of(tmp_path, text.replace("5 6 7 8\n", "5 6 7 9\n"), case)
+
+
+@pytest.mark.parametrize("across", [False, True])
+def test_rises_of_a_surface(tmp_path, across):
+    """gmsh's mesh of the same surfaces has the middles, also along the other diagonal of a quadrangle."""
+    flat = cut_to_simplices(grid(5, (1, 1, 1), shell))
+    case = "body part E 1 nu 0.3\nclamp base\nobstacle bore plane 0 0 3 0 0 -1\ngroup base plane 0 0 0 0 1 0\n"
+    case += "group bore box 0 0 0 1 1 1\n"
+    where = np.round(flat.places, 9).tolist()
+    ring = [where.index(np.round(shell(np.array(p)), 9).tolist()) for p in ((0, 0, 0), (0, 1, 0), (0, 1, 1), (0, 0, 1))]
+    ring = ring[1:] + ring[:1] if across else ring
+    corners = flat.places[ring]
+    middles = [shell(np.array([0, 0.5, z])) for z in (0, 0.5, 1)]
+    nodes, elements = list(corners), []
+    for a, b, c in ((0, 1, 2), (0, 2, 3)):
+        pairs = ((a, b), (b, c), (c, a))
+        middle = [(nodes[i] + nodes[j]) / 2 for i, j in pairs]
+        bent = [
+            middles[round(2 * m[2])] if abs(nodes[i][0] - nodes[j][0]) > 0.5 else m
+            for m, (i, j) in zip(middle, pairs, strict=True)
+        ]
+        elements.append([a, b, c, *range(len(nodes), len(nodes) + 3)])
+        nodes += bent
+    two = np.array([1, 2])
+    surface = Mesh(
+        np.array(nodes), np.arange(1, 11), [Block(9, np.array(elements), two, two, two * 0 + 1, two * 0 + 7)]
+    )
+    read = read_case(case, Where(space=True), groups_of(flat, True))
+    write_bodies(pick_on_mesh(flat, read), read, tmp_path, True, False, surface)
+    found = np.array([line.split() for line in (tmp_path / "rises").read_text().split("\n")[1:-1]], float)
+    high = np.linalg.norm(found[:, 2:], axis=1) / 1e6
+    assert len(found) == 5 and sorted(high)[:2] == pytest.approx([0, 0], abs=1e-9)
+    assert sorted(high)[2:] == pytest.approx([1 - np.sqrt(0.5)] * 3)
+
+
 REFUSED = [
     # the file
     (PLANE, "", "an empty file, not gmsh's version 2 text format"),
@@ -373,22 +421,15 @@ def test_merged(tmp_path):
     """Two groups with the same sides are one, if contacts alone use them; then their contacts must differ."""
     twice = PLANE.replace("$Elements\n8\n", "$Elements\n9\n").replace("$EndElements", "9 1 2 7 12 3 4\n$EndElements")
     twice = twice.replace("$PhysicalNames\n6\n", '$PhysicalNames\n7\n1 7 "also"\n')
-    case = PRESSED.replace("contact foot top\n", "contact top foot\ncontact also {}\n")
-    _, written, _ = made_of(
-        tmp_path,
-        twice,
-        case.format("grip")
-        .replace("move grip 0 -0.1", "clamp foot")
-        .replace("top foot", "foot top")
-        .replace("clamp foot\n", ""),
-    )
+    case = "body low E 1 nu 0.3\nbody high E 2 nu 0.3\nclamp base\n{}\ncontact {} {}\n"
+    _, written, _ = made_of(tmp_path, twice, case.format("contact foot top", "grip", "also"))
     assert "same 1\n" in written.text
-    with pytest.raises(MeshRefusal, match=r"line 4 of the case file\): the same surfaces as in line 3; allowed: once"):
-        made_of(tmp_path, twice, case.format("foot"))
+    with pytest.raises(MeshRefusal, match=r"line 5 of the case file\): the same surfaces as in line 4; allowed: once"):
+        made_of(tmp_path, twice, case.format("contact top foot", "also", "foot"))
     with pytest.raises(
-        MeshRefusal, match=r"line 4 of the case file\): both are the same surface; allowed: two surfaces"
+        MeshRefusal, match=r"line 5 of the case file\): both are the same surface; allowed: two surfaces"
     ):
-        made_of(tmp_path, twice, case.format("top"))
+        made_of(tmp_path, twice, case.format("contact foot top", "also", "top"))
 
 
 # ---------------------------------------------------------------- symmetries in planes, cuts
@@ -497,6 +538,18 @@ def test_deck(tmp_path):
     assert table[1] == "body     PART                            1   (0, 0, 0) to (1, 1, 2)"
     assert table[4] == "nodes    BASE                            4   (0, 0, 0) to (1, 1, 0)"
     assert table[5] == "surface  TOP                             1   (0, 0, 2) to (1, 1, 2)"
+
+
+def test_set_of_sides(tmp_path):
+    """gmsh writes sides of bodies as plane elements: an ELSET of them is a group of sides."""
+    deck = DECK.replace("*STEP", "*ELEMENT, TYPE=CPS4, ELSET=FOOT\n2, 4, 3, 2, 1\n*STEP")
+    mesh = read(tmp_path, deck, "PART FOOT TOP")
+    assert groups_of(mesh, True)[-1] == Group(2, "FOOT")
+    case = read_case(ON_DECK.replace("BASE", "FOOT"), Where(space=True, overlap=True), groups_of(mesh, True))
+    write_bodies(mesh, case, tmp_path, True)
+    elements = (tmp_path / "mesh.msh").read_text().split("$Elements\n")[1].split("\n")[1:5]
+    assert [line.split()[3] for line in elements] == ["2", "2", "3", "3"]
+    assert "sides    FOOT                            1   (0, 0, 0) to (1, 1, 0)" in listing(tmp_path / "a.inp", True)
 
 
 DECKS = [

@@ -7,7 +7,7 @@ wrong with a mesh, in one line.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -66,6 +66,10 @@ def table(text: str) -> list[list[int]]:
 
 class MeshRefusal(Exception):
     """What is wrong with a mesh, in one line; the run adds what is allowed where it says nothing about that."""
+
+
+def refuse(what: str) -> NoReturn:
+    raise MeshRefusal(what)
 
 
 @dataclass

@@ -13,17 +13,13 @@ from typing import NoReturn
 
 import numpy as np
 
-from .mesh import KINDS, Block, Floats, Ints, Mesh, MeshRefusal, rows_of
+from .mesh import KINDS, Block, Floats, Ints, Mesh, refuse, rows_of
 from .words import spells_number
 
 FORMAT = "not gmsh's version 2 text format"
 READ = ("MeshFormat", "PhysicalNames", "Nodes", "Elements")
 MARK = re.compile(rb"^[ \t]*\$([^ \t\r\n]*)[^\n]*(\n|$)", re.M)
 KNOWN = "allowed: points, lines, triangles, quadrangles, tetrahedra, bricks, prisms, pyramids of first or second order"
-
-
-def refuse(what: str) -> NoReturn:
-    raise MeshRefusal(what)
 
 
 def all_numbers(text: bytes, signs: bytes) -> Floats | None:
