@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "edp/case"))
 
 from reader import Group, Refusal, Where, read_case  # noqa: E402
-from reader.abaqus import read_inp  # noqa: E402
+from reader.abaqus import listing, read_inp  # noqa: E402
 from reader.bodies import with_split, write_bodies  # noqa: E402
 from reader.mesh import MeshRefusal  # noqa: E402
 from reader.msh import read_msh  # noqa: E402
@@ -63,7 +63,8 @@ SECTION = "two mistakes: a section is read as a whole before its elements are un
 EXPECTED = {
     "numbers of a copy's elements": "awk numbers the elements of a deck or of a cut mesh anew, Python says their own",
     r"-> '\$\w+ has \d+ lines, and says": SECTION,
-    r"cut off in .* -> .element": SECTION,
+    r"cut off.* -> .(element|line)": SECTION,
+    r"-> 'element \d+ \(line \d+\): \d+ numbers; cut off": SECTION,
     r"-> '(cut off|no physical groups)": SECTION,
     r"is there twice' -> '(node|line)": "two mistakes: nodes that cannot be read go before nodes that are there twice",
     r"no \*ELEMENT of a body; .* -> .*no \*ELEMENT of a body; ": "more types are read: another list of what is allowed",
@@ -302,6 +303,18 @@ def spoilt(text, chance):
     return "\n".join(lines)
 
 
+def same_listing(given):
+    """The same of the table of a deck's sets."""
+    environment = {**os.environ, "LC_ALL": "C", "SPACE": given.space, "LISTED": "1"}
+    command = [AWK, "-f", ROOT / "meshes/inp.awk", "/dev/null", given.deck]
+    one = subprocess.run(command, env=environment, capture_output=True, text=True, check=False).stdout
+    try:
+        two = listing(given.deck, given.where["space"])
+    except MeshRefusal as refusal:
+        two = f"{refusal}\n"
+    return "" if one == two else f"listing: {one!r} -> {two!r}"
+
+
 def explained(text):
     return next((why for pattern, why in EXPECTED.items() if re.search(pattern, text)), "")
 
@@ -329,6 +342,7 @@ def main(folder, mutated="500", seed="1"):
             continue
         usable.append(given)
         difference = same(given, given.folder / "in.msh", bool(given.deck), deck=given.deck)
+        difference = difference or (given.deck and same_listing(given)) or ""
         why = explained(difference)
         told[why or ("as awk" if not difference else "UNEXPLAINED")] += 1
         if difference and not why:

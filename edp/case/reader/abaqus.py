@@ -248,7 +248,7 @@ def read_deck(path: Path, space: bool) -> Deck:
         if keyword.section == "STEP":
             break
         keyword.read()
-    if not deck.bodies:
+    if not any(len(block.nodes) for block in deck.bodies):
         raise MeshRefusal(f"no *ELEMENT of a body; allowed: {allowed(space)}")
     number_nodes(deck)
     return deck
