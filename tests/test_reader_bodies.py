@@ -7,7 +7,7 @@ import pytest
 from reader import Group, Refusal, Where, read_case
 from reader.abaqus import listing, read_inp
 from reader.bodies import with_split, write_bodies
-from reader.mesh import CENTRES, EDGES, KINDS, Block, Mesh, MeshRefusal, alone, groups_of, sides_of
+from reader.mesh import CENTRES, EDGES, KINDS, Block, Mesh, MeshRefusal, alone, groups_of, keys_of, sides_of
 from reader.msh import read_msh
 from reader.rows import rows
 from reader.sides import Boundary, ElementSides, OnCylinder, pick_on_mesh, pick_sides
@@ -458,6 +458,40 @@ def test_split_symmetry(tmp_path):
         MeshRefusal, match=r'"grip" of the case file, line 5: curved, by 22 degrees at \(\S+, \S+\); allow'
     ):
         made_of(tmp_path, slope, case)
+
+
+def test_bulges_of_symmetries(tmp_path):
+    """Sides of a split symmetry are flat to their middles."""
+    flat = cut_to_simplices(grid(16, (1, 1), lambda p: np.array([*p, 0])))
+    sides = sides_of(flat, flat.blocks)
+    ends = {name: [] for name in ("floor", "cuts")}
+    for side, free in zip(sides, alone(sides), strict=True):
+        for nodes in side.nodes[free]:
+            low = flat.places[nodes[:2]].sum(axis=0) < 1e-9
+            ends["floor" if low[1] else "cuts"].append(nodes)
+    for k, (name, rows_) in enumerate(ends.items()):
+        number = np.arange(10 * k + 3, 10 * k + 3 + len(rows_))
+        flat.blocks.append(Block(8, np.array(rows_), number, number, number * 0 + k + 1, number))
+        flat.names[1, k + 1] = name
+    case = "body part E 1 nu 0.3\nobstacle floor plane 0 -1 0 1\nsymmetry cuts\n"
+    read = read_case(case, Where(), groups_of(flat, False))
+    written = write_bodies(flat, read, tmp_path, False)
+    assert sorted(written.split.values()) == [3, 3] and "middles 4" in written.text
+    bent = flat.places.copy()
+    middle = next(nodes[2] for nodes in ends["cuts"] if flat.places[nodes[2]][0] == 1)
+    bent[middle, 0] += 0.01
+    flat.places = bent
+    with pytest.raises(MeshRefusal, match=r'symmetry "cuts" of the case file, line 3: curved at \(1, [01]\); allowed'):
+        write_bodies(flat, read, tmp_path, False)
+
+
+@pytest.mark.parametrize("count", [100, 2**20, 2**21, 2**40])
+def test_keys(count):
+    """Sides have one key whatever the order of their nodes, also in very large meshes; others have other keys."""
+    nodes = np.random.default_rng(1).integers(0, 100, (3000, 3)) + count - 100
+    keys = keys_of(nodes, count)
+    assert np.array_equal(keys, keys_of(nodes[:, [2, 0, 1]], count)) and keys.min() >= 0
+    assert len(set(keys.tolist())) == len({tuple(sorted(row)) for row in nodes.tolist()})
 
 
 CUT = "cut waist part plane 0 0 {} 0 0 1\npreload waist 1\n"

@@ -207,6 +207,8 @@ class Keyword:
                 if not all(word.isdecimal() for word in fields if word) or len(fields) < 2:
                     self.no(f"*{kind}: no range; allowed: from, to, step", line)
                 first, last, step = (int(word or 0) for word in [*fields, "", ""][:3])
+                if last - first > 1e8:
+                    self.no(f"*{kind}: a range of {last - first} numbers; allowed: less", line)
                 into.append(np.arange(first, last + 1, step or 1))
             return
         found = fields_of(self.text, b"")[0]

@@ -327,9 +327,8 @@ class Bodies:
         body = self.solids.label[self.owner[free]]
         rows = np.column_stack([body, np.rint(middle * 1e9)])
         order = np.lexsort(rows.T)
-        same = (rows[order[1:]] == rows[order[:-1]]).all(axis=1)
-        for k in order[1:][same][np.argsort(order[1:][same])][:1]:
-            j = order[int(np.flatnonzero(order == k)[0]) - 1]
+        same = np.flatnonzero((rows[order[1:]] == rows[order[:-1]]).all(axis=1))
+        for k, j in sorted(zip(order[same + 1], order[same], strict=True))[:1]:
             one, other = self.solids.number[self.owner[free[[j, k]]]]
             joined = "share no nodes: a crack, or pieces not joined (in gmsh: Coherence, BooleanFragments)"
             refuse(f'elements {one} and {other} of "{self.name(body[k])}" touch, but {joined}{ALLOWED}a contact there')
@@ -620,15 +619,10 @@ class Mirrors:
 # ---------------------------------------------------------------- files
 
 
-def lines_of(start: str, rows: Ints) -> str:
-    """Rows of whole numbers as lines; start: % and what stands between them."""
-    return (start + "\n") * len(rows) % tuple(rows.reshape(-1).tolist())
-
-
-def exact(*columns: Ints | Floats) -> str:
-    """Rows of numbers to the last digit."""
-    form = " ".join("%d" if column.dtype == np.int64 else "%.17g" for column in columns) + "\n"
-    return "".join(map(form.__mod__, zip(*(column.tolist() for column in columns), strict=True)))
+def lines_of(form: str, *columns: Ints | Floats) -> str:
+    """Rows of numbers as lines; form: % for each."""
+    rows = np.column_stack(columns)
+    return (form + "\n") * len(rows) % tuple(rows.reshape(-1).tolist())
 
 
 def texts_of(called: str, texts: list[str]) -> str:
@@ -656,34 +650,35 @@ def write_bodies(
     known, middles = of.know_middles(straight)
     ends, ways = of.rises(surface) if space else (np.zeros((0, 2), np.int64), np.zeros((0, 3)))
     of.mirrors.check_bulges(middles, ends, ways)
-    now = np.cumsum(of.here)
+    now: Ints = np.cumsum(of.here, dtype=np.int64)
     x = of.x[of.here] * BIG
     if not space:
         x[:, 2] = 0
-    nodes = exact(np.arange(1, len(x) + 1), *x.T)
+    place = "%.17g %.17g %.17g"
+    nodes = lines_of(f"%d {place}", np.arange(1, len(x) + 1), x)
     count = len(of.kept_corners)
     kinds = (2, 4) if space else (1, 2)
     numbers = np.arange(1, count + len(of.corners) + 1)
-    sides = np.column_stack([numbers[:count], of.kept_label, of.kept_label, now[of.kept_corners]])
-    solids = np.column_stack([numbers[count:], of.region, of.region, now[of.corners]])
+    sides = numbers[:count], of.kept_label, of.kept_label, now[of.kept_corners]
+    solids = numbers[count:], of.region, of.region, now[of.corners]
     width = " %d" * of.dim
     with (folder / "mesh.msh").open("w", encoding="ascii") as file:
         file.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(x)}\n{nodes}$EndNodes\n")
         file.write(f"$Elements\n{len(numbers)}\n")
-        file.write(lines_of(f"%d {kinds[0]} 2 %d %d{width}", sides))
-        file.write(lines_of(f"%d {kinds[1]} 2 %d %d %d{width}", solids) + "$EndElements\n")
+        file.write(lines_of(f"%d {kinds[0]} 2 %d %d{width}", *sides))
+        file.write(lines_of(f"%d {kinds[1]} 2 %d %d %d{width}", *solids) + "$EndElements\n")
     if known:
         at = of.x[middles] * BIG
         if not space:
             at[..., 2] = 0
-        (folder / "middles").write_text(exact(*at.reshape(known, -1).T))
+        (folder / "middles").write_text(lines_of(" ".join([place] * middles.shape[1]), at.reshape(known, -1)))
     if space:
-        rows = exact(*(now[ends] - 1).T, *(ways * BIG).T)
+        rows = lines_of(f"%d %d {place}", now[ends] - 1, ways * BIG)
         (folder / "rises").write_text(f"{len(ends)}\n{rows}")
     else:
         curved = of.sides.entity != 0
         curve = of.last_at(of.sides, of.sides.corners[curved], of.sides.entity[curved])[of.kept_place]
-        (folder / "curves").write_text("".join(f"{max(c, 0)}\n" for c in curve.tolist()))
+        (folder / "curves").write_text(lines_of("%d", np.maximum(curve, 0)))
     notes = of.mirrors.notes
     (folder / "notes").write_text("\n".join([str(len(notes)), *notes, ""]), errors="surrogateescape")
     inside = [f"{k + 1} {of.name(label)}" for k, (label, _) in enumerate(of.regions)]
