@@ -80,7 +80,7 @@ EXPECTED = {
     r"element \d+ has \d+ nodes, .* -> 'line": SECTION,
     r"-> 'line \d+: (node|element) .*: the coordinate .* is no number": "awk takes what is no number for 0",
     r"-> 'line \d+: (node|element) .*: a node that is missing: \S*[^\d;']": "awk takes what is no number for 0",
-    r"'' -> 'element \S+ \(line \d+\): \S+ is no number": "awk takes a number or a tag that is none for 0",
+    r"-> 'element \S+ \(line \d+\): \S+ is no number": "awk takes a number or a tag that is none for 0",
 }
 
 
