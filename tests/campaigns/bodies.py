@@ -70,6 +70,7 @@ EXPECTED = {
     r"no \*ELEMENT of a body; .* -> .*no \*ELEMENT of a body; ": "more types are read: another list of what is allowed",
     r"TYPE=.*: not read.* -> .*TYPE=.*: not read": "more types are read: another list of what is allowed",
     r"of gmsh's type .* -> .element": "more types are read: another list of what is allowed",
+    r"-> .element \d+ \(line \d+\): of gmsh's type": SECTION,
     r"of gmsh's type .* -> ''": "elements of second order are cut",
     r"touch, but share no nodes.* -> .*touch, but share no nodes": "several cracks: awk names one by its hashes",
     r"line \d+: the node .* -> .element": SECTION,
