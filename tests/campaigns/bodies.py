@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "edp/case"))
 
 from reader import Group, Refusal, Where, read_case  # noqa: E402
-from reader.abaqus import read_inp  # noqa: E402
+from reader.abaqus import listing, read_inp  # noqa: E402
 from reader.bodies import with_split, write_bodies  # noqa: E402
 from reader.mesh import MeshRefusal  # noqa: E402
 from reader.msh import read_msh  # noqa: E402
@@ -63,12 +63,16 @@ SECTION = "two mistakes: a section is read as a whole before its elements are un
 EXPECTED = {
     "numbers of a copy's elements": "awk numbers the elements of a deck or of a cut mesh anew, Python says their own",
     r"-> '\$\w+ has \d+ lines, and says": SECTION,
-    r"cut off in .* -> .element": SECTION,
+    r"cut off.* -> .(element|line)": SECTION,
+    r"-> 'element \d+ \(line \d+\): \d+ numbers; cut off": SECTION,
     r"-> '(cut off|no physical groups)": SECTION,
-    r"is there twice' -> 'node": "two mistakes: nodes that cannot be read go before nodes that are there twice",
+    r"is there twice' -> '(node|line)": "two mistakes: nodes that cannot be read go before nodes that are there twice",
     r"no \*ELEMENT of a body; .* -> .*no \*ELEMENT of a body; ": "more types are read: another list of what is allowed",
     r"TYPE=.*: not read.* -> .*TYPE=.*: not read": "more types are read: another list of what is allowed",
     r"of gmsh's type .* -> .element": "more types are read: another list of what is allowed",
+    r"-> .element \d+ \(line \d+\): of gmsh's type": SECTION,
+    r"of gmsh's type .* -> ''": "elements of second order are cut",
+    r"touch, but share no nodes.* -> .*touch, but share no nodes": "several cracks: awk names one by its hashes",
     r"line \d+: the node .* -> .element": SECTION,
     r"line \d+: the (node|element) \d+ is there twice.* -> '": "two mistakes: what is twice goes last",
     r"-> .*no range; allowed: from, to, step": "awk takes a range without an end for none",
@@ -77,7 +81,7 @@ EXPECTED = {
     r"element \d+ has \d+ nodes, .* -> 'line": SECTION,
     r"-> 'line \d+: (node|element) .*: the coordinate .* is no number": "awk takes what is no number for 0",
     r"-> 'line \d+: (node|element) .*: a node that is missing: \S*[^\d;']": "awk takes what is no number for 0",
-    r"'' -> 'element \S+ \(line \d+\): \S+ is no number": "awk takes a number or a tag that is none for 0",
+    r"-> 'element \S+ \(line \d+\): \S+ is no number": "awk takes a number or a tag that is none for 0",
 }
 
 
@@ -300,6 +304,18 @@ def spoilt(text, chance):
     return "\n".join(lines)
 
 
+def same_listing(given):
+    """The same of the table of a deck's sets."""
+    environment = {**os.environ, "LC_ALL": "C", "SPACE": given.space, "LISTED": "1"}
+    command = [AWK, "-f", ROOT / "meshes/inp.awk", "/dev/null", given.deck]
+    one = subprocess.run(command, env=environment, capture_output=True, text=True, check=False).stdout
+    try:
+        two = listing(given.deck, given.where["space"])
+    except MeshRefusal as refusal:
+        two = f"{refusal}\n"
+    return "" if one == two else f"listing: {one!r} -> {two!r}"
+
+
 def explained(text):
     return next((why for pattern, why in EXPECTED.items() if re.search(pattern, text)), "")
 
@@ -327,6 +343,7 @@ def main(folder, mutated="500", seed="1"):
             continue
         usable.append(given)
         difference = same(given, given.folder / "in.msh", bool(given.deck), deck=given.deck)
+        difference = difference or (given.deck and same_listing(given)) or ""
         why = explained(difference)
         told[why or ("as awk" if not difference else "UNEXPLAINED")] += 1
         if difference and not why:

@@ -50,9 +50,7 @@ def kind_of(text: str, space: bool) -> str:
         return "P" + found[1]
     if found := LINE.fullmatch(text):
         return "L" + found[1]
-    what = next(
-        (f", {name}" for word, name in NO_SOLID.items() if re.match(rf"{word}\d|{word}$|{word}[A-Z]?\d", text)), ""
-    )
+    what = next((f", {name}" for word, name in NO_SOLID.items() if re.match(rf"{word}[A-Z]?(\d|$)", text)), "")
     raise MeshRefusal(f"*ELEMENT, TYPE={text}: not read{what}; allowed: {allowed(space)}")
 
 
@@ -209,6 +207,8 @@ class Keyword:
                 if not all(word.isdecimal() for word in fields if word) or len(fields) < 2:
                     self.no(f"*{kind}: no range; allowed: from, to, step", line)
                 first, last, step = (int(word or 0) for word in [*fields, "", ""][:3])
+                if last - first > 1e8:
+                    self.no(f"*{kind}: a range of {last - first} numbers; allowed: less", line)
                 into.append(np.arange(first, last + 1, step or 1))
             return
         found = fields_of(self.text, b"")[0]
@@ -250,7 +250,7 @@ def read_deck(path: Path, space: bool) -> Deck:
         if keyword.section == "STEP":
             break
         keyword.read()
-    if not deck.bodies:
+    if not any(len(block.nodes) for block in deck.bodies):
         raise MeshRefusal(f"no *ELEMENT of a body; allowed: {allowed(space)}")
     number_nodes(deck)
     return deck

@@ -25,12 +25,12 @@ import numpy as np
 from . import grammar as g
 from .case import Case
 from .groups import Group
-from .mesh import Bools, Floats, Ints, Mesh, MeshRefusal, components, keys_of, table
+from .mesh import Bools, Floats, Ints, Mesh, components, keys_of, refuse, table
 from .simplices import cut_to_simplices
 from .words import brief
 
 BIG = 1e6  # as large as the user's lengths
-AT_ONCE = "; allowed: "
+ALLOWED = "; allowed: "
 
 
 @dataclass
@@ -43,10 +43,6 @@ class Written:
     text: str
     groups: list[Group]
     split: dict[int, int] = field(default_factory=dict)
-
-
-def refuse(what: str) -> NoReturn:
-    raise MeshRefusal(what)
 
 
 @dataclass
@@ -154,19 +150,13 @@ class Bodies:
         else:
             size = b[0] * d[1] - b[1] * d[0]
         small = np.abs(size)
+        flat = small <= 1e-10 * reach * (np.sqrt(reach) if self.space else 1)
+        tiny = small * (1e18 / 6 if self.space else 0.5e12) < 1e-7
         checks: list[tuple[Elements, Bools, Callable[[int], str]]] = [
             (solids, solids.label == 0, lambda k: f"a {kind} in no body: allowed: every one in a physical {every}"),
             missing(solids, solids.label > 0),
-            (
-                solids,
-                small <= 1e-10 * reach * (np.sqrt(reach) if self.space else 1),
-                lambda k: f"a {kind} without {'volume' if self.space else 'area'}",
-            ),
-            (
-                solids,
-                small * (1e18 / 6 if self.space else 0.5e12) < 1e-7,
-                lambda k: f"a {kind} too small: another unit of length helps",
-            ),
+            (solids, flat, lambda k: f"a {kind} without {'volume' if self.space else 'area'}"),
+            (solids, tiny, lambda k: f"a {kind} too small: another unit of length helps"),
             missing(sides, (sides.label > 0) | (sides.entity != 0 if not self.space else False)),
         ]
         if tetrahedra:
@@ -198,8 +188,7 @@ class Bodies:
     def join(self) -> None:
         """The sides of the elements: by place the first element that has it, and the corner of this that is across."""
         size = self.dim + 1
-        across = range(size) if self.space else (0, 1, 2)
-        faces = np.array([[k for k in range(size) if k != tip] for tip in across])
+        faces = np.array([[k for k in range(size) if k != tip] for tip in range(size)])
         side = self.corners[:, faces].reshape(-1, self.dim)
         tip = self.corners.reshape(-1)
         keys = self.keys(side)
@@ -239,7 +228,7 @@ class Bodies:
         for k in np.flatnonzero(of[nodes] != parts)[:1]:
             hinge = "two pieces hang together by it alone, which is a hinge"
             own = f"a common {self.side_kind}, or nodes of their own"
-            refuse(f"node {self.mesh.numbers[nodes[k]]}: {hinge}{AT_ONCE}{own}")
+            refuse(f"node {self.mesh.numbers[nodes[k]]}: {hinge}{ALLOWED}{own}")
         self.here = of >= 0
 
     # ------------------------------------------------------------ the boundary
@@ -265,11 +254,10 @@ class Bodies:
             if place[k] < 0:
                 refuse(f"{what} that no {self.body_kind} has")
             if cut[k]:
-                refuse(
-                    f"{what} on the boundary{AT_ONCE}a cut through a body, whose elements on both sides share its nodes"
-                )
+                through = "a cut through a body, whose elements on both sides share its nodes"
+                refuse(f"{what} on the boundary{ALLOWED}{through}")
             nodes = "each body's own nodes where they touch (no Coherence, BooleanFragments there)"
-            refuse(f"{what} inside the bodies, which share its nodes{AT_ONCE}{nodes}")
+            refuse(f"{what} inside the bodies, which share its nodes{ALLOWED}{nodes}")
         cuts.add(label[own[cut]], self.sides.corners[own[cut]])
         has = {*np.unique(label[own]).tolist(), *np.unique(self.solids.label).tolist(), *cuts.found}
         self.cut_nodes = cuts.nodes
@@ -293,8 +281,10 @@ class Bodies:
         return label
 
     def merge(self, own: Ints, place: Ints) -> None:
-        """Groups that share sides become one, if contacts alone use them and nothing else changes: all have the same
-        sides, or all are masters only. A master of more sides than one contact needs is no other contact."""
+        """Groups that share sides become one, if only contacts use them and nothing else changes.
+
+        All have the same sides, or all are masters: one with more sides than a contact needs is no other contact.
+        """
         slaves, others, pairs = uses(self.case)
         label = self.sides.label
         here, first = label[own], self.group_at[place]
@@ -311,7 +301,7 @@ class Bodies:
                 refuse(
                     f"element {self.sides.number[on[0]]}: {self.side_kind} in two physical groups of the case, "
                     f'"{one}" and "{other}", which share {len(on)} of their {total[a]} and {total[b]}, '
-                    f"this one at ({first_corner}){AT_ONCE}one of them, or two that only contacts use, with the same "
+                    f"this one at ({first_corner}){ALLOWED}one of them, or two that only contacts use, with the same "
                     "sides or as masters; group ... plane and box take the sides of all bodies there, near, between "
                     "and numbers those of one"
                 )
@@ -323,9 +313,9 @@ class Bodies:
             what = f'contact of "{s.slave}" and "{s.master}" (line {s.line} of the case file): '
             one_, other_ = sorted((self.one(self.label[s.slave]), self.one(self.label[s.master])))
             if one_ == other_:
-                refuse(f"{what}both are the same surface{AT_ONCE}two surfaces")
+                refuse(f"{what}both are the same surface{ALLOWED}two surfaces")
             if (one_, other_) in seen:
-                refuse(f"{what}the same surfaces as in line {seen[one_, other_]}{AT_ONCE}once")
+                refuse(f"{what}the same surfaces as in line {seen[one_, other_]}{ALLOWED}once")
             seen[one_, other_] = s.line
 
     def check_cracks(self) -> None:
@@ -337,12 +327,11 @@ class Bodies:
         body = self.solids.label[self.owner[free]]
         rows = np.column_stack([body, np.rint(middle * 1e9)])
         order = np.lexsort(rows.T)
-        same = (rows[order[1:]] == rows[order[:-1]]).all(axis=1)
-        for k in order[1:][same][np.argsort(order[1:][same])][:1]:
-            j = order[int(np.flatnonzero(order == k)[0]) - 1]
+        same = np.flatnonzero((rows[order[1:]] == rows[order[:-1]]).all(axis=1))
+        for k, j in sorted(zip(order[same + 1], order[same], strict=True))[:1]:
             one, other = self.solids.number[self.owner[free[[j, k]]]]
             joined = "share no nodes: a crack, or pieces not joined (in gmsh: Coherence, BooleanFragments)"
-            refuse(f'elements {one} and {other} of "{self.name(body[k])}" touch, but {joined}{AT_ONCE}a contact there')
+            refuse(f'elements {one} and {other} of "{self.name(body[k])}" touch, but {joined}{ALLOWED}a contact there')
 
     def add_sides(self) -> None:
         """In the plane: the rest of the boundary, which no group of the case names."""
@@ -373,14 +362,14 @@ class Bodies:
         middle = np.where(middle < 0, own, middle)
         if (middle < 0).any():
             return 0, middle[:, None]
-        bent = self.off_straight(self.kept_corners, middle)[:, :2]
-        along = (self.x[self.kept_corners[:, 1]] - self.x[self.kept_corners[:, 0]])[:, :2]
-        bends = bool(((bent**2).sum(axis=1) > 1e-16 * (along**2).sum(axis=1)).any())
+        bends = bool(self.bends(self.kept_corners, middle).any())
         return (count if bends or not straight else 0), middle[:, None]
 
-    def off_straight(self, ends: Ints, middle: Ints) -> Floats:
-        """The way from the straight middle of edges to their nodes there."""
-        found: Floats = self.x[middle] - (self.x[ends[:, 0]] + self.x[ends[:, 1]]) / 2
+    def bends(self, ends: Ints, middle: Ints) -> Bools:
+        """Whether the nodes in the middle of edges are off the straight line."""
+        a, b = self.x[ends[..., 0]], self.x[ends[..., 1]]
+        off = ((self.x[middle] - (a + b) / 2) ** 2)[..., : self.dim].sum(axis=-1)
+        found: Bools = off > 1e-16 * ((b - a) ** 2)[..., : self.dim].sum(axis=-1)
         return found
 
     # ------------------------------------------------------------ rises, in space
@@ -401,9 +390,7 @@ class Bodies:
             on = (edges[own][..., None] == self.face[outer][:, None, None]).any(axis=3).all(axis=2)
             on &= self.solids.second[own][:, None]
             inside = edges[second]
-            bent = ((self.x[middles[second]] - (self.x[inside[..., 0]] + self.x[inside[..., 1]]) / 2) ** 2).sum(axis=2)
-            long = ((self.x[inside[..., 1]] - self.x[inside[..., 0]]) ** 2).sum(axis=2)
-            curved = bent > 1e-16 * long
+            curved = self.bends(inside, middles[second])
             ends += [edges[own][on], inside[curved]]
             at += [self.x[middles[own][on]], self.x[middles[second][curved]]]
         if surface:
@@ -501,25 +488,27 @@ class Cuts:
         start = f'cut "{s.on}" of the case file, line {s.line}: '
         if most <= near or least >= -near:
             lies = f"which lies from {least:.4g} to {most:.4g} along the normal from its point"
-            refuse(f'{start}the plane does not cross "{s.body}", {lies}{AT_ONCE}a point between')
+            refuse(f'{start}the plane does not cross "{s.body}", {lies}{ALLOWED}a point between')
         through = np.flatnonzero((level[corners] < 0).any(axis=1) & (level[corners] > 0).any(axis=1))
         if len(through):
             first = of.solids.number[own][through[0]]
             refuse(
-                f"{start}the plane goes through {len(through)} elements, the first is {first}{AT_ONCE}"
+                f"{start}the plane goes through {len(through)} elements, the first is {first}{ALLOWED}"
                 "a geometry (STEP, BREP, .geo), which is cut before it is meshed, "
                 "or a mesh that has sides of elements in the plane"
             )
         inside = of.inner & own[of.owner] & (level[of.face] == 0).all(axis=1)
         if not inside.any():
-            refuse(f'{start}no two elements of "{s.body}" meet in the plane{AT_ONCE}a plane through it')
+            refuse(f'{start}no two elements of "{s.body}" meet in the plane{ALLOWED}a plane through it')
         self.add(np.full(int(inside.sum()), label), of.face[inside])
         self.found.add(label)
 
 
 class Mirrors:
-    """Symmetries of several planes: each plane becomes a group of its own, "NAME 1", "NAME 2" and so on by its outward
-    normal. Planes that meet turn by 45 degrees or more: less is a curved surface, which is refused."""
+    """Symmetries of several planes: each plane becomes a group of its own, "NAME 1", "NAME 2", ... by outward normals.
+
+    Planes that meet turn by 45 degrees or more: less is a curved surface, which is refused.
+    """
 
     def __init__(self, bodies: Bodies) -> None:
         self.of = bodies
@@ -539,7 +528,7 @@ class Mirrors:
     def bent(self, name: str, line: int, side: int, how: str) -> NoReturn:
         at = self.of.corner(self.of.kept_corners[side, 0])
         flat = "a flat group, or one in several planes that meet at 45 degrees or more"
-        self.refuse(name, line, f"curved{how} at ({at}){AT_ONCE}{flat}")
+        self.refuse(name, line, f"curved{how} at ({at}){ALLOWED}{flat}")
 
     def outward(self, sides: Ints) -> Floats:
         """The unit normals of sides, out of their bodies."""
@@ -576,12 +565,8 @@ class Mirrors:
                 for other in sorted(others - {int(plane[k])}):
                     c = float(normal[k] @ facing[other])
                     if c > 0.7072:
-                        self.bent(
-                            name,
-                            line,
-                            own[k],
-                            f", by {np.degrees(np.arctan2(np.sqrt(max(1 - c * c, 0)), c)):.3g} degrees",
-                        )
+                        angle = np.degrees(np.arctan2(np.sqrt(max(1 - c * c, 0)), c))
+                        self.bent(name, line, own[k], f", by {angle:.3g} degrees")
                 others.add(int(plane[k]))
         self.spread(label, line, own, plane, facing)
         self.flat.append((name, line, own, normal))
@@ -593,7 +578,7 @@ class Mirrors:
                 and group in (one for _, one in s.groups())]  # fmt: skip
         if used:
             several = f"in {len(facing)} planes, and line {used[-1]} uses this group too"
-            self.refuse(group.name, line, f"{several}{AT_ONCE}a group for each plane")
+            self.refuse(group.name, line, f"{several}{ALLOWED}a group for each plane")
         order = sorted(range(len(facing)), key=lambda k: tuple(-np.round(facing[k], 6)))
         said = []
         for j, k in enumerate(order):
@@ -634,15 +619,10 @@ class Mirrors:
 # ---------------------------------------------------------------- files
 
 
-def lines_of(start: str, rows: Ints) -> str:
-    """Rows of whole numbers as lines; start: % and what stands between them."""
-    return (start + "\n") * len(rows) % tuple(rows.reshape(-1).tolist())
-
-
-def exact(*columns: Ints | Floats) -> str:
-    """Rows of numbers to the last digit."""
-    form = " ".join("%d" if column.dtype == np.int64 else "%.17g" for column in columns) + "\n"
-    return "".join(map(form.__mod__, zip(*(column.tolist() for column in columns), strict=True)))
+def lines_of(form: str, *columns: Ints | Floats) -> str:
+    """Rows of numbers as lines; form: % for each."""
+    rows = np.column_stack(columns)
+    return (form + "\n") * len(rows) % tuple(rows.reshape(-1).tolist())
 
 
 def texts_of(called: str, texts: list[str]) -> str:
@@ -654,6 +634,7 @@ def texts_of(called: str, texts: list[str]) -> str:
     return f"{head}{letters}</Array>"
 
 
+@np.errstate(all="ignore")  # places up to 1e150
 def write_bodies(
     mesh: Mesh, case: Case, folder: Path, space: bool, straight: bool = False, surface: Mesh | None = None
 ) -> Written:
@@ -669,35 +650,35 @@ def write_bodies(
     known, middles = of.know_middles(straight)
     ends, ways = of.rises(surface) if space else (np.zeros((0, 2), np.int64), np.zeros((0, 3)))
     of.mirrors.check_bulges(middles, ends, ways)
-    now = np.cumsum(of.here)
+    now: Ints = np.cumsum(of.here, dtype=np.int64)
     x = of.x[of.here] * BIG
     if not space:
         x[:, 2] = 0
-    nodes = exact(np.arange(1, len(x) + 1), *x.T)
+    place = "%.17g %.17g %.17g"
+    nodes = lines_of(f"%d {place}", np.arange(1, len(x) + 1), x)
     count = len(of.kept_corners)
     kinds = (2, 4) if space else (1, 2)
     numbers = np.arange(1, count + len(of.corners) + 1)
-    sides = np.column_stack([numbers[:count], of.kept_label, of.kept_label, now[of.kept_corners]])
-    solids = np.column_stack([numbers[count:], of.region, of.region, now[of.corners]])
+    sides = numbers[:count], of.kept_label, of.kept_label, now[of.kept_corners]
+    solids = numbers[count:], of.region, of.region, now[of.corners]
     width = " %d" * of.dim
     with (folder / "mesh.msh").open("w", encoding="ascii") as file:
-        file.write(
-            f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(x)}\n{nodes}$EndNodes\n$Elements\n{len(numbers)}\n"
-        )
-        file.write(lines_of(f"%d {kinds[0]} 2 %d %d{width}", sides))
-        file.write(lines_of(f"%d {kinds[1]} 2 %d %d %d{width}", solids) + "$EndElements\n")
+        file.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(x)}\n{nodes}$EndNodes\n")
+        file.write(f"$Elements\n{len(numbers)}\n")
+        file.write(lines_of(f"%d {kinds[0]} 2 %d %d{width}", *sides))
+        file.write(lines_of(f"%d {kinds[1]} 2 %d %d %d{width}", *solids) + "$EndElements\n")
     if known:
         at = of.x[middles] * BIG
         if not space:
             at[..., 2] = 0
-        (folder / "middles").write_text(exact(*at.reshape(known, -1).T))
+        (folder / "middles").write_text(lines_of(" ".join([place] * middles.shape[1]), at.reshape(known, -1)))
     if space:
-        rows = exact(*(now[ends] - 1).T, *(ways * BIG).T)
+        rows = lines_of(f"%d %d {place}", now[ends] - 1, ways * BIG)
         (folder / "rises").write_text(f"{len(ends)}\n{rows}")
     else:
         curved = of.sides.entity != 0
         curve = of.last_at(of.sides, of.sides.corners[curved], of.sides.entity[curved])[of.kept_place]
-        (folder / "curves").write_text("".join(f"{max(c, 0)}\n" for c in curve.tolist()))
+        (folder / "curves").write_text(lines_of("%d", np.maximum(curve, 0)))
     notes = of.mirrors.notes
     (folder / "notes").write_text("\n".join([str(len(notes)), *notes, ""]), errors="surrogateescape")
     inside = [f"{k + 1} {of.name(label)}" for k, (label, _) in enumerate(of.regions)]

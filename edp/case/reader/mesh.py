@@ -7,13 +7,13 @@ wrong with a mesh, in one line.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
 from .groups import Group
-from .words import CONTROL
+from .words import CONTROL, LONGEST
 
 Ints = npt.NDArray[np.int64]
 Bools = npt.NDArray[np.bool_]
@@ -66,6 +66,13 @@ def table(text: str) -> list[list[int]]:
 
 class MeshRefusal(Exception):
     """What is wrong with a mesh, in one line; the run adds what is allowed where it says nothing about that."""
+
+    def __init__(self, what: str) -> None:
+        super().__init__(CONTROL.sub(" ", what)[:LONGEST])
+
+
+def refuse(what: str) -> NoReturn:
+    raise MeshRefusal(what)
 
 
 @dataclass

@@ -13,17 +13,13 @@ from typing import NoReturn
 
 import numpy as np
 
-from .mesh import KINDS, Block, Floats, Ints, Mesh, MeshRefusal, rows_of
+from .mesh import KINDS, Block, Floats, Ints, Mesh, refuse, rows_of
 from .words import spells_number
 
 FORMAT = "not gmsh's version 2 text format"
 READ = ("MeshFormat", "PhysicalNames", "Nodes", "Elements")
 MARK = re.compile(rb"^[ \t]*\$([^ \t\r\n]*)[^\n]*(\n|$)", re.M)
 KNOWN = "allowed: points, lines, triangles, quadrangles, tetrahedra, bricks, prisms, pyramids of first or second order"
-
-
-def refuse(what: str) -> NoReturn:
-    raise MeshRefusal(what)
 
 
 def all_numbers(text: bytes, signs: bytes) -> Floats | None:
@@ -145,7 +141,7 @@ def read_nodes(mesh: Mesh, section: Section) -> None:
     if found is None or bool((section.words != 4).any()) or len(found) != 4 * len(section.lines):
         wrong_node(section)
     rows = found.reshape(-1, 4)
-    if bool((rows[:, 0] < 1).any()) or bool((rows[:, 0] % 1 > 0).any()) or not bool((np.abs(rows) < 1e150).all()):
+    if ((rows[:, 0] < 1) | (rows[:, 0] > 1e15) | (rows[:, 0] % 1 > 0)).any() or not (np.abs(rows) < 1e150).all():
         wrong_node(section)
     mesh.places, mesh.numbers = np.ascontiguousarray(rows[:, 1:]), rows[:, 0].astype(np.int64)
     once = np.unique(mesh.numbers, return_index=True)[1]
@@ -164,7 +160,7 @@ def wrong_node(section: Section) -> NoReturn:
         for word in words[1:]:
             if not spells_number(word) or abs(float(word)) >= 1e150:
                 refuse(f"node {number} (line {line}): the coordinate {word} is no number")
-    raise AssertionError(section.name)
+    refuse(f"${section.name} cannot be read: numbers that are too large")
 
 
 def read_elements(mesh: Mesh, section: Section) -> None:
@@ -206,4 +202,4 @@ def wrong_element(section: Section) -> NoReturn:
         for word in (words[0], *words[3 : 3 + tags]):
             if not word.removeprefix("-").isdecimal():
                 refuse(f"{head}{word} is no number")
-    raise AssertionError(section.name)
+    refuse(f"${section.name} cannot be read: numbers that are too large")

@@ -241,6 +241,7 @@ def pick_body(boundary: Boundary, blocks: list[Block], s: g.PickedGroup, pick: o
     return np.split(part == where, np.cumsum([len(b.nodes) for b in blocks])[:-1])
 
 
+@np.errstate(all="ignore")  # places up to 1e150
 def pick_on_mesh(mesh: Mesh, case: Case) -> Mesh:
     """The mesh with the groups that the case picks by their place."""
     picked = case.of(g.PickedGroup)
