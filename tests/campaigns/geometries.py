@@ -35,9 +35,12 @@ from reader.mesher import prepare  # noqa: E402
 TESTS = ["cad", "own_mesh", "sizes", "parts", "zoo", "named_groups"]
 SECONDS = 20  # of an endless geometry
 EXPECTED = {
-    "gmsh makes no mesh of it": "says why: Exit, or a crash",
+    "gmsh makes no mesh of it": "it says why: Exit, or a crash",
     "cannot be cut, joined or taken apart": "gmsh's own words differ between its language and its module",
+    " touch, and no statement says": "bodies in another order",
+    "join ": "faces of one area: the bodies' order, awk's by rounding",
 }
+CLOSER = "where an outline is made again, closer to its curves, awk takes pieces in an order of its own"
 
 
 @dataclass
@@ -204,6 +207,7 @@ class Made:
     faces: str = ""
     mesh: tuple = ()
     surface: int = 0
+    closer: bool = False
     seconds: float = 0.0
 
 
@@ -267,6 +271,7 @@ def with_awk(job, folder):
     if plain:
         made.mesh = mesh_of(plain[0])
         made.surface = len(meshes) - len(plain) or int((read / "surface.msh").exists())
+    made.closer = bool(text_of(read / "closer.geo"))
     why = text_of(read / "why").strip()
     made.why = why if code not in (0, 4) else ""
     return made
@@ -377,6 +382,8 @@ def main(*words):
             count, times = count + 1, [times[0] + old.seconds, times[1] + new.seconds]
             found = compare(old, new)
             known = [why for text, why in EXPECTED.items() if found and all(text in line for line in found)]
+            if old.closer and new.mesh and old.mesh and abs(old.mesh[0] - new.mesh[0]) < 0.05 * old.mesh[0]:
+                known.append(CLOSER)
             wrong += bool(found and not known)
             print(
                 f"{job.name}: {old.why[:60] or (new.mesh and new.mesh[0]) or 'table'}; {len(found)} differ"

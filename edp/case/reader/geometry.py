@@ -82,25 +82,35 @@ def distance_field(gmsh: Any, places: Sequence[Sequence[float]], size: str) -> i
     return int(growing)
 
 
-def look(gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]] = ()) -> Outline:
+def look(
+    gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]] = (), listed: bool = False
+) -> Outline:
     """Meshes the faces of what gmsh has open as far as curvature asks for, and takes them apart.
 
-    closer: places where the outline must be finer, and the sizes there.
+    closer: places where the outline must be finer, and the sizes there; listed: for a table alone, of what suffices.
     """
     dimension, model = 3 if space else 2, gmsh.model
-    model.mesh.clear()
+    if not any(model.getType(*face).startswith("Discrete") for face in model.getEntities(dimension - 1)):
+        model.mesh.clear()
     low, high = np.array(model.getBoundingBox(-1, -1)).reshape(2, 3)
-    fields = [model.mesh.field.add("MathEval")]
-    model.mesh.field.setString(fields[0], "F", f"{np.linalg.norm(high - low) / 15:g}")
+    largest = float(f"{np.linalg.norm(high - low) / 15:g}")
+    fields = []
     for places, finest in closer:
         growing = f"{finest:.9g}+0.25*Max(0,{{}}-{2 * finest:.9g})"
         fields.append(distance_field(gmsh, places.tolist(), growing))
-    least = model.mesh.field.add("Min")
+    least = model.mesh.field.add("Min")  # in place of the geometry's own
     model.mesh.field.setNumbers(least, "FieldsList", fields)
     model.mesh.field.setAsBackgroundMesh(least)
+    largest = min(largest, gmsh.option.getNumber("Mesh.MeshSizeMax"))
     settings = {"MeshSizeFromPoints": 0, "MeshSizeExtendFromBoundary": 1, "MinimumCirclePoints": 16, "MeshSizeMin": 0}
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
-    settings |= {"MeshSizeFactor": 1, "ElementOrder": 2, "MeshSizeFromCurvature": 24 if cad else 0}
+    settings |= {
+        "MeshSizeMax": largest,
+        "MeshSizeFactor": 1,
+        "ElementOrder": 2,
+        "MeshSizeFromCurvature": 24 if cad else 0,
+    }
+    settings |= {"MeshSizeExtendFromBoundary": 0, "Smoothing": 0, "Algorithm": 5} if listed else {}
     for name, value in settings.items():
         gmsh.option.setNumber(f"Mesh.{name}", value)
     model.mesh.generate(dimension - 1)

@@ -241,9 +241,11 @@ class Session:
         try:
             self.gmsh.open(str(self.file))
         except Exception as error:
-            meshed = any("Meshing " in line for line in self.gmsh.logger.get())
-            raise cannot_mesh(error) if meshed else GmshError(f"gmsh cannot read it: {error}") from None
-        self.gmsh.logger.stop()
+            raise cannot_mesh(error) if self.meshed() else GmshError(f"gmsh cannot read it: {error}") from None
+
+    def meshed(self) -> bool:
+        """Whether the geometry has made a mesh of itself while it was read."""
+        return any("Meshing " in line for line in self.gmsh.logger.get())
 
     def numbers(self, dimension: int) -> list[int]:
         return [tag for _, tag in self.gmsh.model.getEntities(dimension)]
@@ -259,9 +261,9 @@ class Session:
             raise GmshError("a control character in a group's name; allowed: other names")
         return [Group(d, name) for d, name in named if name]
 
-    def look(self, closer: Sequence[Any] = ()) -> Outline:
+    def look(self, closer: Sequence[Any] = (), listed: bool = False) -> Outline:
         try:
-            return look(self.gmsh, self.cad, self.space, closer)
+            return look(self.gmsh, self.cad, self.space, closer, listed)
         except Exception as error:
             raise cannot_mesh(error) from None
 
@@ -489,15 +491,14 @@ def make(gmsh: Any, job: Job) -> Prepared:
     if job.cad and job.space and not session.numbers(3):  # faces that nothing joins, as IGES has them
         plan.options += SEWN
         session.open(plan.options)
-    if job.cad and not session.numbers(session.dimension):
-        raise GmshError(f"no {'solid' if job.space else 'surface'} in it")
-    if job.space and not session.numbers(3):
-        raise GmshError(PLANE)
+    if not session.numbers(session.dimension):
+        nothing = f"no {'solid' if job.space else 'surface'} in it"
+        raise GmshError(PLANE if job.space and not job.cad else nothing)
     made = Prepared(session.groups(), version=version(gmsh), finer=smaller(job.file))
     made.bodies = " ".join(map(str, session.numbers(session.dimension))) if job.cad else ""
     if job.text is None or job.read is None:
         where = Where(space=job.space)
-        picks = Picks(session.look(), Case(where, Groups(where, [])))
+        picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))
         if not picks.made.bodies or not picks.made.pieces:
             raise GmshError("gmsh reads no bodies with faces out of it")
         made.table, made.faces = picks.table(), picks.pieces()
@@ -518,8 +519,8 @@ def make(gmsh: Any, job: Job) -> Prepared:
 
 def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> None:
     """Finds what the case picks; the plan says what it takes."""
-    sizes, meshed = case.of(g.Size), bool(len(session.gmsh.model.mesh.getNodes()[0]))
-    plan.anew = meshed and bool(sizes or case.of(g.Cut) or case.of(g.Join))
+    sizes = case.of(g.Size)
+    plan.anew = session.meshed() and case.has(g.Size, g.Cut, g.Join)
     if sizes:
         plan.point_size, plan.background = session.own_sizes(job.folder)
     picks = Picks(session.look(), case, job.cad)
