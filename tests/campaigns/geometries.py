@@ -1,10 +1,11 @@
-"""Whether both readers make the same of geometries: `python tests/campaigns/geometries.py [WORDS] [-mutated N] [-seed K]`.
+"""Whether both readers make the same of geometries: `python tests/campaigns/geometries.py [WORDS] [-mutated N]`.
 
 edp/bodies/readable.sh, with gmsh's program, and the Python package edp/case/reader, with gmsh's module, read all
 geometries in the package with their cases, those of tests that have both, and N mutated ones (120 unless given): Exit;,
-endless loops, Mesh 3;, fields, syntax errors, cut texts, empty files. Compared are the refusals, the tables of -check 1,
-what is left out and what touches, the picture's triangles, and the meshes: nodes, elements and groups. EXPECTED explains
-the differences that are wanted. Exit code 1: one that it does not explain, printed.
+endless loops, Mesh 3;, fields, syntax errors, cut texts, empty files. -seed K makes others, -keep FOLDER keeps those of
+tests. Compared are the refusals, the tables of -check 1, what is left out and what touches, the picture's triangles,
+and the meshes: nodes, elements and groups. EXPECTED explains the differences that are wanted. Exit code 1: one that it
+does not explain, printed.
 """
 
 import hashlib
@@ -20,6 +21,7 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -99,7 +101,7 @@ class Recorder:
             here = Path(words.get("cwd") or ".")
             if any("readable.sh" in word for word in given[:2]):
                 _, _, _, mesh, _, case, space, *more = [*given, "", "", ""]
-                self.keep(here / mesh, case if case == "none" else here / case, space == "1", (more + ["", ""])[1])
+                self.keep(here / mesh, case if case == "none" else here / case, space == "1", [*more, "", ""][1])
             if given and "FreeFem" in given[0]:
                 self.of_run(given, here)
             return run(command, *args, **words)
@@ -108,7 +110,7 @@ class Recorder:
         freefem.execute = lambda words, cwd=ROOT, env=None: self.of_run(list(map(str, words)), Path(cwd or ROOT))
 
     def of_run(self, given, here):
-        flags = dict(zip(given, given[1:], strict=False))
+        flags = dict(pairwise(given))
         sets = " ".join(f"-setnumber {w.replace('=', ' ')}" for w in flags.get("-set", "").split(",") if w)
         if "-mesh" in flags:
             case = flags.get("-case", "none")
@@ -160,12 +162,14 @@ def mutated(jobs, count, seed, folder):
     folder.mkdir()
     jobs = [job for job in jobs if job.file.suffix == ".geo"]
     added = [
-        "Exit;", "For k In {0 : 1}\n  k = 0;\nEndFor", "Mesh 1;", "Mesh 2;", "Mesh 3;", "Delete Physicals;", "foo bar",
-        "Field[1] = MathEval; Field[1].F = \"0.7\"; Background Field = 1;", "Mesh.Algorithm = 8; Mesh.RecombineAll = 1;",
+        "Exit;", "For k In {0 : 1e15}\nEndFor", "Mesh 1;", "Mesh 2;", "Mesh 3;", "Delete Physicals;", "foo bar",
+        "Field[1] = MathEval; Field[1].F = \"0.7\"; Background Field = 1;",
+        "Mesh.Algorithm = 8; Mesh.RecombineAll = 1;",
         "Field[3] = Box; Field[3].VIn = 0.1; Field[3].VOut = 2; Background Field = 3;", "MeshSize{:} = 1e-22;",
         'Physical Surface("a \\" b") = {1};', "Mesh.ElementOrder = 2;", "Mesh.SaveAll = 1;", "Mesh.MeshSizeFactor = 2;",
         "Delete Surface{:};", "Recursive Delete { Volume{:}; }", "Mesh.MshFileVersion = 4;", "Mesh.Binary = 1;",
-        "Coherence;", "Merge \"none.step\";", "General.AbortOnError = 1;", "Geometry.AutoCoherence = 0;", "Error(\"no\");",
+        "Coherence;", "Merge \"none.step\";", "General.AbortOnError = 1;", "Geometry.AutoCoherence = 0;",
+        "Error(\"no\");",
         "Printf(\"%g\", 1) > \"/dev/full\";", "SystemCall \"true\";", "Transfinite Curve{:} = 3;", "Abort;",
     ]  # fmt: skip
     for k in range(count):

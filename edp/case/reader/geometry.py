@@ -1,9 +1,9 @@
 """The bodies and faces of a geometry: their kinds, places, normals or axes, radii, areas, and what lies on both sides.
 
-`look(gmsh, cad, space)` meshes the faces of the geometry that gmsh has open coarsely, of second order; `faces(outline)`
-makes the table of it, `table(outline)` the text of -check 1. In the plane bodies are surfaces, and faces are curves. A kind is
-told where all nodes lie on it within 1e-6 of the face's size, by least squares; gmsh's own names for kinds are not
-used, for a cylinder may be a surface of revolution or a spline there.
+`look(gmsh, cad, space)` meshes the faces of the geometry that gmsh has open coarsely, of second order;
+`faces(outline)` makes the table of it, `table(outline)` the text of -check 1. In the plane bodies are surfaces, and
+faces are curves. A kind is told where all nodes lie on it within 1e-6 of the face's size, by least squares; gmsh's own
+names for kinds are not used, for a cylinder may be a surface of revolution or a spline there.
 """
 
 from __future__ import annotations
@@ -101,15 +101,10 @@ def look(
     least = model.mesh.field.add("Min")  # in place of the geometry's own
     model.mesh.field.setNumbers(least, "FieldsList", fields)
     model.mesh.field.setAsBackgroundMesh(least)
-    largest = min(largest, gmsh.option.getNumber("Mesh.MeshSizeMax"))
     settings = {"MeshSizeFromPoints": 0, "MeshSizeExtendFromBoundary": 1, "MinimumCirclePoints": 16, "MeshSizeMin": 0}
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
-    settings |= {
-        "MeshSizeMax": largest,
-        "MeshSizeFactor": 1,
-        "ElementOrder": 2,
-        "MeshSizeFromCurvature": 24 if cad else 0,
-    }
+    settings |= {"MeshSizeFactor": 1, "ElementOrder": 2, "MeshSizeFromCurvature": 24 if cad else 0}
+    settings["MeshSizeMax"] = min(largest, gmsh.option.getNumber("Mesh.MeshSizeMax"))
     settings |= {"MeshSizeExtendFromBoundary": 0, "Smoothing": 0, "Algorithm": 5} if listed else {}
     for name, value in settings.items():
         gmsh.option.setNumber(f"Mesh.{name}", value)

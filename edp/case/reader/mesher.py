@@ -4,7 +4,7 @@
 makes a Case of the text, picks what it names (picks.py), and has the mesh made: gmsh's version 2 text. `again(...)` is
 the same geometry, as it was picked, with sizes of a view. `convert(file, out)` is a mesh in another format of gmsh's.
 A GmshError says what is wrong with the geometry, for "-mesh FILE: ..."; a Refusal what is wrong with the case; an
-OSError that there is no room. What stands for itself is kept: the mesh by all that it comes of, and what was read of it.
+OSError that there is no room. What stands for itself is kept: the mesh, by all that it comes of, and what was read.
 """
 
 from __future__ import annotations
@@ -182,7 +182,7 @@ def prepare(
 ) -> Prepared:
     """Reads a geometry for the text of a case, or without one, for -check 1.
 
-    folder: of the run, for what is not kept; cache: where meshes are kept; check: with the table and the picture's data.
+    folder: of the run, for what is not kept; cache: where meshes are kept; check: with the table and the picture.
     """
     check_file(file, sets)
     keeps = cache is not None and stands_alone(file)
@@ -631,6 +631,7 @@ def again(
 
 def convert(file: Path, out: Path, limit: float = float("inf")) -> None:
     """A mesh that gmsh reads (.msh of other versions or binary, .unv, .bdf, .med), as version 2 text."""
+    check_file(file, ())
     if file.suffix.lower() == ".stl":
         geometries = "a geometry (.geo, .step, .iges, .brep), or a mesh of the bodies"
         raise GmshError(f"the triangles of a surface alone, without bodies and names; allowed: {geometries}")

@@ -46,7 +46,7 @@ MIDDLE = {n: shapes(c.mean(0)[None])[0] for n, c in CORNERS.items()}
 
 
 class Store:
-    """Pieces and their parts: nodes, faces, middles on the surface, radii around these, pieces that they are parts of."""
+    """Pieces and their parts: nodes, faces, middles on the surface, radii around these, pieces that they are of."""
 
     def __init__(self, pieces: dict[int, Array]) -> None:
         self.nodes = np.concatenate(list(pieces.values()))
@@ -133,8 +133,8 @@ class Store:
     def doubts(self) -> Array:
         """How far a piece may be off its face, about four times too much.
 
-        By the change of curvature to its neighbours, which a parabola lacks, and by what it lacks of a circle. In space,
-        where neighbours are not known, curvature may change by a quarter within its radius.
+        By the change of curvature to its neighbours, which a parabola lacks, and by what it lacks of a circle. In
+        space, where neighbours are not known, curvature may change by a quarter within its radius.
         """
         size = 2 * self.reach
         if self.space:
