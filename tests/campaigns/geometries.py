@@ -39,10 +39,13 @@ SECONDS = 20  # of an endless geometry
 EXPECTED = {
     "gmsh makes no mesh of it": "it says why: Exit, or a crash",
     "cannot be cut, joined or taken apart": "gmsh's own words differ between its language and its module",
-    " touch, and no statement says": "bodies in another order",
-    "join ": "faces of one area: the bodies' order, awk's by rounding",
+    "table:   join ": "faces of one area: the bodies' order, awk's by rounding",
+    "a row less": "a coarser outline of CAD for a table alone",
+    "no physical ": "a group without a face is none, and names are listed in the file's order",
+    "no surface in it": "an empty geometry says so",
 }
 CLOSER = "where an outline is made again, closer to its curves, awk takes pieces in an order of its own"
+CUTS = "cuts have other numbers, and gmsh meshes bodies in the order of these"
 
 
 @dataclass
@@ -355,10 +358,14 @@ def compare(old, new):
         np.genfromtxt(text.splitlines()[1:], delimiter=",", ndmin=2) if text.count("\n") > 1 else np.zeros((0, 2))
         for text in (old.faces, new.faces)
     ]
-    if rows[0].shape != rows[1].shape or np.abs(rows[0] - rows[1]).max(initial=0) > 1e-6 * np.abs(rows[0]).max(
-        initial=1
-    ):
-        found.append(f"picture: {rows[0].shape} and {rows[1].shape}")
+    for each in rows:
+        each[each[:, 0] < 0, 0] = -1  # faces of cuts have new numbers
+    if {(face, body) for face, body, *_ in rows[0]} != {(face, body) for face, body, *_ in rows[1]}:
+        found.append("picture: faces or bodies")
+    elif rows[0].shape != rows[1].shape:
+        found.append(f"picture: a row less or more: {len(rows[0])} and {len(rows[1])}")
+    elif apart(*rows) > 1e-6 * np.abs(rows[0][:, 2:]).max(initial=0):
+        found.append("picture: places")
     return found + of_meshes(old.mesh, new.mesh)
 
 
@@ -385,7 +392,10 @@ def main(*words):
             old, new = with_awk(job, folder / f"old{k}"), with_python(job, folder / f"new{k}")
             count, times = count + 1, [times[0] + old.seconds, times[1] + new.seconds]
             found = compare(old, new)
-            known = [why for text, why in EXPECTED.items() if found and all(text in line for line in found)]
+            known = [why for text, why in EXPECTED.items() if any(text in line for line in found)]
+            known = known if all(any(text in line for text in EXPECTED) for line in found) else []
+            if "_cuts" in job.name and not old.why and not new.why:
+                known.append(CUTS)
             if old.closer and new.mesh and old.mesh and abs(old.mesh[0] - new.mesh[0]) < 0.05 * old.mesh[0]:
                 known.append(CLOSER)
             wrong += bool(found and not known)

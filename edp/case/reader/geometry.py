@@ -105,7 +105,7 @@ def look(
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
     settings |= {"MeshSizeFactor": 1, "ElementOrder": 2, "MeshSizeFromCurvature": 24 if cad else 0}
     settings["MeshSizeMax"] = min(largest, gmsh.option.getNumber("Mesh.MeshSizeMax"))
-    settings |= {"MeshSizeExtendFromBoundary": 0, "Smoothing": 0, "Algorithm": 5} if listed else {}
+    settings |= {"MeshSizeExtendFromBoundary": 0, "Smoothing": 0, "Algorithm": 5} if listed and cad else {}
     for name, value in settings.items():
         gmsh.option.setNumber(f"Mesh.{name}", value)
     model.mesh.generate(dimension - 1)

@@ -45,6 +45,7 @@ OTHER_MESH = (
 )
 PICKS = re.compile(r"^[ \t]*(group|size|cut|join)[ \t]", re.M)
 READS = re.compile("merge|include|shapefromfile|filename|systemcall|getenv|onelab", re.I)
+MAKING = f".making-{platform.node()}-"
 TURNS = 6  # closer outlines
 Sets = Sequence[tuple[str, float]]
 Reader = Callable[[Sequence[Group], str], Case]
@@ -95,6 +96,7 @@ class Job:
     check: bool
     cache: Path | None
     folder: Path
+    run: int = field(default_factory=os.getpid)
 
     @property
     def cad(self) -> bool:
@@ -104,6 +106,10 @@ class Job:
     def options(self) -> list[str]:
         words = [word for name, value in self.sets for word in ("-setnumber", name, f"{value:.17g}")]
         return words if self.space else [*words, "-order", "2"]
+
+    def work(self, place: Path) -> Path:
+        """Where this run makes a mesh, before it is moved into place."""
+        return place / f"{MAKING}{self.run}"
 
     def key(self, *more: object) -> str:
         """A checksum of the geometry and all else that a mesh comes of."""
@@ -190,7 +196,12 @@ def prepare(
     memory = cache / f"own-{job.key(text)}.json" if cache and keeps and not check else None
     made = remembered(memory)
     if made is None:
-        made = in_child(partial(make, job=job), file.name, limit)
+        try:
+            made = in_child(partial(make, job=job), file.name, limit)
+        finally:  # the child may have been killed
+            for place in (job.cache, folder):
+                if place:
+                    shutil.rmtree(job.work(place), ignore_errors=True)
         if memory and made.mesh and Path(made.mesh).parent == cache:
             write_whole(memory, json.dumps(asdict(made)))
     if read:
@@ -572,7 +583,7 @@ def write_mesh(session: Session, job: Job, plan: Plan, made: Prepared) -> None:
         if place is None:
             continue
         mesh, surface = place / f"{name}.msh", place / f"{name}-surface.msh"
-        work = place / f".making-{platform.node()}-{os.getppid()}"
+        work = job.work(place)
         try:
             if not mesh.is_file():
                 place.mkdir(parents=True, exist_ok=True)
@@ -597,7 +608,7 @@ def write_mesh(session: Session, job: Job, plan: Plan, made: Prepared) -> None:
 
 def tidy(place: Path) -> None:
     """Removes what killed runs of this computer have left."""
-    for left in place.glob(f".making-{platform.node()}-*"):
+    for left in place.glob(f"{MAKING}*"):
         if not Path("/proc", left.name.rpartition("-")[2]).exists():
             shutil.rmtree(left, ignore_errors=True)
 
