@@ -82,6 +82,14 @@ def distance_field(gmsh: Any, places: Sequence[Sequence[float]], size: str) -> i
     return int(growing)
 
 
+def nodes_of(model: Any) -> Array:
+    """The places of the nodes of gmsh's mesh, by their numbers."""
+    tags, places, _ = model.mesh.getNodes()
+    where = np.zeros((int(max(tags, default=0)) + 1, 3))
+    where[tags] = np.reshape(places, (-1, 3))
+    return where
+
+
 def look(
     gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]] = (), listed: bool = False
 ) -> Outline:
@@ -118,14 +126,11 @@ def look(
         if of >= dimension - 1 and (name := model.getPhysicalName(of, tag)):
             made.groups[of, name] = [int(member) for member in model.getEntitiesForPhysicalGroup(of, tag)]
     made.names = {own[0]: name for (of, name), own in made.groups.items() if of == dimension and len(own) == 1}
-    tags, places, _ = model.mesh.getNodes()
-    where = np.zeros((int(max(tags, default=0)) + 1, 3))
-    where[np.asarray(tags, dtype=int)] = np.asarray(places).reshape(-1, 3)
-    kind, corners = (TRIANGLE, 6) if space else (LINE, 3)
+    where, kind = nodes_of(model), TRIANGLE if space else LINE
     for face in made.entities:
         nodes = model.mesh.getElementsByType(kind, face)[1]
         if len(nodes):
-            made.pieces[face] = where[np.asarray(nodes, dtype=int)].reshape(-1, corners, 3)
+            made.pieces[face] = where[nodes].reshape(-1, 6 if space else 3, 3)
     return made
 
 

@@ -27,7 +27,7 @@ import numpy as np
 
 from . import grammar as g
 from .case import Case
-from .geometry import Outline, distance_field, look
+from .geometry import TRIANGLE, Outline, distance_field, look, nodes_of
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
 from .picks import Picks
@@ -436,12 +436,9 @@ class Session:
 
     def flat(self) -> bool:
         """Whether a triangle of the plane has no area: its points lie on one line."""
-        tags, places, _ = self.gmsh.model.mesh.getNodes()
-        where = np.zeros((int(max(tags, default=0)) + 1, 3))
-        where[np.asarray(tags, int)] = np.asarray(places).reshape(-1, 3)
-        kind = 9
-        nodes = np.asarray(self.gmsh.model.mesh.getElementsByType(kind)[1], int).reshape(-1, 6)[:, :3]
-        a, b, c = (where[nodes[:, (k + 1) % 3]] - where[nodes[:, k]] for k in range(3))
+        model = self.gmsh.model
+        corners = nodes_of(model)[model.mesh.getElementsByType(TRIANGLE)[1]].reshape(-1, 6, 3)[:, :3]
+        a, b, c = (corners[:, (k + 1) % 3] - corners[:, k] for k in range(3))
         la, lb, lc = (np.linalg.norm(side, axis=1) for side in (a, b, c))
         twice = np.linalg.norm(np.cross(a, b), axis=1)
         return bool((4 * twice**2 < 1e-8 * la * lb * lc * (la + lb + lc)).any())

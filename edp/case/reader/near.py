@@ -71,6 +71,13 @@ class Store:
         found = [np.flatnonzero(self.face[: len(self.doubt)] == face) for face in faces]
         return np.concatenate(found) if found else np.zeros(0, int)
 
+    def within(self, pieces: Numbers, others: Numbers, slack: float) -> npt.NDArray[np.bool_]:
+        """Which pieces are near the box of others."""
+        nodes, reach = self.nodes[others].reshape(-1, 3), self.reach[pieces][:, None] + slack
+        low, high = self.centre[pieces] - reach, self.centre[pieces] + reach
+        found: npt.NDArray[np.bool_] = ((high >= nodes.min(0)) & (low <= nodes.max(0))).all(axis=1)
+        return found
+
     def split(self, pieces: Numbers) -> Numbers:
         """The four parts of each piece, in the plane two: (pieces, 4 or 2)."""
         mixed = PARTS[self.corners]
