@@ -175,6 +175,8 @@ def test_operations():
         ["share", [1, 2]],
     ]
     assert chosen(OPEN).operations() == []
+    (alone,) = chosen(OPEN + text.replace("join low high part\n", "")).operations()
+    assert alone[:2] == ["cut", 1]
 
 
 def test_three_that_touch():
