@@ -17,8 +17,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "edp/case"))
 
-from reader.mesher import prepare  # noqa: E402
 from reader.gmsh_process import GmshError  # noqa: E402
+from reader.mesher import prepare  # noqa: E402
 
 LAST_DIGITS = 2e-3  # of numbers that are printed with four digits: rounding, and the middle of a coarse outline
 KINDS = ("geo", "step", "stp", "brep", "igs", "iges")

@@ -1,10 +1,11 @@
-"""Whether both readers make the same of geometries: `python tests/campaigns/geometries.py [WORDS] [-mutated N] [-seed K]`.
+"""Whether both readers make the same of geometries: `python tests/campaigns/geometries.py [WORDS] [-mutated N]`.
 
 edp/bodies/readable.sh, with gmsh's program, and the Python package edp/case/reader, with gmsh's module, read all
 geometries in the package with their cases, those of tests that have both, and N mutated ones (120 unless given): Exit;,
-endless loops, Mesh 3;, fields, syntax errors, cut texts, empty files. Compared are the refusals, the tables of -check 1,
-what is left out and what touches, the picture's triangles, and the meshes: nodes, elements and groups. EXPECTED explains
-the differences that are wanted. Exit code 1: one that it does not explain, printed.
+endless loops, Mesh 3;, fields, syntax errors, cut texts, empty files. -seed K makes others, -keep FOLDER keeps those of
+tests. Compared are the refusals, the tables of -check 1, what is left out and what touches, the picture's triangles,
+and the meshes: nodes, elements and groups. EXPECTED explains the differences that are wanted. Exit code 1: one that it
+does not explain, printed.
 """
 
 import hashlib
@@ -20,6 +21,7 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -35,9 +37,16 @@ from reader.mesher import prepare  # noqa: E402
 TESTS = ["cad", "own_mesh", "sizes", "parts", "zoo", "named_groups"]
 SECONDS = 20  # of an endless geometry
 EXPECTED = {
-    "gmsh makes no mesh of it": "says why: Exit, or a crash",
+    "gmsh makes no mesh of it": "it says why: Exit, or a crash",
     "cannot be cut, joined or taken apart": "gmsh's own words differ between its language and its module",
+    "table:   join ": "faces of one area: the bodies' order, awk's by rounding",
+    "a row less": "a coarser outline of CAD for a table alone",
+    "no physical ": "a group without a face is none, and names are listed in the file's order",
+    "no surface in it": "an empty geometry says so",
+    "the mesh or geometry has a group of this name": "two faults in one line",
 }
+CLOSER = "where an outline is made again, closer to its curves, awk takes pieces in an order of its own"
+CUTS = "cuts have other numbers, and gmsh meshes bodies in the order of these"
 
 
 @dataclass
@@ -96,7 +105,7 @@ class Recorder:
             here = Path(words.get("cwd") or ".")
             if any("readable.sh" in word for word in given[:2]):
                 _, _, _, mesh, _, case, space, *more = [*given, "", "", ""]
-                self.keep(here / mesh, case if case == "none" else here / case, space == "1", (more + ["", ""])[1])
+                self.keep(here / mesh, case if case == "none" else here / case, space == "1", [*more, "", ""][1])
             if given and "FreeFem" in given[0]:
                 self.of_run(given, here)
             return run(command, *args, **words)
@@ -105,7 +114,7 @@ class Recorder:
         freefem.execute = lambda words, cwd=ROOT, env=None: self.of_run(list(map(str, words)), Path(cwd or ROOT))
 
     def of_run(self, given, here):
-        flags = dict(zip(given, given[1:], strict=False))
+        flags = dict(pairwise(given))
         sets = " ".join(f"-setnumber {w.replace('=', ' ')}" for w in flags.get("-set", "").split(",") if w)
         if "-mesh" in flags:
             case = flags.get("-case", "none")
@@ -157,12 +166,14 @@ def mutated(jobs, count, seed, folder):
     folder.mkdir()
     jobs = [job for job in jobs if job.file.suffix == ".geo"]
     added = [
-        "Exit;", "For k In {0 : 1}\n  k = 0;\nEndFor", "Mesh 1;", "Mesh 2;", "Mesh 3;", "Delete Physicals;", "foo bar",
-        "Field[1] = MathEval; Field[1].F = \"0.7\"; Background Field = 1;", "Mesh.Algorithm = 8; Mesh.RecombineAll = 1;",
+        "Exit;", "For k In {0 : 1e15}\nEndFor", "Mesh 1;", "Mesh 2;", "Mesh 3;", "Delete Physicals;", "foo bar",
+        "Field[1] = MathEval; Field[1].F = \"0.7\"; Background Field = 1;",
+        "Mesh.Algorithm = 8; Mesh.RecombineAll = 1;",
         "Field[3] = Box; Field[3].VIn = 0.1; Field[3].VOut = 2; Background Field = 3;", "MeshSize{:} = 1e-22;",
         'Physical Surface("a \\" b") = {1};', "Mesh.ElementOrder = 2;", "Mesh.SaveAll = 1;", "Mesh.MeshSizeFactor = 2;",
         "Delete Surface{:};", "Recursive Delete { Volume{:}; }", "Mesh.MshFileVersion = 4;", "Mesh.Binary = 1;",
-        "Coherence;", "Merge \"none.step\";", "General.AbortOnError = 1;", "Geometry.AutoCoherence = 0;", "Error(\"no\");",
+        "Coherence;", "Merge \"none.step\";", "General.AbortOnError = 1;", "Geometry.AutoCoherence = 0;",
+        "Error(\"no\");",
         "Printf(\"%g\", 1) > \"/dev/full\";", "SystemCall \"true\";", "Transfinite Curve{:} = 3;", "Abort;",
     ]  # fmt: skip
     for k in range(count):
@@ -204,6 +215,7 @@ class Made:
     faces: str = ""
     mesh: tuple = ()
     surface: int = 0
+    closer: bool = False
     seconds: float = 0.0
 
 
@@ -267,6 +279,7 @@ def with_awk(job, folder):
     if plain:
         made.mesh = mesh_of(plain[0])
         made.surface = len(meshes) - len(plain) or int((read / "surface.msh").exists())
+    made.closer = bool(text_of(read / "closer.geo"))
     why = text_of(read / "why").strip()
     made.why = why if code not in (0, 4) else ""
     return made
@@ -346,10 +359,14 @@ def compare(old, new):
         np.genfromtxt(text.splitlines()[1:], delimiter=",", ndmin=2) if text.count("\n") > 1 else np.zeros((0, 2))
         for text in (old.faces, new.faces)
     ]
-    if rows[0].shape != rows[1].shape or np.abs(rows[0] - rows[1]).max(initial=0) > 1e-6 * np.abs(rows[0]).max(
-        initial=1
-    ):
-        found.append(f"picture: {rows[0].shape} and {rows[1].shape}")
+    for each in rows:
+        each[each[:, 0] < 0, 0] = -1  # faces of cuts have new numbers
+    if {(face, body) for face, body, *_ in rows[0]} != {(face, body) for face, body, *_ in rows[1]}:
+        found.append("picture: faces or bodies")
+    elif rows[0].shape != rows[1].shape:
+        found.append(f"picture: a row less or more: {len(rows[0])} and {len(rows[1])}")
+    elif apart(*rows) > 1e-6 * np.abs(rows[0][:, 2:]).max(initial=0):
+        found.append("picture: places")
     return found + of_meshes(old.mesh, new.mesh)
 
 
@@ -376,7 +393,13 @@ def main(*words):
             old, new = with_awk(job, folder / f"old{k}"), with_python(job, folder / f"new{k}")
             count, times = count + 1, [times[0] + old.seconds, times[1] + new.seconds]
             found = compare(old, new)
-            known = [why for text, why in EXPECTED.items() if found and all(text in line for line in found)]
+            known = [why for text, why in EXPECTED.items() if any(text in line for line in found)]
+            known = known if all(any(text in line for text in EXPECTED) for line in found) else []
+            is_cut = job.case and re.search(rb"^cut ", job.case.read_bytes(), re.M)
+            if is_cut and not old.why and not new.why and not any("nodes:" in line for line in found):
+                known.append(CUTS)
+            if old.closer and new.mesh and old.mesh and abs(old.mesh[0] - new.mesh[0]) < 0.05 * old.mesh[0]:
+                known.append(CLOSER)
             wrong += bool(found and not known)
             print(
                 f"{job.name}: {old.why[:60] or (new.mesh and new.mesh[0]) or 'table'}; {len(found)} differ"

@@ -1,9 +1,9 @@
 """The bodies and faces of a geometry: their kinds, places, normals or axes, radii, areas, and what lies on both sides.
 
-`look(gmsh, cad, space)` meshes the faces of the geometry that gmsh has open coarsely, of second order; `faces(outline)`
-makes the table of it, `table(outline)` the text of -check 1. In the plane bodies are surfaces, and faces are curves. A kind is
-told where all nodes lie on it within 1e-6 of the face's size, by least squares; gmsh's own names for kinds are not
-used, for a cylinder may be a surface of revolution or a spline there.
+`look(gmsh, cad, space)` meshes the faces of the geometry that gmsh has open coarsely, of second order;
+`faces(outline)` makes the table of it, `table(outline)` the text of -check 1. In the plane bodies are surfaces, and
+faces are curves. A kind is told where all nodes lie on it within 1e-6 of the face's size, by least squares; gmsh's own
+names for kinds are not used, for a cylinder may be a surface of revolution or a spline there.
 """
 
 from __future__ import annotations
@@ -82,25 +82,38 @@ def distance_field(gmsh: Any, places: Sequence[Sequence[float]], size: str) -> i
     return int(growing)
 
 
-def look(gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]] = ()) -> Outline:
+def nodes_of(model: Any) -> Array:
+    """The places of the nodes of gmsh's mesh, by their numbers."""
+    tags, places, _ = model.mesh.getNodes()
+    where = np.zeros((int(max(tags, default=0)) + 1, 3))
+    where[tags] = np.reshape(places, (-1, 3))
+    return where
+
+
+def look(
+    gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]] = (), listed: bool = False
+) -> Outline:
     """Meshes the faces of what gmsh has open as far as curvature asks for, and takes them apart.
 
-    closer: places where the outline must be finer, and the sizes there.
+    closer: places where the outline must be finer, and the sizes there; listed: for a table alone, of what suffices.
     """
     dimension, model = 3 if space else 2, gmsh.model
-    model.mesh.clear()
+    if not any(model.getType(*face).startswith("Discrete") for face in model.getEntities(dimension - 1)):
+        model.mesh.clear()
     low, high = np.array(model.getBoundingBox(-1, -1)).reshape(2, 3)
-    fields = [model.mesh.field.add("MathEval")]
-    model.mesh.field.setString(fields[0], "F", f"{np.linalg.norm(high - low) / 15:g}")
+    largest = float(f"{np.linalg.norm(high - low) / 15:g}")
+    fields = []
     for places, finest in closer:
         growing = f"{finest:.9g}+0.25*Max(0,{{}}-{2 * finest:.9g})"
         fields.append(distance_field(gmsh, places.tolist(), growing))
-    least = model.mesh.field.add("Min")
+    least = model.mesh.field.add("Min")  # in place of the geometry's own
     model.mesh.field.setNumbers(least, "FieldsList", fields)
     model.mesh.field.setAsBackgroundMesh(least)
     settings = {"MeshSizeFromPoints": 0, "MeshSizeExtendFromBoundary": 1, "MinimumCirclePoints": 16, "MeshSizeMin": 0}
     # of gmsh's own curves its curvature ends in an endless loop (4.8)
     settings |= {"MeshSizeFactor": 1, "ElementOrder": 2, "MeshSizeFromCurvature": 24 if cad else 0}
+    settings["MeshSizeMax"] = min(largest, gmsh.option.getNumber("Mesh.MeshSizeMax"))
+    settings |= {"MeshSizeExtendFromBoundary": 0, "Smoothing": 0, "Algorithm": 5} if listed and cad else {}
     for name, value in settings.items():
         gmsh.option.setNumber(f"Mesh.{name}", value)
     model.mesh.generate(dimension - 1)
@@ -113,14 +126,11 @@ def look(gmsh: Any, cad: bool, space: bool, closer: Sequence[tuple[Array, float]
         if of >= dimension - 1 and (name := model.getPhysicalName(of, tag)):
             made.groups[of, name] = [int(member) for member in model.getEntitiesForPhysicalGroup(of, tag)]
     made.names = {own[0]: name for (of, name), own in made.groups.items() if of == dimension and len(own) == 1}
-    tags, places, _ = model.mesh.getNodes()
-    where = np.zeros((int(max(tags, default=0)) + 1, 3))
-    where[np.asarray(tags, dtype=int)] = np.asarray(places).reshape(-1, 3)
-    kind, corners = (TRIANGLE, 6) if space else (LINE, 3)
+    where, kind = nodes_of(model), TRIANGLE if space else LINE
     for face in made.entities:
         nodes = model.mesh.getElementsByType(kind, face)[1]
         if len(nodes):
-            made.pieces[face] = where[np.asarray(nodes, dtype=int)].reshape(-1, corners, 3)
+            made.pieces[face] = where[nodes].reshape(-1, 6 if space else 3, 3)
     return made
 
 

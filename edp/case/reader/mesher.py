@@ -4,7 +4,7 @@
 makes a Case of the text, picks what it names (picks.py), and has the mesh made: gmsh's version 2 text. `again(...)` is
 the same geometry, as it was picked, with sizes of a view. `convert(file, out)` is a mesh in another format of gmsh's.
 A GmshError says what is wrong with the geometry, for "-mesh FILE: ..."; a Refusal what is wrong with the case; an
-OSError that there is no room. What stands for itself is kept: the mesh by all that it comes of, and what was read of it.
+OSError that there is no room. What stands for itself is kept: the mesh, by all that it comes of, and what was read.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ import numpy as np
 
 from . import grammar as g
 from .case import Case
-from .geometry import Outline, distance_field, look
+from .geometry import TRIANGLE, Outline, distance_field, look, nodes_of
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
 from .kept import CAD, checksum, stands_alone
@@ -41,6 +41,7 @@ OTHER_MESH = (
     "in the geometry"
 )
 PICKS = re.compile(r"^[ \t]*(group|size|cut|join)[ \t]", re.M)
+MAKING = f".making-{platform.node()}-"
 TURNS = 6  # closer outlines
 Sets = Sequence[tuple[str, float]]
 Reader = Callable[[Sequence[Group], str], Case]
@@ -91,6 +92,7 @@ class Job:
     check: bool
     cache: Path | None
     folder: Path
+    run: int = field(default_factory=os.getpid)
 
     @property
     def cad(self) -> bool:
@@ -100,6 +102,10 @@ class Job:
     def options(self) -> list[str]:
         words = [word for name, value in self.sets for word in ("-setnumber", name, f"{value:.17g}")]
         return words if self.space else [*words, "-order", "2"]
+
+    def work(self, place: Path) -> Path:
+        """Where this run makes a mesh, before it is moved into place."""
+        return place / f"{MAKING}{self.run}"
 
     def key(self, *more: object) -> str:
         return checksum(self.file, self.space, self.options, *more)
@@ -154,7 +160,7 @@ def prepare(
 ) -> Prepared:
     """Reads a geometry for the text of a case, or without one, for -check 1.
 
-    folder: of the run, for what is not kept; cache: where meshes are kept; check: with the table and the picture's data.
+    folder: of the run, for what is not kept; cache: where meshes are kept; check: with the table and the picture.
     """
     check_file(file, sets)
     keeps = cache is not None and stands_alone(file)
@@ -162,7 +168,12 @@ def prepare(
     memory = cache / f"own-{job.key(text)}.json" if cache and keeps and not check else None
     made = remembered(memory)
     if made is None:
-        made = in_child(partial(make, job=job), file.name, limit)
+        try:
+            made = in_child(partial(make, job=job), file.name, limit)
+        finally:  # the child may have been killed
+            for place in (job.cache, folder):
+                if place:
+                    shutil.rmtree(job.work(place), ignore_errors=True)
         if memory and made.mesh and Path(made.mesh).parent == cache:
             write_whole(memory, json.dumps(asdict(made)))
     if read:
@@ -213,9 +224,11 @@ class Session:
         try:
             self.gmsh.open(str(self.file))
         except Exception as error:
-            meshed = any("Meshing " in line for line in self.gmsh.logger.get())
-            raise cannot_mesh(error) if meshed else GmshError(f"gmsh cannot read it: {error}") from None
-        self.gmsh.logger.stop()
+            raise cannot_mesh(error) if self.meshed() else GmshError(f"gmsh cannot read it: {error}") from None
+
+    def meshed(self) -> bool:
+        """Whether the geometry has made a mesh of itself while it was read."""
+        return any("Meshing " in line for line in self.gmsh.logger.get())
 
     def numbers(self, dimension: int) -> list[int]:
         return [tag for _, tag in self.gmsh.model.getEntities(dimension)]
@@ -231,9 +244,9 @@ class Session:
             raise GmshError("a control character in a group's name; allowed: other names")
         return [Group(d, name) for d, name in named if name]
 
-    def look(self, closer: Sequence[Any] = ()) -> Outline:
+    def look(self, closer: Sequence[Any] = (), listed: bool = False) -> Outline:
         try:
-            return look(self.gmsh, self.cad, self.space, closer)
+            return look(self.gmsh, self.cad, self.space, closer, listed)
         except Exception as error:
             raise cannot_mesh(error) from None
 
@@ -395,12 +408,9 @@ class Session:
 
     def flat(self) -> bool:
         """Whether a triangle of the plane has no area: its points lie on one line."""
-        tags, places, _ = self.gmsh.model.mesh.getNodes()
-        where = np.zeros((int(max(tags, default=0)) + 1, 3))
-        where[np.asarray(tags, int)] = np.asarray(places).reshape(-1, 3)
-        kind = 9
-        nodes = np.asarray(self.gmsh.model.mesh.getElementsByType(kind)[1], int).reshape(-1, 6)[:, :3]
-        a, b, c = (where[nodes[:, (k + 1) % 3]] - where[nodes[:, k]] for k in range(3))
+        model = self.gmsh.model
+        corners = nodes_of(model)[model.mesh.getElementsByType(TRIANGLE)[1]].reshape(-1, 6, 3)[:, :3]
+        a, b, c = (corners[:, (k + 1) % 3] - corners[:, k] for k in range(3))
         la, lb, lc = (np.linalg.norm(side, axis=1) for side in (a, b, c))
         twice = np.linalg.norm(np.cross(a, b), axis=1)
         return bool((4 * twice**2 < 1e-8 * la * lb * lc * (la + lb + lc)).any())
@@ -461,15 +471,14 @@ def make(gmsh: Any, job: Job) -> Prepared:
     if job.cad and job.space and not session.numbers(3):  # faces that nothing joins, as IGES has them
         plan.options += SEWN
         session.open(plan.options)
-    if job.cad and not session.numbers(session.dimension):
-        raise GmshError(f"no {'solid' if job.space else 'surface'} in it")
-    if job.space and not session.numbers(3):
-        raise GmshError(PLANE)
+    if not session.numbers(session.dimension):
+        nothing = f"no {'solid' if job.space else 'surface'} in it"
+        raise GmshError(PLANE if job.space and not job.cad else nothing)
     made = Prepared(session.groups(), version=version(gmsh), finer=smaller(job.file))
     made.bodies = " ".join(map(str, session.numbers(session.dimension))) if job.cad else ""
     if job.text is None or job.read is None:
         where = Where(space=job.space)
-        picks = Picks(session.look(), Case(where, Groups(where, [])))
+        picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))
         if not picks.made.bodies or not picks.made.pieces:
             raise GmshError("gmsh reads no bodies with faces out of it")
         made.table, made.faces = picks.table(), picks.pieces()
@@ -490,8 +499,8 @@ def make(gmsh: Any, job: Job) -> Prepared:
 
 def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> None:
     """Finds what the case picks; the plan says what it takes."""
-    sizes, meshed = case.of(g.Size), bool(len(session.gmsh.model.mesh.getNodes()[0]))
-    plan.anew = meshed and bool(sizes or case.of(g.Cut) or case.of(g.Join))
+    sizes = case.of(g.Size)
+    plan.anew = session.meshed() and case.has(g.Size, g.Cut, g.Join)
     if sizes:
         plan.point_size, plan.background = session.own_sizes(job.folder)
     picks = Picks(session.look(), case, job.cad)
@@ -543,7 +552,7 @@ def write_mesh(session: Session, job: Job, plan: Plan, made: Prepared) -> None:
         if place is None:
             continue
         mesh, surface = place / f"{name}.msh", place / f"{name}-surface.msh"
-        work = place / f".making-{platform.node()}-{os.getppid()}"
+        work = job.work(place)
         try:
             if not mesh.is_file():
                 place.mkdir(parents=True, exist_ok=True)
@@ -568,7 +577,7 @@ def write_mesh(session: Session, job: Job, plan: Plan, made: Prepared) -> None:
 
 def tidy(place: Path) -> None:
     """Removes what killed runs of this computer have left."""
-    for left in place.glob(f".making-{platform.node()}-*"):
+    for left in place.glob(f"{MAKING}*"):
         if not Path("/proc", left.name.rpartition("-")[2]).exists():
             shutil.rmtree(left, ignore_errors=True)
 
@@ -602,6 +611,7 @@ def again(
 
 def convert(file: Path, out: Path, limit: float = float("inf")) -> None:
     """A mesh that gmsh reads (.msh of other versions or binary, .unv, .bdf, .med), as version 2 text."""
+    check_file(file, ())
     if file.suffix.lower() == ".stl":
         geometries = "a geometry (.geo, .step, .iges, .brep), or a mesh of the bodies"
         raise GmshError(f"the triangles of a surface alone, without bodies and names; allowed: {geometries}")

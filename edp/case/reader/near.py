@@ -46,7 +46,7 @@ MIDDLE = {n: shapes(c.mean(0)[None])[0] for n, c in CORNERS.items()}
 
 
 class Store:
-    """Pieces and their parts: nodes, faces, middles on the surface, radii around these, pieces that they are parts of."""
+    """Pieces and their parts: nodes, faces, middles on the surface, radii around these, pieces that they are of."""
 
     def __init__(self, pieces: dict[int, Array]) -> None:
         self.nodes = np.concatenate(list(pieces.values()))
@@ -70,6 +70,13 @@ class Store:
         """The pieces of faces, in the order of these."""
         found = [np.flatnonzero(self.face[: len(self.doubt)] == face) for face in faces]
         return np.concatenate(found) if found else np.zeros(0, int)
+
+    def within(self, pieces: Numbers, others: Numbers, slack: float) -> npt.NDArray[np.bool_]:
+        """Which pieces are near the box of others."""
+        nodes, reach = self.nodes[others].reshape(-1, 3), self.reach[pieces][:, None] + slack
+        low, high = self.centre[pieces] - reach, self.centre[pieces] + reach
+        found: npt.NDArray[np.bool_] = ((high >= nodes.min(0)) & (low <= nodes.max(0))).all(axis=1)
+        return found
 
     def split(self, pieces: Numbers) -> Numbers:
         """The four parts of each piece, in the plane two: (pieces, 4 or 2)."""
@@ -133,8 +140,8 @@ class Store:
     def doubts(self) -> Array:
         """How far a piece may be off its face, about four times too much.
 
-        By the change of curvature to its neighbours, which a parabola lacks, and by what it lacks of a circle. In space,
-        where neighbours are not known, curvature may change by a quarter within its radius.
+        By the change of curvature to its neighbours, which a parabola lacks, and by what it lacks of a circle. In
+        space, where neighbours are not known, curvature may change by a quarter within its radius.
         """
         size = 2 * self.reach
         if self.space:

@@ -207,13 +207,25 @@ class Picks:
         a, b = store.of(self.around(one)), store.of(self.around(other))
         if not len(a) or not len(b):
             return []
+        # bodies that touch do so where their boxes meet; what is not near there need not be looked at
+        widest = 1e-4 * self.diagonal + 1.2 * float(store.bow[a].max() + store.bow[b].max())
+        touching = a[store.within(a, b, widest)]
+        if len(touching) and (found := self.facing(touching, b[store.within(b, touching, widest)], True)):
+            self.lies[names] = True
+            return found
+        self.lies[names] = False
+        return self.facing(a, b, False)
+
+    def facing(self, a: Numbers, b: Numbers, touching: bool) -> list[int]:
+        """The faces of pieces a that lie on pieces b, or are nearest to them, and look at them within 45 degrees."""
+        store = self.store
+        if not len(b):
+            return []
         best, there = nearest_pieces(store, a, b)
-        alike = ((normals(store.nodes[a]) * normals(store.nodes[there])).sum(1)) ** 2 > 0.5  # within 45 degrees
+        alike = ((normals(store.nodes[a]) * normals(store.nodes[there])).sum(1)) ** 2 > 0.5
         off = np.where(alike, best, np.inf)
         play = 1e-4 * self.diagonal + 1.2 * (store.bow[a] + store.bow[there])
-        meets = bool((off < play).any())
-        self.lies[names] = meets
-        return unique(store.face[a[off < (0 if meets else off.min() + 1e-3 * self.diagonal) + play]])
+        return unique(store.face[a[off < (0 if touching else off.min() + 1e-3 * self.diagonal) + play]])
 
     # ------------------------------------------------------------ bodies that touch
 
