@@ -135,13 +135,23 @@ def work(task: Callable[[Any], Any], outlet: int, parent: int) -> None:
         os._exit(0)
 
 
+def goes_on() -> bool:
+    """Whether the run that asks is still there: its number is in the environment's CONTACT_RUN."""
+    run = os.environ.get("CONTACT_RUN", "0")
+    try:
+        with open(f"/proc/{run}/stat", encoding="utf-8", errors="replace") as file:
+            return run == "0" or file.read().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return run == "0" or not os.path.exists("/proc/self/stat")
+
+
 def listen(inlet: int, what: str, limit: float, say: Callable[[str], None]) -> bytes:
     """All that the child writes until it ends; lines say meanwhile that gmsh is at work."""
     begun, told = time.monotonic(), FIRST
     parts: list[bytes] = []
     while True:
         passed = time.monotonic() - begun
-        ready, _, _ = select.select([inlet], [], [], max(0.0, min(told, limit) - passed))
+        ready, _, _ = select.select([inlet], [], [], max(0.0, min(told - passed, limit - passed, 1.0)))
         if ready:
             part = os.read(inlet, 1 << 20)
             if not part:
@@ -149,6 +159,10 @@ def listen(inlet: int, what: str, limit: float, say: Callable[[str], None]) -> b
             parts.append(part)
         elif time.monotonic() - begun >= limit:
             raise GmshError(f"gmsh takes longer than {limit:g} s")
+        elif not goes_on():
+            raise KeyboardInterrupt
+        elif time.monotonic() - begun < told:
+            continue
         elif what:
             first = told == FIRST
             say(

@@ -165,31 +165,14 @@ def prepare(
     check_file(file, sets)
     keeps = cache is not None and stands_alone(file)
     job = Job(file, space, text, read, sets, check, cache if keeps else None, folder)
-    memory = cache / f"own-{job.key(text)}.json" if cache and keeps and not check else None
-    made = remembered(memory)
-    if made is None:
-        try:
-            made = in_child(partial(make, job=job), file.name, limit)
-        finally:  # the child may have been killed
-            for place in (job.cache, folder):
-                if place:
-                    shutil.rmtree(job.work(place), ignore_errors=True)
-        if memory and made.mesh and Path(made.mesh).parent == cache:
-            write_whole(memory, json.dumps(asdict(made)))
+    try:
+        made = in_child(partial(make, job=job), file.name, limit)
+    finally:  # the child may have been killed
+        for place in (job.cache, folder):
+            if place:
+                shutil.rmtree(job.work(place), ignore_errors=True)
     if read:
         made.case = read(made.groups, made.bodies)
-    return made
-
-
-def remembered(memory: Path | None) -> Prepared | None:
-    """What a run before found out, if its files are still there."""
-    try:
-        made = Prepared(**json.loads(memory.read_text())) if memory else None
-    except (OSError, ValueError, TypeError):
-        return None
-    if made is None or not all(Path(path).is_file() for path in (made.mesh, made.surface, made.plan) if path):
-        return None
-    made.groups = [Group(**each) for each in made.groups]  # type: ignore[arg-type]
     return made
 
 

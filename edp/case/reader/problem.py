@@ -86,7 +86,7 @@ def tell_faces(of: Problem) -> None:
 
 
 def read_problem(of: Problem) -> None:
-    """Writes the files of the folder; raises a Refusal of the case, a GmshError or MeshRefusal of the mesh, an OSError."""
+    """Writes the files of the folder; raises a Refusal of the case, a GmshError or MeshRefusal of the mesh."""
     text = text_of(of.case)
     made = Prepared([], finer=FINER)
 
@@ -104,7 +104,8 @@ def read_problem(of: Problem) -> None:
         mesh = mesh if of.where.again else pick_on_mesh(mesh, case)
     surface = Path(made.surface or of.surface or os.devnull)
     straight = not of.where.space and of.file.suffix.lower() in KINDS
-    written = write_bodies(mesh, case, of.folder, of.where.space, straight, read_msh(surface) if surface.is_file() else None)
+    smooth = read_msh(surface) if surface.is_file() else None
+    written = write_bodies(mesh, case, of.folder, of.where.space, straight, smooth)
     write(of.folder / "regions", written.text)
     write(of.folder / "case", table(case, written.groups, written.split))
     told = [made.version, made.plan, made.finer, made.left, str(len(made.touch)), *made.touch]
@@ -115,7 +116,7 @@ def read_problem(of: Problem) -> None:
 
 
 def run(of: Problem) -> int:
-    """Reads; the exit code: 0 done, 1 the mesh and 3 the case is refused, with a line in the file why, 4 no case, 5 no room."""
+    """Reads. Exit codes: 0 done; 1 the mesh, 3 the case is refused, in the file why; 4 without a case; 5 no room."""
     why, code = "", 0
     try:
         if of.case == "none":
