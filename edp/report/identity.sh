@@ -12,4 +12,4 @@ sh "$root/edp/bodies/reads.sh" 0 "$@" | while IFS= read -r file; do
     else cksum < "$file"
     fi
 done | tr '\n' ' '
-cd "$root" && find edp/ meshes/*.geo meshes/*.awk -type f ! -name '*.md' | sort | xargs cat | cksum
+cd "$root" && find edp/ meshes/*.geo -type f ! -name '*.md' ! -name '*.pyc' | sort | xargs cat | cksum
