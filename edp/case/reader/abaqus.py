@@ -67,7 +67,7 @@ def trim(text: str) -> str:
 
 def options_of(words: list[str]) -> dict[str, str]:
     """Of a keyword's line: what stands behind NAME=."""
-    pairs = [word.partition("=") for word in words[1:]]
+    pairs = [word.partition("=") for word in words[:0:-1]]  # the first of a name stands
     return {trim(name).upper(): trim(value) if sign and value else "yes" for name, sign, value in pairs}
 
 
@@ -259,7 +259,7 @@ def read_deck(path: Path, space: bool) -> Deck:
 def number_nodes(deck: Deck) -> None:
     """Elements know their nodes by rows."""
     nodes = np.concatenate(deck.nodes) if deck.nodes else np.zeros((0, 5))
-    deck.numbers, deck.places = nodes[:, 0].astype(np.int64), np.ascontiguousarray(nodes[:, 1:4])
+    deck.numbers, deck.places = nodes[:, 0].astype(np.int64), nodes[:, 1:4] + 0.0
     once = np.unique(deck.numbers, return_index=True)[1]
     for k in np.setdiff1d(np.arange(len(nodes)), once)[:1]:
         what = f"the node {deck.numbers[k]} is there twice; allowed: one mesh of all parts"

@@ -143,7 +143,7 @@ def read_nodes(mesh: Mesh, section: Section) -> None:
     rows = found.reshape(-1, 4)
     if ((rows[:, 0] < 1) | (rows[:, 0] > 1e15) | (rows[:, 0] % 1 > 0)).any() or not (np.abs(rows) < 1e150).all():
         wrong_node(section)
-    mesh.places, mesh.numbers = np.ascontiguousarray(rows[:, 1:]), rows[:, 0].astype(np.int64)
+    mesh.places, mesh.numbers = rows[:, 1:] + 0.0, rows[:, 0].astype(np.int64)
     once = np.unique(mesh.numbers, return_index=True)[1]
     if len(once) < len(rows):
         k = int(np.setdiff1d(np.arange(len(rows)), once)[0])
