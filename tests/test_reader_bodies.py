@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from reader import Group, Refusal, Where, read_case
 from reader.abaqus import listing, read_inp
-from reader.bodies import with_split, write_bodies
+from reader.bodies import write_bodies
 from reader.mesh import CENTRES, EDGES, KINDS, Block, Mesh, MeshRefusal, alone, groups_of, keys_of, sides_of
 from reader.msh import read_msh
-from reader.rows import rows
 from reader.sides import Boundary, ElementSides, OnCylinder, pick_on_mesh, pick_sides
 from reader.simplices import cut_to_simplices
+from reader.values import table
 
 # ---------------------------------------------------------------- meshes by hand
 
@@ -442,9 +442,9 @@ def test_split_symmetry(tmp_path):
     files, written, read = made_of(tmp_path, text, case)
     words = "symmetry grip of line 5 is in 2 planes: grip 1 with the normal (1, 0) and grip 2 with the normal (0, 1)"
     assert files["notes"] == f"1\n{words}\n"
-    table = with_split(rows(read), written).split("\n")
-    assert "groups 7" in table and "1 grip 1" in table and "1 grip 2" in table and "statements 6" in table
-    assert [line.split()[:3] for line in table if line.startswith("symmetry")] == [
+    lines = table(read, written.groups, written.split).split("\n")
+    assert "groups 7" in lines and "1 grip 1" in lines and "1 grip 2" in lines and "statements 6" in lines
+    assert [line.split()[:3] for line in lines if line.startswith("symmetry")] == [
         ["symmetry", "5", "6"],
         ["symmetry", "5", "7"],
     ]

@@ -1,9 +1,10 @@
 """The reader of geometries: kinds, areas, sides and neighbours of faces made here, and gmsh's process with a stand-in.
 
-No test needs gmsh: tests/campaigns/faces.py compares its tables with those of the awk programs.
+No test needs gmsh.
 """
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -16,7 +17,7 @@ import pytest
 from freefem import ROOT
 from reader import geometry as geo
 from reader import gmsh_process
-from reader.gmsh_process import GmshError, in_child, program_version, unlike
+from reader.gmsh_process import GmshError, in_child
 from reader.neighbours import by_face, distances, one_shape, part_on, parts_of, statements, touching
 
 
@@ -389,53 +390,45 @@ in_child(task)
     assert gone(int((tmp_path / "pid").read_text()))
 
 
-def test_versions(tmp_path):
-    """Of the program; module and program are one version, or there is no program."""
-    program = tmp_path / "gmsh"
-    program.write_text("#!/bin/sh\necho 4.8.4 >&2\n")
-    program.chmod(0o755)
-    assert program_version(str(program)) == "4.8.4" and program_version(str(tmp_path / "none")) == ""
-    assert unlike("4.8.4", "4.8.4") == unlike("4.8.4", "") == ""
-    assert unlike("4.15.2", "4.8.4").startswith("gmsh: the program is version 4.8.4, Python's module 4.15.2")
-
-
 # ---------------------------------------------------------------- which Python
 
 
-def pythons(folder, modules, path=""):
-    """(exit code, output) of case/python.sh where Pythons of these names have these modules."""
-    (folder / "bin").mkdir()
-    for name, has in modules.items():
-        file = folder / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(f"#!/bin/sh\nexit {int(not has)}\n")
-        file.chmod(0o755)
-    environment = {"PATH": f"{folder}/bin:/usr/bin:/bin", "CONTACT_PYTHON": path}
-    command = ["sh", ROOT / "edp/case/python.sh", folder]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True)
-    return done.returncode, done.stdout.strip()
+def python(path, code):
+    """A stand-in for Python that says which it is, and ends with this code: 12 without the modules."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/sh\necho {path}\nexit {code}\n")
+    path.chmod(0o755)
 
 
-@pytest.mark.parametrize("modules, path, found", [
-    ({".venv/bin/python": True, "bin/python3": True}, "", "{}/.venv/bin/python"),
-    ({".venv/bin/python": False, "bin/python3": True}, "", "python3"),
-    ({".venv/bin/python": True, "own": True}, "{}/own", "{}/own"),
-    ({".venv/bin/python": True, "own": False}, "{}/own", "{}/.venv/bin/python"),
+@pytest.mark.parametrize("codes, variables, tried, code", [
+    ({".venv/bin/python": 0, "bin/python3": 0}, {}, [".venv/bin/python"], 0),
+    ({".venv/bin/python": 12, "bin/python3": 3}, {}, [".venv/bin/python", "bin/python3"], 3),
+    ({".venv/bin/python": 0, "own": 0}, {"CONTACT_PYTHON": "own"}, ["own"], 0),
+    ({".venv/bin/python": 1, "own": 12}, {"CONTACT_PYTHON": "own"}, ["own", ".venv/bin/python"], 1),
+    ({".venv/bin/python": 0, "own": 5}, {"CONTACT_READER": "own"}, ["own"], 5),
+    ({"cache/venv/bin/python": 0, "bin/python3": 0}, {"CONTACT_CACHE": "cache"}, ["cache/venv/bin/python"], 0),
 ])  # fmt: skip
-def test_which_python(tmp_path, modules, path, found):
-    """The first that has both modules: one that is named, the package's, that of the PATH, the system's."""
-    assert pythons(tmp_path, modules, path.format(tmp_path)) == (0, found.format(tmp_path))
-
-
-def test_python_with_both_modules(tmp_path):
-    """A real one, with a stand-in for gmsh's module; where none has both, one line says how to get them."""
-    (tmp_path / "gmsh.py").touch()
-    environment = {"PATH": str(tmp_path), "CONTACT_PYTHON": sys.executable, "PYTHONPATH": str(tmp_path)}
-    command = ["/bin/sh", ROOT / "edp/case/python.sh", "/none"]
+def test_which_python(tmp_path, codes, variables, tried, code):
+    """The first that has both modules; its exit code is that of the program."""
+    for name, each in codes.items():
+        python(tmp_path / name, each)
+    (tmp_path / "edp/case").mkdir(parents=True)
+    shutil.copy(ROOT / "edp/case/read.sh", tmp_path / "edp/case")
+    environment = {"PATH": f"{tmp_path}/bin:/usr/bin:/bin"}
+    environment |= {name: str(tmp_path / path) for name, path in variables.items()}
+    command = ["sh", tmp_path / "edp/case/read.sh", "1", "ready"]
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
-    assert (done.returncode, done.stdout) == (0, f"{sys.executable}\n")
-    (tmp_path / "a.sh").write_text((ROOT / "edp/case/python.sh").read_text().replace(" /usr/bin/python3;", ";"))
-    command[1] = tmp_path / "a.sh"
-    done = subprocess.run(command, env=environment | {"CONTACT_PYTHON": ""}, capture_output=True, text=True)
-    assert done.returncode == 10 and done.stdout.count("\n") == 1
+    found = [str(Path(line).resolve()) for line in done.stdout.splitlines()]
+    assert (found, done.returncode) == ([str(tmp_path / name) for name in tried], code)
+
+
+def test_no_python(tmp_path):
+    """Where none has both, one line says how to get them; a Python without numpy says so by its code."""
+    script = tmp_path / "edp/case/read.sh"
+    script.parent.mkdir(parents=True)
+    script.write_text((ROOT / "edp/case/read.sh").read_text().replace(" python3 /usr/bin/python3;", ";"))
+    done = subprocess.run(["sh", script, "1", "ready"], env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True)
+    assert done.returncode == 12 and done.stdout.count("\n") == 1
     assert "allowed: Debian's packages python3-numpy and python3-gmsh" in done.stdout
+    command = [sys.executable, "-I", "-S", ROOT / "edp/case/read.py", "ready"]
+    assert subprocess.run(command, capture_output=True).returncode == 12

@@ -5,6 +5,7 @@ The last part needs gmsh's module. tests/campaigns/geometries.py compares both r
 
 import json
 import os
+from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
 
@@ -518,7 +519,7 @@ PRESSED = BODIES + "clamp foot\nobstacle top plane 0 3 0 -1\n"
 @pytest.fixture
 def module(monkeypatch, tmp_path_factory):
     """gmsh's module, that of the system where this Python has none."""
-    if mesher.find_spec("gmsh") is None:
+    if find_spec("gmsh") is None:
         system = Path("/usr/lib/python3/dist-packages/gmsh.py")
         if not system.exists():
             pytest.skip("gmsh's module is missing")

@@ -10,10 +10,8 @@ import ctypes
 import faulthandler
 import os
 import pickle
-import re
 import select
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -42,26 +40,6 @@ def start(module: Any, options: Sequence[str] = ()) -> Any:
 def version(module: Any) -> str:
     """The version of gmsh's library: the module's own number may be that of another one."""
     return str(module.option.getString("General.Version"))
-
-
-def program_version(program: str = "gmsh") -> str:
-    """The version of the program on the PATH, or nothing."""
-    try:
-        done = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=60, check=False)
-    except (OSError, subprocess.TimeoutExpired):
-        return ""
-    found = re.search(r"\d+(\.\d+)+", done.stdout + done.stderr)
-    return found[0] if found else ""
-
-
-def unlike(module_version: str, program: str) -> str:
-    """Why module and program may not be mixed, or nothing: a mesh that one made is kept for the other."""
-    if not program or program == module_version:
-        return ""
-    return (
-        f"gmsh: the program is version {program}, Python's module {module_version}, and meshes are kept for both; "
-        "allowed: one version (Debian: apt install gmsh python3-gmsh), or no program on the PATH"
-    )
 
 
 def in_child(

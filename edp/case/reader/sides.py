@@ -129,7 +129,7 @@ class Boundary:
                 centre = (4 * middle - mean) / 3 if a.shape[1] == 3 else 2 * middle - mean
             after = np.roll(ring, -1, axis=1)
             pieces = [np.stack([centre, ring[:, k], after[:, k]] * 2, axis=1) for k in range(ring.shape[1])]
-        return np.min([distances(at, piece)[0] for piece in pieces], axis=0), size
+        return np.min([distances(at, piece) for piece in pieces], axis=0), size
 
     def patches(self) -> tuple[Ints, Ints, Ints]:
         """Of all sides of the boundary: which of `sides`, which row, and the number of their smooth part."""
