@@ -627,7 +627,7 @@ def test_check_tells_interference_and_expansion(tmp_path):
     assert re.search("^  load +expand upper 1e-05 20$", said, re.M), said
     law = case.replace("0.0007", "0.0007 law power kappa 1e6 m 2 d0 -0.001")
     said = solve(tmp_path / "law", stack(), law, "-check", 1).stdout
-    assert "top upper bottom: law power from d0 -0.0017, frictionless" in said and "load      contact" not in said, said
+    assert "top upper bottom: law power, d0 -0.0017, frictionless" in said and "load      contact" not in said, said
 
 
 def test_facing_nothing(tmp_path):
