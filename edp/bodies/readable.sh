@@ -136,7 +136,11 @@ complaint() { sed -n 's/^Error *: *//p' "$1" | head -n 1; }
 # an error of gmsh's: in reading the file, or, once it has begun a mesh, in meshing it
 stopped() {
     grep -q '^Error' "$1" || return 0
-    sed '/^Error/q' "$1" | grep -q '^Info *: Meshing [123]D' || no "gmsh cannot read it: $(complaint "$1")"
+    sed '/^Error/q' "$1" | grep -q '^Info *: Meshing [123]D' || {
+        cure="a file that gmsh opens without this error"
+        test "$kind" != geo || cure="a geometry without this error. Correct it there; \`gmsh -parse_and_exit $file\` repeats what gmsh says"
+        no "gmsh cannot read it: $(complaint "$1"); allowed: $cure"
+    }
     no "gmsh reads it, but cannot mesh it: $(complaint "$1"); allowed: another size of elements, another algorithm of gmsh's (Mesh.Algorithm), or closed surfaces, as a torus, split in the geometry"
 }
 reader=${0%/*}/../case/case
