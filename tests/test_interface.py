@@ -1,5 +1,6 @@
 """How runs are started and what they leave: folders, progress lines, help, meshes, interrupted runs, a full disk."""
 
+import json
 import os
 import re
 import resource
@@ -396,3 +397,29 @@ def test_every_folder_is_quiet():
     """Wherever FreeFEM finds the package, it shall not list the modules."""
     found = [ROOT / "freefem++.pref", *(ROOT / "edp").rglob("freefem++.pref")]
     assert len(found) > 10 and all("\nverbosity = 0\n" in path.read_text() for path in found)
+
+
+# ---------------------------------------------------------------- numbers that are none
+
+
+def test_no_finite_numbers_are_null(tmp_path):
+    """summary.json of a run that ends with NaN is JSON: null stands there, and the message says why."""
+    ending = 'include "report/report.idp"'
+    spoilt = 'converged = false; failure = "no finite solution"; residual = log(-1.); modelError = -log(0.);\n'
+    text = (ROOT / script("disc-on-block")).read_text()
+    assert text.count(ending) == 1
+    for name in ("edp", "meshes", "freefem++.pref", "build"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    (tmp_path / "own.edp").write_text(text.replace(ending, spoilt + ending))
+    flags = ["-h", 2, "-order", 1, "-estimate", 0, "-vtu", 0]
+    done = run_in(tmp_path, "own.edp", *flags, out=tmp_path / "out", expect=20)
+    assert (done.residual, done.modelError, done.message) == (None, None, "no finite solution")
+    assert done.force > 0 and "NOT CONVERGED: no finite solution" in done.stdout
+    folder, program = tmp_path / "listed", ["sh", ROOT / "edp/case/folder.sh", os.getpid()]
+    assert execute([*program, "open", folder])[0] == 0
+    text = '{"name": "at least, information", "motion": [-nan, 1, -inf],\n"way": nan}\n'
+    (folder / ".run/summary.json").write_text(text)
+    (folder / ".run/.ends").write_text(f"summary.json {len(text)}\n")
+    assert execute([*program, "publish", folder, "finite"])[0] == 0
+    found = {"name": "at least, information", "motion": [None, 1, None], "way": None}
+    assert json.loads((folder / "summary.json").read_text()) == found
