@@ -2,8 +2,10 @@
 
 import json
 import os
+import pty
 import re
 import resource
+import select
 import shutil
 import signal
 import subprocess
@@ -397,6 +399,31 @@ def test_every_folder_is_quiet():
     """Wherever FreeFEM finds the package, it shall not list the modules."""
     found = [ROOT / "freefem++.pref", *(ROOT / "edp").rglob("freefem++.pref")]
     assert len(found) > 10 and all("\nverbosity = 0\n" in path.read_text() for path in found)
+
+
+# ---------------------------------------------------------------- signs of life
+
+
+@pytest.mark.parametrize("busy, terminal", [(0, True), (0, False), (10, True)])
+def test_signs_of_life(tmp_path, busy, terminal):
+    """A long run says on a terminal what it computes; a short one, and one that is not on a terminal, prints nothing new."""
+    start = 'include "solve/solver.idp"\n'
+    text = (ROOT / script(DISC)).read_text()
+    assert text.count(start) == 1
+    for name in ("edp", "meshes", "freefem++.pref", "build"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    (tmp_path / "own.edp").write_text(text.replace(start, f"{start}busyFrom = {busy};\n"))
+    shown, errors = pty.openpty()
+    command = [*FREEFEM, "own.edp", "-h", "2", "-vtu", "0", "-out", tmp_path / "out"]
+    screen = errors if terminal else subprocess.PIPE
+    done = subprocess.run(command, cwd=tmp_path, env=environment(), stdout=subprocess.PIPE, stderr=screen, check=True)
+    said = os.read(shown, 9999).decode() if select.select([shown], [], [], 0)[0] else ""
+    signs = ["assembling the equations of 1", "factorising the matrix of 1", "solving a linear system: ", "estimating errors: result 1 of "]
+    assert [sign in said for sign in signs] == [terminal and busy == 0] * 4, said
+    assert bool(said) is (terminal and busy == 0) and not done.stderr
+    assert not any(sign in done.stdout.decode() for sign in signs)
+    os.close(errors)
+    os.close(shown)
 
 
 # ---------------------------------------------------------------- numbers that are none
