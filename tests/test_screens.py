@@ -260,6 +260,29 @@ def test_large_errors_are_no_silence(tmp_path):
     assert "pin bore 93 %" not in said  # a contact that carries nothing beside the other one decides nothing
 
 
+def test_no_advice_to_raise_the_highest_order(tmp_path):
+    """The row `finer` names a higher order only if there is one, and -distance exact only where it is not in use."""
+    errors = (0.001, 0.001, 0.2, 0.001)
+    for order, dimension, told in ((2, 2, True), (4, 2, False), (2, 3, True), (3, 3, False)):
+        space = {"reactionZ": 0} if dimension == 3 else {}
+        said = screen(tmp_path / f"{order}{dimension}", {**case_summary(errors), **space, "order": order})
+        (line,) = re.findall("^  finer +(.*)$", said, re.M)
+        assert line.startswith("raise -order, or refine at the contact" if told else "refine at the contact"), line
+    for distance, told in (("linear", True), ("exact", False)):
+        parts = {"linearised": {"trusted": True, "changes": [], "pressureMax": [200, 0]}}
+        flags = {"parameters": {**SUMMARY["parameters"], "distance": distance}, "order": 2}
+        said = screen(tmp_path / distance, {**case_summary(errors), **parts, **flags})
+        assert ("use -distance exact" in said) is told, said
+
+
+def test_no_advice_against_rounding():
+    """Where an error is rounding nothing lowers it; at the highest order the mesh alone does."""
+    exact, fourth = (run(*words, "-estimate", 1) for words in (["confined-block"], ["disc-on-block", "-order", 4, "-h", 2]))
+    assert exact.estimates["force"]["error"] < 1e-8 * exact.force
+    assert (exact.estimates["refine"], exact.estimates["wasted"]) == ("", "")
+    assert fourth.estimates["refine"] == "lower -h"
+
+
 def test_direction_of_a_force(tmp_path):
     """A resultant whose ± is mostly that of its direction says so; one whose size is as uncertain does not."""
     words = "mostly of its direction: -distance exact computes it"

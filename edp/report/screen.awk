@@ -104,7 +104,7 @@ function scene(   e, R) {
   if (v[".pressureMax"] == 0) return
   e = error(".estimates.pressureMax")
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
-  worse(e, v[".pressureMax"], "greatest pressure", pointwise() ? "use -points segment" : "raise -order, or refine at the contact (-h)")
+  worse(e, v[".pressureMax"], "greatest pressure", pointwise() ? "use -points segment" : higher("refine at the contact (-h)"))
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
   else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", also(unknown(-1), "by the second moment of the pressure"))
   if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", unknown(-1))
@@ -113,6 +113,8 @@ function scene(   e, R) {
   if (v[".force"] != 0 && size(R - v[".force"]) < 1e-4 * size(v[".force"]))
     print "  balance: contact force + support reaction = 0 (to " digits(size(R / v[".force"] - 1), 1) ")"
 }
+function higher(finer) { return (v[".order"] < (dimension == 3 ? 3 : 4) ? "raise -order, or " : "") finer }   # what the run does not have yet
+function linear() { return v[".linearised.trusted"] == "true" && v[".parameters.distance"] != "exact" }
 function pointwise() { return v[".parameters.points"] == "nodal" }   # between meshes that do not match averages are better
 function friction(c,   p, k, x, m, s) {
   p = ".contacts." c
@@ -167,9 +169,9 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
   e = ofWear(c, error(q ".pressureMax"), "pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(also(unknown(e), bySteps), peak[c]))
-  if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
+  if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], linear() && \
     4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : bySteps != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : \
-    pointwise() && known(p ".master") ? "use -points segment" : "raise -order, or refine at the contact (size contact)")
+    pointwise() && known(p ".master") ? "use -points segment" : higher("refine at the contact (size contact)"))
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
@@ -181,7 +183,7 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
 function turned(c, e,   k, p) {
   for (k = 0; k < count[".linearised.changes"]; k++) {
     p = ".linearised.changes." k
-    if (v[".linearised.trusted"] == "true" && v[p ".name"] == v[".contacts." c ".name"] && v[p ".kind"] == "force" && 2 * (sqrt(v[p ".change"] ^ 2 + v[p ".aside"] ^ 2) - size(v[p ".change"])) > 0.5 * e && e > 0)
+    if (linear() && v[p ".name"] == v[".contacts." c ".name"] && v[p ".kind"] == "force" && 2 * (sqrt(v[p ".change"] ^ 2 + v[p ".aside"] ^ 2) - size(v[p ".change"])) > 0.5 * e && e > 0)
       return "mostly of its direction: -distance exact computes it"
   }
   return ""
@@ -351,7 +353,7 @@ function details(   k, n, p, list, text, width) {
     row("errors", (known(".estimates.worst") ? v[".estimates.worst"] : "as force") ": inside the bodies " digits(v[p "inside"], 2) \
       ", on the contact line " digits(v[p "line"], 2) ", model " digits(v[p "model"], 2) ", shape " digits(v[p "geometry"], 2) \
       ", algebra " digits(v[p "algebra"], 2))
-    row("", "to lower the greatest, " v[".estimates.refine"])
+    if (v[".estimates.refine"] != "") row("", "to lower the greatest, " v[".estimates.refine"])
   }
   if (v[".linearised.trusted"] == "true") {
     for (k = 0; k < count[".linearised.changes"]; k++) {
@@ -428,7 +430,8 @@ END {
   if (doubts != "") warn("estimated error above " 100 * doubtful " %: " doubts ". Do not use these numbers before a finer run confirms them.")
   if (v[".converged"] == "true" && count[".warnings"] == 0 && doubts == "") print "  no warnings"
   print ""
-  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstCure == "" ? v[".estimates.refine"] : worstCure) ": the error of the " worstName " is " share(worst, 1))
+  if (worstCure == "") worstCure = v[".estimates.refine"]
+  if (v[".converged"] == "true" && worst > 0.01 && worstCure != "") row("finer", worstCure ": the error of the " worstName " is " share(worst, 1))
   row("files", folder (v[".converged"] == "true" ? "" : " (the last state, for diagnosis)"))
   if (v[".converged"] == "true" && ENVIRON["PLOT"] != "") row("plot", ENVIRON["PLOT"])
   if (v[".parameters.verbose"] == 1) details()
