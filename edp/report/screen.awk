@@ -42,6 +42,7 @@ function result(name, x, error, unit, note) {  # error: 0 or less: none to show
 # a number whose error exceeds doubtful of it; scale: what its error is to be compared with, if that is not the number itself
 function doubt(name, x, error, scale,   k) {
   sub(/^ +/, "", name)
+  sub(/^contact force$/, "force", name)
   name = name owner
   if (scale == "") scale = x
   if (scale == 0 || error <= doubtful * size(scale)) return
