@@ -406,7 +406,7 @@ def test_every_folder_is_quiet():
 
 @pytest.mark.parametrize("busy, terminal", [(0, True), (0, False), (10, True)])
 def test_signs_of_life(tmp_path, busy, terminal):
-    """A long run says on a terminal what it computes; a short one, and one that is not on a terminal, prints nothing new."""
+    """A long run says on a terminal what it computes; a short one, or one without a terminal, prints nothing new."""
     start = 'include "solve/solver.idp"\n'
     text = (ROOT / script(DISC)).read_text()
     assert text.count(start) == 1
@@ -418,7 +418,12 @@ def test_signs_of_life(tmp_path, busy, terminal):
     screen = errors if terminal else subprocess.PIPE
     done = subprocess.run(command, cwd=tmp_path, env=environment(), stdout=subprocess.PIPE, stderr=screen, check=True)
     said = os.read(shown, 9999).decode() if select.select([shown], [], [], 0)[0] else ""
-    signs = ["assembling the equations of 1", "factorising the matrix of 1", "solving a linear system: ", "estimating errors: result 1 of "]
+    signs = [
+        "assembling the equations of 1",
+        "factorising the matrix of 1",
+        "solving a linear system: ",
+        "estimating errors: result 1 of ",
+    ]
     assert [sign in said for sign in signs] == [terminal and busy == 0] * 4, said
     assert bool(said) is (terminal and busy == 0) and not done.stderr
     assert not any(sign in done.stdout.decode() for sign in signs)

@@ -264,8 +264,18 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
 @built
 @pytest.mark.parametrize("unlike", ["flag", "file"])
 def test_ranks_of_different_commands(tmp_path, unlike):
-    """Processes with other flags, or with another file under one name, shall be refused in one line: they waited for ever."""
-    start = ["sh", "edp/freefem.sh", script("sphere-on-block"), "-solver", "multigrid", "-h", 2, "-out", tmp_path / "out"]
+    """Processes with other flags, or another file under one name, shall be refused in one line."""
+    start = [
+        "sh",
+        "edp/freefem.sh",
+        script("sphere-on-block"),
+        "-solver",
+        "multigrid",
+        "-h",
+        2,
+        "-out",
+        tmp_path / "out",
+    ]
     ways = [["-kappa", "1e6"], ["-kappa", "1e7"]]
     if unlike == "file":
         ways = [["-law", "table", "-table", "law.csv"]] * 2

@@ -620,8 +620,10 @@ def test_check(tmp_path):
 
 
 def test_check_tells_interference_and_expansion(tmp_path):
-    """What loads without a force is listed: an interference by its size, with a law in its d0; an expansion with its numbers."""
-    case = STACK.replace('"upper bottom"', '"upper bottom" interference 0.0007') + "clamp bottom\nexpand upper 1e-5 20\n"
+    """What loads without a force is listed: an interference, with a law in its d0, and an expansion."""
+    case = (
+        STACK.replace('"upper bottom"', '"upper bottom" interference 0.0007') + "clamp bottom\nexpand upper 1e-5 20\n"
+    )
     said = solve(tmp_path / "hard", stack(), case, "-check", 1).stdout
     assert re.search("^  load +contact top: interference 0.0007$", said, re.M), said
     assert re.search("^  load +expand upper 1e-05 20$", said, re.M), said

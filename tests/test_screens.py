@@ -231,11 +231,18 @@ def test_numbers(tmp_path):
 
 
 def case_summary(errors, aside=0.0, little=1.0):
-    """A summary of a case with two contacts; errors of force, normal force, pressure, length; `little`: the second one's share."""
+    """A summary of two contacts; errors of force, normal force, pressure, length; little: the second one's share."""
     value = {"force": 500.0, "normalForce": 500.0, "pressureMax": 680.0, "contactLength": 0.94}
     own = {"bodies": [{"name": "hook"}], "units": ["mm", "MPa"], "thickness": 1, "state": "strain", "contactPoints": 8}
     own["contacts"] = [
-        {**value, "name": name, "normalForce": 500.0 * share, "force": [0, 500.0 * share], "contactPoints": 4, "points": 9}
+        {
+            **value,
+            "name": name,
+            "normalForce": 500.0 * share,
+            "force": [0, 500.0 * share],
+            "contactPoints": 4,
+            "points": 9,
+        }
         for name, share in (("hook bar", 1.0), ("pin bore", little))
     ]
     known = {key: {"value": value[key], "error": error * value[key]} for key, error in zip(value, errors, strict=True)}
@@ -247,15 +254,19 @@ def case_summary(errors, aside=0.0, little=1.0):
 
 
 def test_large_errors_are_no_silence(tmp_path):
-    """A printed number that is off by more than 30 % is named in a warning, each one once; "no warnings" stands beside smaller ones only."""
+    """A printed number that is off by more than 30 % is named in a warning, once; smaller ones are not."""
     small, great = (0.29, 0.29, 0.29, 0.29), (0.01, 0.31, 0.93, 1.5)
     said = screen(tmp_path / "small", case_summary(small))
     assert "  no warnings" in said and "warning: " not in said
     said = screen(tmp_path / "great", case_summary(great))
     found = "normal force of hook bar 31 %, greatest pressure of hook bar 93 %, contact length of hook bar 150 %"
-    assert f"warning: estimated error above 30 %: {found}. Do not use these numbers" in said and "no warnings" not in said
+    assert (
+        f"warning: estimated error above 30 %: {found}. Do not use these numbers" in said and "no warnings" not in said
+    )
     told = {**case_summary(great), "warnings": ["the error of the greatest pressure of hook bar is estimated at 93 %"]}
-    assert "warning: estimated error above 30 %: normal force of hook bar 31 %, contact" in screen(tmp_path / "told", told)
+    assert "warning: estimated error above 30 %: normal force of hook bar 31 %, contact" in screen(
+        tmp_path / "told", told
+    )
     said = screen(tmp_path / "little", case_summary(great, little=1e-4))
     assert "pin bore 93 %" not in said  # a contact that carries nothing beside the other one decides nothing
 
@@ -263,21 +274,23 @@ def test_large_errors_are_no_silence(tmp_path):
 def test_no_advice_to_raise_the_highest_order(tmp_path):
     """The row `finer` names a higher order only if there is one, and -distance exact only where it is not in use."""
     errors = (0.001, 0.001, 0.2, 0.001)
-    for order, dimension, told in ((2, 2, True), (4, 2, False), (2, 3, True), (3, 3, False)):
+    for order, dimension, said_so in ((2, 2, True), (4, 2, False), (2, 3, True), (3, 3, False)):
         space = {"reactionZ": 0} if dimension == 3 else {}
         said = screen(tmp_path / f"{order}{dimension}", {**case_summary(errors), **space, "order": order})
         (line,) = re.findall("^  finer +(.*)$", said, re.M)
-        assert line.startswith("raise -order, or refine at the contact" if told else "refine at the contact"), line
-    for distance, told in (("linear", True), ("exact", False)):
+        assert line.startswith("raise -order, or refine at the contact" if said_so else "refine at the contact"), line
+    for distance, said_so in (("linear", True), ("exact", False)):
         parts = {"linearised": {"trusted": True, "changes": [], "pressureMax": [200, 0]}}
         flags = {"parameters": {**SUMMARY["parameters"], "distance": distance}, "order": 2}
         said = screen(tmp_path / distance, {**case_summary(errors), **parts, **flags})
-        assert ("use -distance exact" in said) is told, said
+        assert ("use -distance exact" in said) is said_so, said
 
 
 def test_no_advice_against_rounding():
     """Where an error is rounding nothing lowers it; at the highest order the mesh alone does."""
-    exact, fourth = (run(*words, "-estimate", 1) for words in (["confined-block"], ["disc-on-block", "-order", 4, "-h", 2]))
+    exact, fourth = (
+        run(*words, "-estimate", 1) for words in (["confined-block"], ["disc-on-block", "-order", 4, "-h", 2])
+    )
     assert exact.estimates["force"]["error"] < 1e-8 * exact.force
     assert (exact.estimates["refine"], exact.estimates["wasted"]) == ("", "")
     assert fourth.estimates["refine"] == "lower -h"
@@ -286,10 +299,12 @@ def test_no_advice_against_rounding():
 def test_direction_of_a_force(tmp_path):
     """A resultant whose ± is mostly that of its direction says so; one whose size is as uncertain does not."""
     words = "mostly of its direction: -distance exact computes it"
-    for error, aside, told in ((0.0062, 1.55, True), (0.0062, 0.0, False), (0.05, 1.55, False)):
+    for error, aside, said_so in ((0.0062, 1.55, True), (0.0062, 0.0, False), (0.05, 1.55, False)):
         said = screen(tmp_path / f"{aside}{error}", case_summary((error, 1e-4, 1e-3, 1e-3), aside))
-        (line,) = (line for line in said.splitlines() if "resultant force" in line and "±" in line and "e-09" not in line)
-        assert (words in line) is told, line
+        (line,) = (
+            line for line in said.splitlines() if "resultant force" in line and "±" in line and "e-09" not in line
+        )
+        assert (words in line) is said_so, line
 
 
 def test_numbers_without_errors(tmp_path):

@@ -85,12 +85,16 @@ def test_the_page_has_no_other(heading):
 
 
 # advice behind a condition that rules the value out: another inner method, a law's own tangent, a method of its own
-CONDITIONED = {"solve/progress.idp: -method xnewton", "solve/methods/ipopt.idp: -method xnewton", "solve/exact-distance.idp: -distance linear"}
+CONDITIONED = {
+    "solve/progress.idp: -method xnewton",
+    "solve/methods/ipopt.idp: -method xnewton",
+    "solve/exact-distance.idp: -distance linear",
+}
 CONDITIONED |= {"options/floating/rounds.idp: -distance linear"}
 
 
 def test_no_advice_to_do_what_is_done():
-    """What a message advises is not what a run has without flags: the function orUse leaves that out, or a condition does."""
+    """What a message advises is not what a run has without flags: orUse or a condition leaves that out."""
     modules = [(path, path.read_text()) for path in sorted(ROOT.glob("edp/**/*.idp"))]
     usual = dict(re.findall(r'wordFlag\("(-\w+)", (?:firstOffered\()?"(\w+)"', "\n".join(text for _, text in modules)))
     assert {"-preconditioner": "kernel", "-method": "xnewton", "-distance": "linear"}.items() <= usual.items()
