@@ -128,6 +128,13 @@ def test_not_believed(solved):
     assert weak.estimates is None and "no error estimate: the contact carries nothing" in weak.stdout
 
 
+def test_no_mesh_helps_a_contact_that_carries_nothing(solved):
+    """Points that touch without a force are as exact as an open gap: -accuracy has nothing to aim at."""
+    weak = ("-kappa", 0.01, "-m", 30, "-order", 1, "-h", 1, "-u0", 0.25000000004)
+    said = solved("disc-on-block", *weak, "-accuracy", 0.01).stdout
+    assert "the accuracy 0.01 needs no other mesh: the contact carries nothing: all contact forces are 0" in said
+
+
 def test_too_coarse(solved):
     """A mesh that is too coarse to mean anything shall be said to be."""
     run = solved("disc-on-block", "-order", 1, "-h", 2, "-u0", 0.6)

@@ -450,7 +450,10 @@ Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Physical Surface("upper") = {1}
 @pytest.mark.parametrize(
     "text, words",
     [
-        ("Point(1) = {0, 0", ["gmsh cannot read it"]),
+        (
+            "Point(1) = {0, 0;\n",
+            ["gmsh cannot read it: '", "line 1: syntax error", "; allowed: a geometry without this error. "],
+        ),
         (CROSSED, ["gmsh reads it, but cannot mesh it: ", "; allowed: another size of elements, another algorithm"]),
         ("Point(1) = {0, 0, 0};", ["no physical groups"]),
         (GEO.replace("Physical", "// Physical"), ["no physical groups"]),

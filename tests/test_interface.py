@@ -1,8 +1,11 @@
 """How runs are started and what they leave: folders, progress lines, help, meshes, interrupted runs, a full disk."""
 
+import json
 import os
+import pty
 import re
 import resource
+import select
 import shutil
 import signal
 import subprocess
@@ -396,3 +399,59 @@ def test_every_folder_is_quiet():
     """Wherever FreeFEM finds the package, it shall not list the modules."""
     found = [ROOT / "freefem++.pref", *(ROOT / "edp").rglob("freefem++.pref")]
     assert len(found) > 10 and all("\nverbosity = 0\n" in path.read_text() for path in found)
+
+
+# ---------------------------------------------------------------- signs of life
+
+
+@pytest.mark.parametrize("busy, terminal", [(0, True), (0, False), (10, True)])
+def test_signs_of_life(tmp_path, busy, terminal):
+    """A long run says on a terminal what it computes; a short one, or one without a terminal, prints nothing new."""
+    start = 'include "solve/solver.idp"\n'
+    text = (ROOT / script(DISC)).read_text()
+    assert text.count(start) == 1
+    for name in ("edp", "meshes", "freefem++.pref", "build"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    (tmp_path / "own.edp").write_text(text.replace(start, f"{start}busyFrom = {busy};\n"))
+    shown, errors = pty.openpty()
+    command = [*FREEFEM, "own.edp", "-h", "2", "-vtu", "0", "-out", tmp_path / "out"]
+    screen = errors if terminal else subprocess.PIPE
+    done = subprocess.run(command, cwd=tmp_path, env=environment(), stdout=subprocess.PIPE, stderr=screen, check=True)
+    said = os.read(shown, 9999).decode() if select.select([shown], [], [], 0)[0] else ""
+    signs = [
+        "assembling the equations of 1",
+        "factorising the matrix of 1",
+        "solving a linear system: ",
+        "estimating errors: result 1 of ",
+    ]
+    assert [sign in said for sign in signs] == [terminal and busy == 0] * 4, said
+    assert bool(said) is (terminal and busy == 0) and not done.stderr
+    assert not any(sign in done.stdout.decode() for sign in signs)
+    os.close(errors)
+    os.close(shown)
+
+
+# ---------------------------------------------------------------- numbers that are none
+
+
+def test_no_finite_numbers_are_null(tmp_path):
+    """summary.json of a run that ends with NaN is JSON: null stands there, and the message says why."""
+    ending = 'include "report/report.idp"'
+    spoilt = 'converged = false; failure = "no finite solution"; residual = log(-1.); modelError = -log(0.);\n'
+    text = (ROOT / script("disc-on-block")).read_text()
+    assert text.count(ending) == 1
+    for name in ("edp", "meshes", "freefem++.pref", "build"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    (tmp_path / "own.edp").write_text(text.replace(ending, spoilt + ending))
+    flags = ["-h", 2, "-order", 1, "-estimate", 0, "-vtu", 0]
+    done = run_in(tmp_path, "own.edp", *flags, out=tmp_path / "out", expect=20)
+    assert (done.residual, done.modelError, done.message) == (None, None, "no finite solution")
+    assert done.force > 0 and "NOT CONVERGED: no finite solution" in done.stdout
+    folder, program = tmp_path / "listed", ["sh", ROOT / "edp/case/folder.sh", os.getpid()]
+    assert execute([*program, "open", folder])[0] == 0
+    text = '{"name": "at least, information", "motion": [-nan, 1, -inf],\n"way": nan}\n'
+    (folder / ".run/summary.json").write_text(text)
+    (folder / ".run/.ends").write_text(f"summary.json {len(text)}\n")
+    assert execute([*program, "publish", folder, "finite"])[0] == 0
+    found = {"name": "at least, information", "motion": [None, 1, None], "way": None}
+    assert json.loads((folder / "summary.json").read_text()) == found

@@ -54,6 +54,16 @@ def test_flags_refused(tmp_path, flags, words):
         assert word in first
 
 
+def test_advice_of_another_value(tmp_path):
+    """A message advises a flag's value only where the flag is there and has another one, as default or as given."""
+    text = 'include "case/flags.idp"\nstring word = wordFlag("-word", "one", "", "one two");\n'
+    text += (
+        'cout << "told:" << orUse("-word", "one") << orUse("-word", "two") << orUse("-none", "one") << ":" << endl;\n'
+    )
+    assert "told:use -word two, or :" in snippet(tmp_path, text)
+    assert "told:use -word one, or :" in snippet(tmp_path, text, "-word", "two")
+
+
 @pytest.mark.parametrize("help_flag", ["-help", "--help"])
 def test_help(tmp_path, help_flag):
     """-help shall print flags, defaults, units and ranges, even beside a flag that is wrong, and run nothing."""

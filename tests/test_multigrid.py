@@ -262,6 +262,37 @@ def test_refusals(ranks, scene, flags, words, tmp_path):
 
 
 @built
+@pytest.mark.parametrize("unlike", ["flag", "file"])
+def test_ranks_of_different_commands(tmp_path, unlike):
+    """Processes with other flags, or another file under one name, shall be refused in one line."""
+    start = [
+        "sh",
+        "edp/freefem.sh",
+        script("sphere-on-block"),
+        "-solver",
+        "multigrid",
+        "-h",
+        2,
+        "-out",
+        tmp_path / "out",
+    ]
+    ways = [["-kappa", "1e6"], ["-kappa", "1e7"]]
+    if unlike == "file":
+        ways = [["-law", "table", "-table", "law.csv"]] * 2
+    folders = [tmp_path / str(k) for k in range(2)]
+    for k, folder in enumerate(folders):
+        folder.mkdir()
+        (folder / "law.csv").write_text(f"0,0\n0.1,{k + 1}\n0.2,{k + 3}\n")
+    start[1] = ROOT / start[1]
+    start[2] = ROOT / start[2]
+    first, second = (["-n", 1, "-wdir", folder, *start, *way] for folder, way in zip(folders, ways, strict=True))
+    code, output = execute(["mpiexec", *first, ":", *second], ROOT, environment(**AS_ROOT))
+    assert code == 10 and len(said(output)) == 1, output
+    assert said(output)[0].startswith("-np 2: the processes have different flags or input files")
+    assert not (tmp_path / "out").exists()
+
+
+@built
 def test_words_reach_several_processes_as_they_are(tmp_path):
     """No shell shall read the flags of a run on several processes again, whose engine needs no flag."""
     flags = ["-order", 1, "-h", 2, "-layers", 1, "-vtu", 0, "-estimate", 0]

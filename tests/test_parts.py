@@ -622,6 +622,19 @@ def test_check(tmp_path):
     assert not (tmp_path / "out/summary.json").exists()
 
 
+def test_check_tells_interference_and_expansion(tmp_path):
+    """What loads without a force is listed: an interference, with a law in its d0, and an expansion."""
+    case = (
+        STACK.replace('"upper bottom"', '"upper bottom" interference 0.0007') + "clamp bottom\nexpand upper 1e-5 20\n"
+    )
+    said = solve(tmp_path / "hard", stack(), case, "-check", 1).stdout
+    assert re.search("^  load +contact top: interference 0.0007$", said, re.M), said
+    assert re.search("^  load +expand upper 1e-05 20$", said, re.M), said
+    law = case.replace("0.0007", "0.0007 law power kappa 1e6 m 2 d0 -0.001")
+    said = solve(tmp_path / "law", stack(), law, "-check", 1).stdout
+    assert "top upper bottom: law power, d0 -0.0017, frictionless" in said and "load      contact" not in said, said
+
+
 def test_facing_nothing(tmp_path):
     """Surfaces that do not face each other are refused with the line."""
     case = STACK.replace('"upper bottom"', '"upper top"') + "clamp bottom\n"

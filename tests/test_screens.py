@@ -230,6 +230,94 @@ def test_numbers(tmp_path):
     )
 
 
+def case_summary(errors, aside=0.0, little=1.0):
+    """A summary of two contacts; errors of force, normal force, pressure, length; little: the second one's share."""
+    value = {"force": 500.0, "normalForce": 500.0, "pressureMax": 680.0, "contactLength": 0.94}
+    own = {"bodies": [{"name": "hook"}], "units": ["mm", "MPa"], "thickness": 1, "state": "strain", "contactPoints": 8}
+    own["contacts"] = [
+        {
+            **value,
+            "name": name,
+            "normalForce": 500.0 * share,
+            "force": [0, 500.0 * share],
+            "contactPoints": 4,
+            "points": 9,
+        }
+        for name, share in (("hook bar", 1.0), ("pin bore", little))
+    ]
+    known = {key: {"value": value[key], "error": error * value[key]} for key, error in zip(value, errors, strict=True)}
+    exact = {key: {"value": value[key], "error": 1e-9} for key in value}
+    estimates = {"parts": {"inside": 1}, "contacts": [known, exact if little == 1 else known], "refine": "raise -order"}
+    change = {"name": "hook bar", "kind": "force", "change": 0.004, "aside": aside}
+    linear = {"trusted": True, "changes": [change], "pressureMax": [0, 0]}
+    return {**SUMMARY, **own, "estimates": estimates, "notEstimated": "", "linearised": linear}
+
+
+def test_large_errors_are_no_silence(tmp_path):
+    """A printed number that is off by more than 30 % is named in a warning, once; smaller ones are not."""
+    small, great = (0.29, 0.29, 0.29, 0.29), (0.01, 0.31, 0.93, 1.5)
+    said = screen(tmp_path / "small", case_summary(small))
+    assert "  no warnings" in said and "warning: " not in said
+    said = screen(tmp_path / "great", case_summary(great))
+    found = "normal force of hook bar 31 %, greatest pressure of hook bar 93 %, contact length of hook bar 150 %"
+    assert (
+        f"warning: estimated error above 30 %: {found}. Do not use these numbers" in said and "no warnings" not in said
+    )
+    told = {**case_summary(great), "warnings": ["the error of the greatest pressure of hook bar is estimated at 93 %"]}
+    assert "warning: estimated error above 30 %: normal force of hook bar 31 %, contact" in screen(
+        tmp_path / "told", told
+    )
+    said = screen(tmp_path / "little", case_summary(great, little=1e-4))
+    assert "pin bore 93 %" not in said  # a contact that carries nothing beside the other one decides nothing
+
+
+def test_no_advice_to_raise_the_highest_order(tmp_path):
+    """The row `finer` names a higher order only if there is one, and -distance exact only where it is not in use."""
+    errors = (0.001, 0.001, 0.2, 0.001)
+    for order, dimension, said_so in ((2, 2, True), (4, 2, False), (2, 3, True), (3, 3, False)):
+        space = {"reactionZ": 0} if dimension == 3 else {}
+        said = screen(tmp_path / f"{order}{dimension}", {**case_summary(errors), **space, "order": order})
+        (line,) = re.findall("^  finer +(.*)$", said, re.M)
+        assert line.startswith("raise -order, or refine at the contact" if said_so else "refine at the contact"), line
+    for distance, said_so in (("linear", True), ("exact", False)):
+        parts = {"linearised": {"trusted": True, "changes": [], "pressureMax": [200, 0]}}
+        flags = {"parameters": {**SUMMARY["parameters"], "distance": distance}, "order": 2}
+        said = screen(tmp_path / distance, {**case_summary(errors), **parts, **flags})
+        assert ("use -distance exact" in said) is said_so, said
+
+
+def test_no_advice_against_rounding():
+    """Where an error is rounding nothing lowers it; at the highest order the mesh alone does."""
+    exact, fourth = (
+        run(*words, "-estimate", 1) for words in (["confined-block"], ["disc-on-block", "-order", 4, "-h", 2])
+    )
+    assert exact.estimates["force"]["error"] < 1e-8 * exact.force
+    assert (exact.estimates["refine"], exact.estimates["wasted"]) == ("", "")
+    assert fourth.estimates["refine"] == "lower -h"
+
+
+def test_direction_of_a_force(tmp_path):
+    """A resultant whose ± is mostly that of its direction says so; one whose size is as uncertain does not."""
+    words = "mostly of its direction: -distance exact computes it"
+    for error, aside, said_so in ((0.0062, 1.55, True), (0.0062, 0.0, False), (0.05, 1.55, False)):
+        said = screen(tmp_path / f"{aside}{error}", case_summary((error, 1e-4, 1e-3, 1e-3), aside))
+        (line,) = (
+            line for line in said.splitlines() if "resultant force" in line and "±" in line and "e-09" not in line
+        )
+        assert (words in line) is said_so, line
+
+
+def test_numbers_without_errors(tmp_path):
+    """Beside numbers with ±, one without says that its error is not known: the overlap and the radius of a scene."""
+    known = {"force": {"value": 150.0, "error": 0.5}, "parts": {"inside": 1}}
+    own = {"contacts": [{"law": "power"}], "overlapMax": 0.0326, "halfWidthMoment": 1.25, "reactionZ": 0}
+    said = screen(tmp_path / "1", {**SUMMARY, **own, "estimates": known, "notEstimated": ""})
+    assert re.search("^  greatest overlap +0.0326 error not known$", said, re.M), said
+    assert re.search("^  contact radius +1.25 error not known, by the second moment of the pressure$", said, re.M), said
+    said = screen(tmp_path / "0", {**SUMMARY, **own})
+    assert re.search("^  greatest overlap +0.0326$", said, re.M), said
+
+
 def test_creepage(tmp_path):
     """Rolling prints its creepage, friction its energies and two errors."""
     contact = {

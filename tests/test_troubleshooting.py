@@ -135,6 +135,29 @@ def test_the_page_has_no_other(heading):
     assert [p for p in patterns(heading) if sum(bool(matches(p, text)) for text in texts) > 12] == []  # says nothing
 
 
+# advice behind a condition that rules the value out: another inner method, a law's own tangent, a method of its own
+CONDITIONED = {
+    "solve/progress.idp: -method xnewton",
+    "solve/methods/ipopt.idp: -method xnewton",
+    "solve/exact-distance.idp: -distance linear",
+}
+CONDITIONED |= {"options/floating/rounds.idp: -distance linear"}
+
+
+def test_no_advice_to_do_what_is_done():
+    """What a message advises is not what a run has without flags: orUse or a condition leaves that out."""
+    modules = [(path, path.read_text()) for path in sorted(ROOT.glob("edp/**/*.idp"))]
+    usual = dict(re.findall(r'wordFlag\("(-\w+)", (?:firstOffered\()?"(\w+)"', "\n".join(text for _, text in modules)))
+    assert {"-preconditioner": "kernel", "-method": "xnewton", "-distance": "linear"}.items() <= usual.items()
+    advised = {
+        f"{path.relative_to(ROOT / 'edp').as_posix()}: {flag} {value}"
+        for path, text in modules
+        for flag, value in re.findall(r"\buse (-\w+) (\w+)", " ".join(LITERAL.findall(text)))
+        if usual.get(flag) == value
+    }
+    assert advised <= CONDITIONED, advised - CONDITIONED
+
+
 def test_words():
     """Texts are read as a run prints them, whatever stands between."""
     assert words('"-h " + asGiven("-h") + ": " + (h > 1 ? "too large" : "too small")') == "-h …: …too large…too small"

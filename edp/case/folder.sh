@@ -2,7 +2,8 @@
 # Needs: RUN, the number of the run's process; FOLDER, any name without control characters.
 # Gives: check: can it be written? Tried out, and left as it was.
 #        open: FOLDER is there and this run's alone, without the files of an earlier run, but for those named KEPT.
-#        publish: the files in FOLDER/.run, if each was written to its end, go into FOLDER, summary.json last; if not, none.
+#        publish: the files in FOLDER/.run, if each was written to its end, go into FOLDER, summary.json last; if not, none. With
+#        the word finite, null takes the place of what is no finite number in summary.json.
 # Exit codes: 0 done, 1 files not whole, 3 a control character in the name, 4 cannot be made or written, 5 another run is using
 #        it, 6 one on another computer has not finished there and cannot be looked after, 7 no room for even a line, 8 under a
 #        name that a run would write stands what none has written, or a link, or the script's modules are not the package's
@@ -145,6 +146,7 @@ open)
         test ! -e "../$name" || echo "$name"
     done > .written || exit 7;;
 publish)
+    finite=${1-}
     cd "$folder/.run" 2> /dev/null || exit 4
     newest .
     mine=$n
@@ -172,6 +174,7 @@ publish)
         done
         test "$ends" = "$newline"
     ) || fail
+    test -z "$finite" || { sed -E 's/([ [])-?(nan|inf)([],}]|$)/\1null\3/g' summary.json > .finite && mv -f .finite summary.json; } || fail
     at=..
     (known *) || {
         held

@@ -1,7 +1,7 @@
 # screen.awk: the results of a run on screen, from its summary.json: numbers with errors, warnings, files; with -verbose 1 details
 # Read by awk after json.awk. In the environment: FOLDER: of the results; ROWS: further rows; PLOT: the command that draws.
 # An error has two digits, its value as many decimals; an error that exceeds its value is not known. A number that is rounding compared with
-# others is shown as 0.
+# others is shown as 0. Every number that is printed with an error is judged by doubt(): what is in doubt stands in a warning.
 function floor(x,   i) { i = int(x); return i > x ? i - 1 : i }
 function size(x) { return x < 0 ? -x : x }
 function digits(x, n) { return sprintf("%." n "g", x) + 0 "" }
@@ -31,11 +31,23 @@ function bounded(x, error) { return error > 0 && error < 1e-8 * size(x) ? 1e-8 *
 function exceeds(x, error) { return error > size(x) && x != 0 }
 function doubted(x, error) { return "error not known (estimate " share(error, x) ")" }
 function leading(x) { return shown(x, 10 ^ (exponent(size(x)) - 1)) }  # three digits of x
+function warn(text) { print "warning: " text }
 function put(text) { sub(/ +$/, "", text); print text }
 function row(name, text) { put(sprintf("  %-10s%s", name, text)) }
 function result(name, x, error, unit, note) {  # error: 0 or less: none to show
+  if (!minor) doubt(name, x, error)
   if (exceeds(x, error)) put(sprintf("  %-26s %14s%s %s", name, leading(x), unit == "" ? "" : " " unit, also(doubted(x, error), note)))
   else vanishing(name, x, error, unit, note)
+}
+# a number whose error exceeds doubtful of it; scale: what its error is to be compared with, if that is not the number itself
+function doubt(name, x, error, scale,   k) {
+  sub(/^ +/, "", name)
+  sub(/^contact force$/, "force", name)
+  name = name owner
+  if (scale == "") scale = x
+  if (scale == 0 || error <= doubtful * size(scale)) return
+  for (k = 0; k < count[".warnings"]; k++) if (index(v[".warnings." k], "the error of the " name " ")) return
+  doubts = also(doubts, name " " share(error, scale))
 }
 function vanishing(name, x, error, unit, note) {  # x may be 0, and its error exceed it
   error = bounded(x, error)
@@ -93,15 +105,17 @@ function scene(   e, R) {
   if (v[".pressureMax"] == 0) return
   e = error(".estimates.pressureMax")
   result("greatest pressure", known(".estimates.pressureMax.value") ? v[".estimates.pressureMax.value"] : v[".pressureMax"], e, "", unknown(e))
-  worse(e, v[".pressureMax"], "greatest pressure", pointwise() ? "use -points segment" : "raise -order, or refine at the contact (-h)")
+  worse(e, v[".pressureMax"], "greatest pressure", pointwise() ? "use -points segment" : higher("refine at the contact (-h)"))
   if (known(".halfWidth")) result(v[".parameters.geometry"] == "axisymmetric" ? "contact radius" : "contact half-width", v[".halfWidth"], error(".estimates.halfWidth"), "", "")
-  else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", "by the second moment of the pressure")
-  if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", "")
+  else if (dimension == 3) result("contact radius", v[".halfWidthMoment"], 0, "", also(unknown(-1), "by the second moment of the pressure"))
+  if (v[".contacts.0.law"] != "signorini") result("greatest overlap", v[".overlapMax"], 0, "", unknown(-1))
   result("points in contact", v[".contactPoints"], 0, "", "of " v[".points"])
   R = dimension == 3 ? v[".reactionZ"] : v[".reactionY"]
   if (v[".force"] != 0 && size(R - v[".force"]) < 1e-4 * size(v[".force"]))
     print "  balance: contact force + support reaction = 0 (to " digits(size(R / v[".force"] - 1), 1) ")"
 }
+function higher(finer) { return (v[".order"] < (dimension == 3 ? 3 : 4) ? "raise -order, or " : "") finer }   # what the run does not have yet
+function linear() { return v[".linearised.trusted"] == "true" && v[".parameters.distance"] != "exact" }
 function pointwise() { return v[".parameters.points"] == "nodal" }   # between meshes that do not match averages are better
 function friction(c,   p, k, x, m, s) {
   p = ".contacts." c
@@ -112,12 +126,12 @@ function friction(c,   p, k, x, m, s) {
   for (k = 0; k < count[p ".shearForce"]; k++) x += v[p ".shearForce." k] ^ 2
   if (v[p ".tied"] == "false" && x == 0 && v[p ".stickShare"] == 0) return   # no friction, beside a tie
   if (!owned) print "  friction"
-  twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0))
+  twofold("shear force", sqrt(x), m, s, force, "on the slave " vector(p ".shearForce", count[p ".shearForce"], 0), 0.01 * v[p ".normalForce"])
   twofold("sticking part", 100 * v[p ".stickShare"], percents(p ".mesh.stickShare"), percents(p ".loadSteps.stickShare"), "%", "of the contact")
-  twofold("dissipated", v[p ".dissipated"], -1, error(p ".loadSteps.dissipated"), "", "")
+  twofold("dissipated", v[p ".dissipated"], -1, error(p ".loadSteps.dissipated"), "", "", 1e-3 * v[".work"])
   if (known(p ".mesh.dissipatedLastStep.value"))
     twofold("dissipated, last step", v[p ".mesh.dissipatedLastStep.value"], error(p ".mesh.dissipatedLastStep"), -1, "", \
-      v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "")
+      v[p ".mesh.dissipatedLastStep.value"] > 0 ? unknown(error(p ".mesh.dissipatedLastStep")) : "", 1e-3 * v[".work"])
 }
 # three digits of x, or fewer by its error: of the mesh, which may have a greater one, none is known
 function few(x, e) { return x != 0 && e < 10 ^ (exponent(size(x)) - 1) ? leading(x) : shown(x, e) }
@@ -125,8 +139,10 @@ function percents(path,   e) {
   e = error(path)
   return e < 0 ? e : 100 * e
 }
-function twofold(name, x, mesh, steps, unit, note,   e) {  # two errors, of the mesh and of the load steps
+# two errors, of the mesh and of the load steps; whole: up to which the number is small, and its error is compared with that
+function twofold(name, x, mesh, steps, unit, note, whole,   e) {
   e = bounded(x, mesh > steps ? mesh : steps)
+  if (!minor) doubt(name, x, e, unit == "%" ? 100 : size(x) > whole ? x : whole)
   put(sprintf("    %-24s %14s%s%s %s %s", name, exceeds(x, e) ? digits(x, 2) : (mesh < 0 && steps >= 0 ? few(x, e) : shown(x, e)), mesh >= 0 ? " ± " digits(mesh, 2) " (mesh)" : "", \
     steps >= 0 ? " ± " digits(steps, 2) " (load steps)" : "", unit, note))
 }
@@ -139,27 +155,39 @@ function contact(c,   p, q, k, F, e, x, note, across, unit, balanced, little) {
   note = v[p ".contactPoints"] == 0 ? " touches nowhere" : (v[p ".normalForce"] <= 1e-12 * mostForce && F <= 1e-12 * mostForce ? " touches, but carries nothing" : "")
   print "  contact " v[p ".name"] note
   if (note != "") return
+  owner = " of " v[p ".name"]
   balanced = F < 1e-3 * v[p ".normalForce"]   # pressures all round, as of a press fit: the resultant is 0 but for errors
   e = ofWear(c, error(q ".force"), "normalForce")
   across = ""
   for (k = 0; k < count[p ".across"]; k++) across = across (k ? ", " : "without its part across ") "symmetry " v[p ".across." k]
   note = e >= 0 && e <= 1e-8 * F && !driven ? "exact by equilibrium" : (e >= 0 ? (exceeds(F, e) && !balanced ? doubted(F, e) : "± " digits(e, 2) (balanced ? "" : " " percent(e, F))) : unknown(e))
-  put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(note, across)))
-  little = v[p ".normalForce"] < 1e-3 * mostForce
+  put(sprintf("    %-24s %14s %s  %s", "resultant force", vector(p ".force", count[p ".force"], 0), force, also(also(note, turned(c, e)), across)))
+  minor = little = v[p ".normalForce"] < 1e-3 * mostForce
+  if (!balanced && !little) doubt("resultant force", F, e)
   if (!balanced && !little) worse(e, F, "force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
   e = ofWear(c, error(q ".normalForce"), "normalForce")
   result("  normal force", (size(v[p ".normalForce"]) < 1e-12 * F ? 0 : v[p ".normalForce"]), e, force, also(unknown(e), bySteps))
   if (!little) worse(e, v[p ".normalForce"], "normal force of " v[p ".name"], bySteps == "" ? "" : "raise the steps after cycles")
   e = ofWear(c, error(q ".pressureMax"), "pressureMax")
   result("  greatest pressure", known(q ".pressureMax.value") ? v[q ".pressureMax.value"] : v[p ".pressureMax"], e, v[".units.1"], also(also(unknown(e), bySteps), peak[c]))
-  if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], v[".linearised.trusted"] == "true" && \
+  if (!little) worse(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], linear() && \
     4 * size(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : bySteps != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : \
-    pointwise() && known(p ".master") ? "use -points segment" : "raise -order, or refine at the contact (size contact)")
+    pointwise() && known(p ".master") ? "use -points segment" : higher("refine at the contact (size contact)"))
   e = error(q ".contactLength")
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
   result(dimension == 3 ? "  contact area" : "  contact length", x, e, unit, also(unknown(e), v[p ".contactPoints"] " of " v[p ".points"] " points"))
   friction(c)
+  owner = minor = ""
+}
+# whether the error e of a resultant is mostly that of its direction, which the true distance changes, in words
+function turned(c, e,   k, p) {
+  for (k = 0; k < count[".linearised.changes"]; k++) {
+    p = ".linearised.changes." k
+    if (linear() && v[p ".name"] == v[".contacts." c ".name"] && v[p ".kind"] == "force" && 2 * (sqrt(v[p ".change"] ^ 2 + v[p ".aside"] ^ 2) - size(v[p ".change"])) > 0.5 * e && e > 0)
+      return "mostly of its direction: -distance exact computes it"
+  }
+  return ""
 }
 function ofWear(c, e, key) {                  # the error e, or where wear is followed that of its steps
   bySteps = ""
@@ -171,13 +199,16 @@ function ofWear(c, e, key) {                  # the error e, or where wear is fo
 function worn(c,   p, unit, left) {
   p = ".wear.contacts." c
   if (!(v[p ".coefficient"] > 0)) return
+  owner = " of " v[".contacts." c ".name"]
   unit = v[".units.0"]
   left = known(p ".slide") ? "error of the mesh not known" : "errors of mesh and load steps not known"
   wornRow("worn depth", p ".depth", unit, left)
   wornRow("worn volume", p ".volume", unit == "" ? "" : unit (dimension == 3 || v[".state"] == "axisymmetric" ? "^3" : "^2"), left)
+  owner = ""
 }
 function wornRow(name, path, unit, left,   e) {
   e = error(path)
+  doubt(name, v[path ".value"], e)
   put(sprintf("    %-24s %14s%s %s  %s", name, e >= 0 ? few(v[path ".value"], e) : shown(v[path ".value"], e), e >= 0 ? " ± " off(v[path ".value"], e) " (wear steps)" : "", unit, \
     e >= 0 ? left : "error not known"))
 }
@@ -187,12 +218,14 @@ function stresses(   k, p, e, unit) {
     p = ".stresses." k
     e = error(p)
     if (k == 0) print "  greatest von Mises stress"
+    owner = ": greatest von Mises stress"
     result("  " v[p ".body"], v[p ".vonMises"], e, unit, also(unknown(e), "at " vector(p ".at", dimension, 0)))
     if (count[p ".singular"] > 0) print "      singular at " vector(p ".singular", dimension, 0) ": no bound there"
     if (known(p ".yield"))
       print "      " (v[p ".above"] == 0 ? "nowhere above the yield stress " v[p ".yield"] : "above the yield stress " v[p ".yield"] " in " \
         digits(100 * v[p ".above"], 3) " % of its volume: it would yield there")
   }
+  owner = ""
 }
 function turns(p) { return v[p ".name"] ~ /^moment / }
 function moves(p) { return v[p ".name"] (turns(p) ? " turns" : (v[p ".name"] == "all loads" ? " move" : " moves")) }
@@ -255,6 +288,7 @@ function own(   k, p, e, word, times, j, with) {
     if (v[p ".name"] ~ /^(move|rotate|obstacle) /) {
       vanishing(v[p ".name"] ": " word, v[p "." word], e, word == "force" ? force : turning, also(unknown(e), times))
       worse(e, v[p "." word], word " of " v[p ".name"])
+      if (word == "force" && size(v[p ".force"]) > 1e-3 * mostForce) doubt("force of " v[p ".name"], v[p ".force"], e)
     } else if (times != "") result(v[p ".name"], v[p "." word], 0, word == "force" ? force : turning, times)
   }
   for (k = 0; k < count[".ways"]; k++) {
@@ -294,7 +328,7 @@ function plastic(   k, p, c, s, unit) {     # bodies that yield: of the mesh no 
     twofold("force of " v[".contacts." c ".name"], v[".contacts." c ".normalForce"], -1, v[p ".normalForceError"], force, "")
     twofold("greatest pressure", v[".contacts." c ".pressureMax"], -1, v[p ".pressureMaxError"], v[".units.1"], "")
   }
-  twofold("dissipated", v[".plastic.dissipated"], -1, known(".plastic.dissipatedError") ? v[".plastic.dissipatedError"] : -1, "", "")
+  twofold("dissipated", v[".plastic.dissipated"], -1, known(".plastic.dissipatedError") ? v[".plastic.dissipatedError"] : -1, "", "", 1e-3 * v[".plastic.work"])
   s = v[".plastic.storedElastic"] + v[".plastic.storedByHardening"]
   print "  work on the bodies " digits(v[".plastic.work"], 6) ", stored " digits(s, 6) ", dissipated " digits(v[".plastic.dissipated"], 6) \
     ", left over " digits(v[".plastic.work"] - s - v[".plastic.dissipated"], 2)
@@ -320,7 +354,7 @@ function details(   k, n, p, list, text, width) {
     row("errors", (known(".estimates.worst") ? v[".estimates.worst"] : "as force") ": inside the bodies " digits(v[p "inside"], 2) \
       ", on the contact line " digits(v[p "line"], 2) ", model " digits(v[p "model"], 2) ", shape " digits(v[p "geometry"], 2) \
       ", algebra " digits(v[p "algebra"], 2))
-    row("", "to lower the greatest, " v[".estimates.refine"])
+    if (v[".estimates.refine"] != "") row("", "to lower the greatest, " v[".estimates.refine"])
   }
   if (v[".linearised.trusted"] == "true") {
     for (k = 0; k < count[".linearised.changes"]; k++) {
@@ -354,6 +388,7 @@ END {
   estimated = ".estimates.parts.inside" in v
   owned = ".bodies.0.name" in v
   worst = wide = 0
+  doubtful = 0.3
   if (v[".units.0"] " " v[".units.1"] ~ /^(mm MPa|m Pa)$/) {
     whole = "N"
     force = dimension == 3 || v[".state"] == "axisymmetric" ? whole : whole "/" v[".units.0"]
@@ -392,10 +427,12 @@ END {
     if (known(".stability")) print "  the state is " (v[".stability"] > 0 ? "stable" : "NOT STABLE") " (lowest eigenvalue of its tangent " digits(v[".stability"], 3) ")"
     if (ENVIRON["ROWS"] != "") print substr(ENVIRON["ROWS"], 2)
   }
-  for (k = 0; k < count[".warnings"]; k++) print "warning: " v[".warnings." k]
-  if (v[".converged"] == "true" && count[".warnings"] == 0) print "  no warnings"
+  for (k = 0; k < count[".warnings"]; k++) warn(v[".warnings." k])
+  if (doubts != "") warn("estimated error above " 100 * doubtful " %: " doubts ". Do not use these numbers before a finer run confirms them.")
+  if (v[".converged"] == "true" && count[".warnings"] == 0 && doubts == "") print "  no warnings"
   print ""
-  if (v[".converged"] == "true" && worst > 0.01) row("finer", (worstCure == "" ? v[".estimates.refine"] : worstCure) ": the error of the " worstName " is " share(worst, 1))
+  if (worstCure == "") worstCure = v[".estimates.refine"]
+  if (v[".converged"] == "true" && worst > 0.01 && worstCure != "") row("finer", worstCure ": the error of the " worstName " is " share(worst, 1))
   row("files", folder (v[".converged"] == "true" ? "" : " (the last state, for diagnosis)"))
   if (v[".converged"] == "true" && ENVIRON["PLOT"] != "") row("plot", ENVIRON["PLOT"])
   if (v[".parameters.verbose"] == 1) details()
