@@ -17,7 +17,7 @@ from pages import FOLDERS
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (8398, 118), "edp/parts.edp": (18516, 174), BARE: (5837, 82)}  # lines, files
+READ = {"edp/main.edp": (8398, 118), "edp/parts.edp": (18811, 175), BARE: (5837, 82)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 107,
     "of these by two other files or more": 19,

@@ -207,7 +207,7 @@ class Session:
         try:
             self.gmsh.open(str(self.file))
         except Exception as error:
-            raise cannot_mesh(error) if self.meshed() else GmshError(f"gmsh cannot read it: {error}") from None
+            raise cannot_mesh(error) if self.meshed() else cannot_read(error, self.file) from None
 
     def meshed(self) -> bool:
         """Whether the geometry has made a mesh of itself while it was read."""
@@ -417,6 +417,14 @@ class Session:
         solid = len(self.gmsh.model.mesh.getElements(3)[0]) > 0 and (not groups or groups[-1][0] == 3)
         if self.space and not solid:
             raise GmshError(PLANE)
+
+
+def cannot_read(error: Exception, file: Path) -> GmshError:
+    allowed = "a file that gmsh opens without this error"
+    if file.suffix.lower() == ".geo":
+        again = f"`gmsh -parse_and_exit {file}` repeats what gmsh says"
+        allowed = f"a geometry without this error. Correct it there; {again}"
+    return GmshError(f"gmsh cannot read it: {error}; allowed: {allowed}")
 
 
 def cannot_mesh(error: Exception) -> GmshError:
