@@ -6,7 +6,8 @@ import sys
 import numpy as np
 import pytest
 from freefem import ROOT, cases_of, execute, part
-from test_parts import Mesh, block, cube, read, stack
+from reader import Refusal, Where, read_case
+from test_parts import Mesh, block, cube, groups, stack
 
 from postprocess.closed_forms import plane_modulus
 
@@ -205,21 +206,22 @@ REFUSED = {  # @: an obstacle
 }
 
 
+def refusal(lines, **where):
+    with pytest.raises(Refusal) as found:
+        read_case(PLAIN + lines.replace("@", "obstacle top plane 0 2 0 -1") + "\n", Where(**where), groups(0))
+    return found.value.text("a.case")
+
+
 @pytest.mark.parametrize("lines, words", list(REFUSED.items()))
-def test_refused(tmp_path, monkeypatch, lines, words):
+def test_refused(lines, words):
     """Each mistake in a case: one line with the file, the line, and what is allowed."""
-    monkeypatch.setenv("WEARS", "1")
-    monkeypatch.setenv("RUBS", "1")
-    (tmp_path / "block.msh").write_text(block(Mesh()).text())
-    code, why, _ = read(tmp_path, PLAIN + lines.replace("@", "obstacle top plane 0 2 0 -1") + "\n")
-    assert code == 3 and words in why and "allowed" in why, why
+    why = refusal(lines)
+    assert words in why and "allowed" in why and "\n" not in why
 
 
-def test_not_read_elsewhere(tmp_path):
+def test_not_read_elsewhere():
     """A script without the option refuses wear."""
-    (tmp_path / "block.msh").write_text(block(Mesh()).text())
-    code, why, _ = read(tmp_path, PLAIN + "obstacle top plane 0 2 0 -1 wear 1e-6 slide 1\ncycles 1\n")
-    assert code == 3 and "wear: read by parts.edp and parts-3d.edp alone" in why
+    assert "wear: read by parts.edp and parts-3d.edp alone" in refusal("@ wear 1e-6 slide 1\ncycles 1", wear=False)
 
 
 WORE = PLAIN + "obstacle top plane 0 2 0 -1 move 0 -0.01 wear 1e-6 slide 1{}\ncycles 1 steps 2\n"
