@@ -193,7 +193,7 @@ REFUSED = {  # @: an obstacle
     "@\ncycles 1": "cycles without wear; allowed: wear K slide S",
     "@ wear 1e-6 slide 1\ncycles 0": "0: the number of cycles is out of range; allowed: above 0",
     "@ wear 1e-6 slide 1\ncycles 5 steps 2.5": "2.5: no whole number of wear steps",
-    "@ wear 1e-6 slide 1\ncycles 5 in 2": "in: not allowed here; allowed: cycles NUMBER",
+    "@ wear 1e-6 slide 1\ncycles 5 in 2": "in: more than the statement takes; allowed: cycles NUMBER",
     "@ wear 1e-6 slide 1\ncycles 5\ncycles 6": "cycles: stated before",
     "@ law power kappa 1 m 2 d0 -1 wear 1e-6 slide 1\ncycles 1": "wear: with the law power",
     "@ wear 1e-6 slide 1 from no.csv\ncycles 1": "no.csv: no such file; allowed: the worn.csv of a run",
