@@ -449,14 +449,14 @@ def fork(task: Callable[[], None]) -> int:
     return child
 
 
-def whole(mesh: Path) -> bool:
+def whole(mesh: Path, named: bool = True) -> bool:
     """Whether a mesh was written up to its end, and has names."""
     if not mesh.is_file():
         return False
     with open(mesh, "rb") as text:
         head = text.read(4096)
         text.seek(-min(mesh.stat().st_size, 32), os.SEEK_END)
-        return text.read().rstrip().endswith(b"$EndElements") and b"$PhysicalNames" in head
+        return text.read().rstrip().endswith(b"$EndElements") and (not named or b"$PhysicalNames" in head)
 
 
 def make(gmsh: Any, job: Job) -> Prepared:
@@ -638,18 +638,21 @@ def refuse_surface(file: Path) -> None:
         raise GmshError(f"the triangles of a surface alone, without bodies and names; allowed: {geometries}")
 
 
-def convert(file: Path, out: Path, limit: float = float("inf")) -> None:
-    """A mesh that gmsh reads (.msh of other versions or binary, .unv, .bdf, .med), as version 2 text."""
+def convert(file: Path, out: Path, limit: float = float("inf"), named: bool = True) -> None:
+    """A mesh that gmsh reads (.msh of other versions or binary, .unv, .bdf, .med), as version 2 text.
+
+    named: it has groups.
+    """
     check_file(file, ())
     refuse_surface(file)
 
     def task(gmsh: Any) -> None:
         session = Session(gmsh, file, True, False)
         session.open([])
-        if not session.groups():
+        if named and not session.groups():
             raise GmshError(NO_NAMES)
         session.write(out, False)
 
     in_child(task, file.name, limit)
-    if not whole(out):
+    if not whole(out, named):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(out))

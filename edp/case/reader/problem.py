@@ -9,6 +9,7 @@ for the screen and for a picture.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +29,7 @@ from .values import table
 from .words import Refusal, split_case, text_of
 
 FINER = "mesh with smaller elements"
+GROUP = re.compile(r"^[ \t]*group[ \t]", re.M)
 NUMBERED = (g.BoundaryNumbers, g.BodyNumbers, g.Between)
 
 
@@ -64,16 +66,16 @@ def words_of(text: str) -> set[str]:
     return {word for line in split_case(text, lambda word: "") for word in line.words}
 
 
-def read_mesh(of: Problem, text: str) -> Mesh:
-    """A mesh of whatever format."""
+def read_mesh(of: Problem, text: str, named: bool) -> Mesh:
+    """A mesh of whatever format; named: it has groups."""
     check_file(of.file, of.sets)
     if of.file.suffix.lower() == ".inp":
         of.where.overlap = True
         return read_inp(of.file, of.where.space, words_of(text))
     if is_text_of_gmsh(of.file):
-        return read_msh(of.file)
-    convert(of.file, of.folder / "converted.msh")
-    return read_msh(of.folder / "converted.msh")
+        return read_msh(of.file, named)
+    convert(of.file, of.folder / "converted.msh", named=named)
+    return read_msh(of.folder / "converted.msh", named)
 
 
 def refuse_shapes(case: Case, deck: bool) -> None:
@@ -92,8 +94,9 @@ def refuse_shapes(case: Case, deck: bool) -> None:
 
 def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prepared]:
     """A mesh with the groups that the case picks: by place, or by numbers of a geometry, which gmsh knows."""
-    mesh, made = read_mesh(of, text), Prepared([], finer=FINER)
-    case = read(groups_of(mesh, of.where.space), "")
+    named = of.where.again or not GROUP.search(text)
+    mesh, made = read_mesh(of, text, named), Prepared([], finer=FINER)
+    case = read(groups_of(mesh, of.where.space, named), "")
     if of.where.again:
         return mesh, case, made
     deck = of.file.suffix.lower() == ".inp"
