@@ -262,6 +262,7 @@ def marks(folder):
     names = [line[2:] for line in lines[first + 1 : first + 1 + int(lines[first].split()[1])]]
     rows = (folder / "mesh.msh").read_text().splitlines()
     nodes = rows.index("$Nodes") + 2
+    lines = (folder / "regions").read_text().splitlines()
     at = next(k for k, line in enumerate(lines) if line.startswith("cuts "))
     found = {}
     for line in lines[at + 1 :]:
@@ -629,7 +630,7 @@ PLATED = "body a E 1 nu 0.3\nbody b E 1 nu 0.3\ncontact lid low friction 0.1\ncl
 @pytest.mark.parametrize(
     "lines, said",
     [
-        ("size empty 1\n", "line 5: size empty: the geometry has nothing in the group empty; allowed: a group with"),
+        ("size empty 1\n", "line 5: empty: no physical curve of the mesh; allowed: lid low foot top"),
         (
             "move top 0 0\nleg 2\nmove top 0 -0.2\n",
             "line 7: move top in line 5, before the first leg, and again in it; allowed: without",

@@ -223,7 +223,7 @@ MESHES = {
         ['"upper" has no triangle'],
     ),
     "quadrangle": (line(-1, "99 3 2 22 22 1 2 12 11"), ["element", "overlap"]),
-    "quadrangle of second order": (line(-1, "99 10 2 22 22 1 2 12 11 1 2 12 11 1"), ["element 99", "type 10"]),
+    "quadrangle of second order": (line(-1, "99 10 2 22 22 1 2 12 11 1 2 12 11 1"), ["element 99", "overlap"]),
     "second order": (line(-1, "99 9 2 22 22 1 2 12 3 4 11"), ["element 99", "overlap"]),
     "tetrahedron": (line(-1, "99 4 2 22 22 1 2 12 11"), ["element 99", "tetrahedron"]),
     "corner missing": (line(-1, lambda old: old.rsplit(" ", 1)[0]), ["element", "cut off"]),
@@ -290,7 +290,7 @@ MESHES = {
     "second $Nodes": (edited("$Elements", "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements"), ["second $Nodes"]),
     "nodes miscounted": (edited("$Nodes\n45", "$Nodes\n1000000000"), ["$Nodes has 45 lines"]),
     "cut off": (lambda mesh: mesh.text()[:-200], ["cut off"]),
-    "empty": (lambda mesh: "", ["no physical groups"]),
+    "empty": (lambda mesh: "", ["an empty file"]),
     "version 3": (edited("2.2 0 8", "3 0 8"), ["version 3"]),
     "said to be binary": (edited("2.2 0 8", "2.2 1 8"), ["no "]),  # triangles (gmsh 4.8), physical groups (4.12)
     "said to be version 4": (edited("2.2 0 8", "4.1 0 8"), ["gmsh"]),
@@ -455,12 +455,11 @@ Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Physical Surface("upper") = {1}
             ["gmsh cannot read it: '", "line 1: syntax error", "; allowed: a geometry without this error. "],
         ),
         (CROSSED, ["gmsh reads it, but cannot mesh it: ", "; allowed: another size of elements, another algorithm"]),
-        ("Point(1) = {0, 0, 0};", ["no physical groups"]),
+        ("Point(1) = {0, 0, 0};", ["no surface in it"]),
         (GEO.replace("Physical", "// Physical"), ["no physical groups"]),
         (GEO.replace('"master"', '"Master"'), ["line 3: master: no physical curve", "did you mean Master?"]),
-        (GEO + "Recombine Surface{1, 2};", ["quadrangle"]),
     ],
-    ids="broken crossed point unnamed misnamed quadrangles".split(),
+    ids="broken crossed point unnamed misnamed".split(),
 )
 def test_refused_geo(text, words, tmp_path):
     """What gmsh cannot read, or reads as another mesh than the scene wants, shall be refused."""
@@ -470,6 +469,14 @@ def test_refused_geo(text, words, tmp_path):
         assert word in why
     if "gmsh" in words[0]:
         assert_refused(attempt(tmp_path / "bodies.geo", tmp_path), tmp_path / "bodies.geo", words)
+
+
+def test_quadrangles_of_a_geometry(tmp_path):
+    """They are cut to triangles."""
+    (tmp_path / "bodies.geo").write_text(GEO + "Recombine Surface{1, 2};")
+    copy, why = checked(tmp_path / "bodies.geo", tmp_path)
+    kinds = [row.split()[1] for row in copy.split("$Elements")[1].splitlines()[2:-1]]
+    assert why is None and set(kinds) == {"1", "2"} and kinds.count("2") > 30
 
 
 def test_nothing_left_when_killed(tmp_path):

@@ -9,40 +9,55 @@ from test_zoo import BOXES, NAMED, PICKED
 
 CASE = PICKED + NAMED.format("0")
 KEPT = ("mesh.msh", "case", "rises", "regions")
+MARK = "a mark\n"
 
 
-def read(folder, cache, how="solve", programs=None):
-    """{name: text} of what the reader gives of folder/a.case, or why it refuses."""
+def read(folder, cache, how="solve"):
+    """{name: text} of what the reader gives of folder/a.case."""
     out = folder / "read"
     given = [str(os.getpid()), folder / "a.geo", out, folder / "a.case", "1", how, ""]
-    path = f"{programs}{os.pathsep}{os.environ['PATH']}" if programs else os.environ["PATH"]
-    environment = {**os.environ, "LC_ALL": "C", "CONTACT_CACHE": str(cache), "PATH": path}
+    environment = {**os.environ, "LC_ALL": "C", "CONTACT_CACHE": str(cache)}
     command = ["sh", "edp/bodies/readable.sh", *given]
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
-    texts = {file.name: file.read_text(errors="replace") for file in out.iterdir() if file.is_file()}
+    assert done.returncode == 0, (out / "why").read_text()
+    texts = {name: (out / name).read_text(errors="replace") for name in KEPT}
     subprocess.run(["rm", "-r", out], check=True)
-    return {name: texts[name] for name in KEPT if name in texts} if done.returncode == 0 else texts["why"]
+    return texts
+
+
+def kept(cache):
+    """The folders of what was read."""
+    return [path for path in cache.rglob("own-*") if path.is_dir()]
 
 
 @pytest.fixture(scope="module")
 def first(tmp_path_factory):
-    """A folder with a geometry and a case, a cache in which they have been read, what was read, no gmsh."""
+    """A folder with a geometry and a case, a cache in which they have been read, what was read."""
     folder = tmp_path_factory.mktemp("first")
     (folder / "a.geo").write_text(BOXES)
     (folder / "a.case").write_text(CASE)
-    (folder / "programs").mkdir()
-    (folder / "programs" / "gmsh").write_text("#!/bin/sh\nexit 1\n")
-    (folder / "programs" / "gmsh").chmod(0o755)
     found = read(folder, folder / "cache")
-    assert found["mesh.msh"].endswith("$EndElements\n") and len(list((folder / "cache/meshes").glob("*.tar"))) == 1
-    return folder, folder / "cache", found, folder / "programs"
+    assert found["mesh.msh"].endswith("$EndElements\n") and len(kept(folder / "cache")) == 1
+    return folder, folder / "cache", found
+
+
+def mark(cache):
+    """Exchanges the last letters of a kept file, whose text it returns."""
+    (place,) = kept(cache)
+    with open(place / "rises", "r+") as file:
+        text = file.read()
+        file.seek(len(text) - len(MARK))
+        file.write(MARK)
+    return text
 
 
 def test_taken(first):
-    """The same files shall be read once: again without gmsh, which picks groups, and the same."""
-    folder, cache, found, programs = first
-    assert read(folder, cache, programs=programs) == found
-    assert "gmsh" in read(folder, folder / "empty", programs=programs)
+    """The same files shall be read once: what is kept is taken as it is."""
+    folder, cache, found = first
+    text = mark(cache)
+    assert read(folder, cache) == found | {"rises": text[: -len(MARK)] + MARK}
+    (kept(cache)[0] / "rises").write_text(text)
+    assert read(folder, cache) == found
 
 
 @pytest.mark.parametrize(
@@ -57,34 +72,39 @@ def test_taken(first):
 )
 def test_changed(first, tmp_path, name, old, new):
     """A changed number, group, size or geometry shall give what a first reading gives, and then the former again."""
-    folder, cache, found, _ = first
+    folder, cache, found = first
     text = (folder / name).read_text()
     assert text.count(old) == 1
-    (folder / name).write_text(text.replace(old, new))
-    try:
-        changed = read(folder, cache)
-        assert changed != found and changed == read(folder, tmp_path / "cache")
-    finally:
-        (folder / name).write_text(text)
-    assert read(folder, cache) == found
+    (tmp_path / "a.geo").write_text((folder / "a.geo").read_text())
+    (tmp_path / "a.case").write_text((folder / "a.case").read_text())
+    read(tmp_path, tmp_path / "cache")
+    (tmp_path / name).write_text(text.replace(old, new))
+    changed = read(tmp_path, tmp_path / "cache")
+    assert changed != found and changed == read(tmp_path, tmp_path / "empty")
+    (tmp_path / name).write_text(text)
+    assert read(tmp_path, tmp_path / "cache") == found
 
 
-@pytest.mark.parametrize("how", ["deleted", "cut off", "after"])
+@pytest.mark.parametrize("how", ["deleted", "cut off", "without a file", "without a plan"])
 def test_lost(first, how):
-    """A cache that is gone, cut off, or whose file for gmsh is gone shall be made again."""
-    folder, cache, found, programs = first
+    """A cache that is gone, cut off, lacks a file or the plan for meshes of other sizes shall be made again."""
+    folder, cache, found = first
     read(folder, cache)
-    (archive,) = (cache / "meshes").glob("*.tar")
+    (place,) = kept(cache)
     if how == "deleted":
         subprocess.run(["rm", "-r", cache], check=True)
     elif how == "cut off":
-        archive.write_bytes(archive.read_bytes()[:20000])
+        (place / "mesh.msh").write_text(found["mesh.msh"][:20000])
+    elif how == "without a file":
+        (place / "rises").unlink()
     else:
-        for file in (cache / "meshes").glob("own-*.geo"):
+        for file in (cache / "meshes").glob("own-*.plan"):
             file.unlink()
     assert read(folder, cache) == found
-    assert list((cache / "meshes").glob("own-*.geo"))  # a mesh of other sizes would be made with it
-    assert read(folder, cache, programs=programs) == found
+    assert list((cache / "meshes").glob("own-*.plan"))  # a mesh of other sizes would be made with it
+    text = mark(cache)
+    assert read(folder, cache) != found
+    (kept(cache)[0] / "rises").write_text(text)
 
 
 def test_not_alone(tmp_path):
@@ -96,7 +116,7 @@ def test_not_alone(tmp_path):
     (tmp_path / "boxes.geo").write_text(BOXES.replace("0, 0, 0, 4, 4, 2", "0, 0, 0, 4, 5, 2"))
     after = read(tmp_path, tmp_path / "cache")
     assert before["mesh.msh"] != after["mesh.msh"]
-    assert not list((tmp_path / "cache").rglob("*.tar"))
+    assert not kept(tmp_path / "cache")
     (tmp_path / "a.geo").write_text(BOXES)
     assert read(tmp_path, tmp_path / "cache", how="check") == before
-    assert not list((tmp_path / "cache").rglob("*.tar"))
+    assert not kept(tmp_path / "cache")

@@ -19,7 +19,7 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 ON = 1e-6  # of a face's size: nodes so near to a shape lie on it
 GAUSS = ((-np.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (np.sqrt(0.6), 5 / 18))
-TRIANGLE, LINE = 9, 8  # gmsh's types of second order
+TRIANGLE, LINE, QUADRANGLE = 9, 8, 10  # gmsh's types of second order
 
 
 @dataclass
@@ -128,9 +128,12 @@ def look(
     made.names = {own[0]: name for (of, name), own in made.groups.items() if of == dimension and len(own) == 1}
     where, kind = nodes_of(model), TRIANGLE if space else LINE
     for face in made.entities:
-        nodes = model.mesh.getElementsByType(kind, face)[1]
+        nodes = np.reshape(model.mesh.getElementsByType(kind, face)[1], (-1, 6 if space else 3))
+        if space:  # a mesh may have quadrangles
+            four = np.reshape(model.mesh.getElementsByType(QUADRANGLE, face)[1], (-1, 9))
+            nodes = np.concatenate([nodes, four[:, [0, 1, 2, 4, 5, 8]], four[:, [0, 2, 3, 8, 6, 7]]])
         if len(nodes):
-            made.pieces[face] = where[nodes].reshape(-1, 6 if space else 3, 3)
+            made.pieces[face] = where[nodes]
     return made
 
 

@@ -18,6 +18,7 @@ from .words import text_of
 CAD = {".step", ".stp", ".brep", ".iges", ".igs"}
 KINDS = {".geo", *CAD}  # of geometries
 READS = re.compile("merge|include|shapefromfile|filename|systemcall|getenv|onelab", re.I)
+WHOLE = "whole"  # the file that says which others there are
 FILES = re.compile(r"(^|[ \t\"])(table|from)([ \t\"]|$)", re.M)  # what names a file in a case
 
 
@@ -58,9 +59,16 @@ def place_of(file: Path, case: str, cache: Path, *more: object) -> Path | None:
         return None
 
 
+def sizes(folder: Path) -> str:
+    """The files of a folder and their sizes, a line each."""
+    return "".join(f"{file.stat().st_size} {file.name}\n" for file in sorted(folder.iterdir()) if file.name != WHOLE)
+
+
 def take(place: Path, folder: Path) -> bool:
-    """Copies what is kept into a run's folder; whether it is there, and the mesh that it tells of."""
+    """Copies what is kept into a run's folder; whether it is there, whole, and the mesh that it tells of."""
     try:
+        if (place / WHOLE).read_text() != sizes(place):
+            return False
         told = (place / "told").read_text(errors="surrogateescape").split("\n")
         if told[1] and not Path(told[1]).is_file():
             return False
@@ -76,6 +84,8 @@ def keep(folder: Path, place: Path) -> None:
     part = place.with_name(f".making-{place.name}-{os.getpid()}")
     try:
         shutil.copytree(folder, part)
+        (part / WHOLE).write_text(sizes(part))
+        shutil.rmtree(place, ignore_errors=True)  # one that is not whole
         part.rename(place)
     except OSError:
         shutil.rmtree(part, ignore_errors=True)

@@ -127,12 +127,12 @@ class Mesh:
 EVERY_CURVE = "every curve of the geometry"
 
 
-def groups_of(mesh: Mesh, space: bool) -> list[Group]:
-    """The groups that a case may name, in the order of the file."""
+def groups_of(mesh: Mesh, space: bool, some: bool = True) -> list[Group]:
+    """The groups that a case may name, in the order of the file; some: one at least."""
     if space and mesh.dimension() < 3:
         raise MeshRefusal("the mesh is plane, it has no volumes: use edp/parts.edp")
     named = [(d, name) for (d, _), name in mesh.names.items() if EVERY_CURVE not in name]
-    if not named:
+    if some and not named:
         raise MeshRefusal("no physical groups: bodies and boundaries have no names")
     if any(CONTROL.search(name) for _, name in named):
         raise MeshRefusal("a control character in a group's name; allowed: other names")

@@ -176,6 +176,20 @@ def prepare(
     return made
 
 
+def pick_on(
+    file: Path, space: bool, read: Reader, folder: Path, picks: bool, check: bool = False, limit: float = float("inf")
+) -> Prepared:
+    """Reads a mesh for a case that picks groups by numbers of its faces and bodies, or between bodies (`picks`).
+
+    check: with the table and the picture. The mesh with these groups is in the folder.
+    """
+    job = Job(file, space, None, read, (), check, None, folder)
+    made = in_child(partial(pick_from_mesh, job=job, picks_any=picks), file.name, limit)
+    if made.mesh and not whole(Path(made.mesh)):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), made.mesh)
+    return made
+
+
 def write_whole(path: Path, text: str) -> bool:
     """Writes a file that others may read meanwhile; whether there was room."""
     part = path.with_name(f".{path.name}.{os.getpid()}")
@@ -303,8 +317,8 @@ class Session:
         occ.translate([(2, tool)], *at)
         return 2, tool
 
-    def apply(self, plan: Plan) -> None:
-        """All that comes before the mesh."""
+    def apply(self, plan: Plan, curves: bool = True) -> None:
+        """All that comes before the mesh; curves: in the plane, a group of all of them."""
         model = self.gmsh.model
         self.operate(plan.operations)
         if plan.rename:
@@ -325,9 +339,8 @@ class Session:
                 self.gmsh.option.setNumber("Mesh.MeshSizeFromPoints", 0)
         if plan.anew:
             model.mesh.clear()
-        if not self.space:
-            curves = model.addPhysicalGroup(1, self.numbers(1))
-            model.setPhysicalName(1, curves, EVERY_CURVE)
+        if curves and not self.space:
+            model.setPhysicalName(1, model.addPhysicalGroup(1, self.numbers(1)), EVERY_CURVE)
 
     def size_field(self, size: dict[str, Any], plan: Plan) -> int:
         """A field of the sizes of a group, or around places of contact."""
@@ -444,14 +457,14 @@ def fork(task: Callable[[], None]) -> int:
     return child
 
 
-def whole(mesh: Path) -> bool:
+def whole(mesh: Path, named: bool = True) -> bool:
     """Whether a mesh was written up to its end, and has names."""
     if not mesh.is_file():
         return False
     with open(mesh, "rb") as text:
         head = text.read(4096)
         text.seek(-min(mesh.stat().st_size, 32), os.SEEK_END)
-        return text.read().rstrip().endswith(b"$EndElements") and b"$PhysicalNames" in head
+        return text.read().rstrip().endswith(b"$EndElements") and (not named or b"$PhysicalNames" in head)
 
 
 def make(gmsh: Any, job: Job) -> Prepared:
@@ -470,7 +483,7 @@ def make(gmsh: Any, job: Job) -> Prepared:
     if job.text is None or job.read is None:
         where = Where(space=job.space)
         picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))
-        if not picks.made.bodies or not picks.made.pieces:
+        if not picks.made.bodies or picks.bare():
             raise GmshError("gmsh reads no bodies with faces out of it")
         made.table, made.faces = picks.table(), picks.pieces()
         return made
@@ -533,6 +546,33 @@ def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> 
         tell()
     plan.groups = [(d, name, picks.of(d, name)) for d, name in groups]
     made.left = picks.left()
+
+
+def pick_from_mesh(gmsh: Any, job: Job, picks_any: bool) -> Prepared:
+    """As make(), of a mesh in which elements have the numbers of the bodies and faces of a geometry."""
+    session = Session(gmsh, job.file, job.space, False)
+    session.open([])
+    made = Prepared(session.groups())
+    assert job.read
+    case = job.read(made.groups, "")
+    picks = Picks(session.look(), case)
+    if picks_any:
+        if not picks.made.pieces:
+            none = f"the mesh has no {picks.many(picks.dimension - 1)} with numbers"
+            line = next(s.line for s in case.statements if isinstance(s, (g.PickedGroup, g.Join)))
+            raise Refusal(f"{none}; allowed: groups of the file's own, plane, box, near, or a geometry", line)
+        if picks.choose():
+            allowed = 'a STEP or BREP file, or a .geo file with SetFactory("OpenCASCADE")'
+            raise Refusal(f"bodies of it cannot be cut, joined or taken apart: a mesh; allowed: {allowed}")
+        picks.check_ties()
+    if job.check and picks.made.bodies and not picks.bare():
+        made.table, made.faces = picks.table(), picks.pieces()
+    if picks_any:
+        session.open([])  # the outline is of second order
+        session.apply(Plan(groups=[(d, name, picks.of(d, name)) for _, d, name, _ in picks.wishes()]), False)
+        made.mesh = str(job.folder / "picked.msh")
+        session.write(Path(made.mesh), False)
+    return made
 
 
 def write_mesh(session: Session, job: Job, plan: Plan, made: Prepared) -> None:
@@ -600,20 +640,27 @@ def again(
     return surface if surface and surface.is_file() else None
 
 
-def convert(file: Path, out: Path, limit: float = float("inf")) -> None:
-    """A mesh that gmsh reads (.msh of other versions or binary, .unv, .bdf, .med), as version 2 text."""
-    check_file(file, ())
+def refuse_surface(file: Path) -> None:
     if file.suffix.lower() == ".stl":
         geometries = "a geometry (.geo, .step, .iges, .brep), or a mesh of the bodies"
         raise GmshError(f"the triangles of a surface alone, without bodies and names; allowed: {geometries}")
 
+
+def convert(file: Path, out: Path, limit: float = float("inf"), named: bool = True) -> None:
+    """A mesh that gmsh reads (.msh of other versions or binary, .unv, .bdf, .med), as version 2 text.
+
+    named: it has groups.
+    """
+    check_file(file, ())
+    refuse_surface(file)
+
     def task(gmsh: Any) -> None:
         session = Session(gmsh, file, True, False)
         session.open([])
-        if not session.groups():
+        if named and not session.groups():
             raise GmshError(NO_NAMES)
         session.write(out, False)
 
     in_child(task, file.name, limit)
-    if not whole(out):
+    if not whole(out, named):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(out))

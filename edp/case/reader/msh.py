@@ -74,8 +74,8 @@ class Section:
         return [(line, texts[line - self.first].split()) for line in self.lines.tolist()]
 
 
-def read_msh(path: Path) -> Mesh:
-    """The mesh of a file."""
+def read_msh(path: Path, named: bool = True) -> Mesh:
+    """The mesh of a file; named: it has names of groups."""
     text = path.read_bytes()
     if not text:
         refuse(f"an empty file, {FORMAT}")
@@ -106,7 +106,7 @@ def read_msh(path: Path) -> Mesh:
         refuse(FORMAT)
     if inside or not {"Nodes", "Elements"} <= seen:
         refuse("cut off" + (f" in ${inside}" if inside else ""))
-    if "PhysicalNames" not in seen:
+    if named and "PhysicalNames" not in seen:
         refuse("no physical groups")
     return mesh
 

@@ -264,6 +264,10 @@ class Picks:
             )
         return found
 
+    def bare(self) -> bool:
+        """Whether a body has no face that is known, as in a mesh that was saved without most of them."""
+        return any(not self.made.pieces.keys() & own for own in map(set, self.made.bodies.values()))
+
     def table(self) -> str:
         """What -check 1 prints of bodies and faces."""
         self.made.names = {body: name for body in self.made.bodies if (name := self.named(body))}

@@ -9,10 +9,12 @@ for the screen and for a picture.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from . import grammar as g
 from .abaqus import listing, read_inp
 from .bodies import write_bodies
 from .case import Case, read_case
@@ -20,13 +22,15 @@ from .gmsh_process import GmshError
 from .groups import Group, Where
 from .kept import KINDS
 from .mesh import Mesh, MeshRefusal, groups_of
-from .mesher import Prepared, Sets, check_file, convert, prepare, write_whole
+from .mesher import Prepared, Reader, Sets, check_file, convert, pick_on, prepare, refuse_surface, write_whole
 from .msh import read_msh
 from .sides import pick_on_mesh
 from .values import table
 from .words import Refusal, split_case, text_of
 
 FINER = "mesh with smaller elements"
+GROUP = re.compile(r"^[ \t]*group[ \t]", re.M)
+NUMBERED = (g.BoundaryNumbers, g.BodyNumbers, g.Between)
 
 
 @dataclass
@@ -62,16 +66,52 @@ def words_of(text: str) -> set[str]:
     return {word for line in split_case(text, lambda word: "") for word in line.words}
 
 
-def read_mesh(of: Problem, text: str) -> Mesh:
-    """A mesh of whatever format."""
+def read_mesh(of: Problem, text: str, named: bool) -> Mesh:
+    """A mesh of whatever format; named: it has groups."""
     check_file(of.file, of.sets)
     if of.file.suffix.lower() == ".inp":
         of.where.overlap = True
         return read_inp(of.file, of.where.space, words_of(text))
     if is_text_of_gmsh(of.file):
-        return read_msh(of.file)
-    convert(of.file, of.folder / "converted.msh")
-    return read_msh(of.folder / "converted.msh")
+        return read_msh(of.file, named)
+    convert(of.file, of.folder / "converted.msh", named=named)
+    return read_msh(of.folder / "converted.msh", named)
+
+
+def refuse_shapes(case: Case, deck: bool) -> None:
+    """Refuses what only a geometry can have."""
+    for s in case.of(g.Size):
+        raise Refusal("sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file", s.line)
+    for s in case.of(g.Join):
+        join = f"join {s.one} {s.other}"
+        if s.how == "part":
+            allowed = f"with a geometry, or {join} tie"
+            raise Refusal(f"{join} part: a mesh cannot be joined; allowed: {allowed}", s.line)
+        if deck:
+            nothing = "the file does not say which faces are a body's"
+            raise Refusal(f"{s.one}-{s.other}: between: {nothing}; allowed: with a geometry", s.line)
+
+
+def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prepared]:
+    """A mesh with the groups that the case picks: by place, or by numbers of a geometry, which gmsh knows."""
+    named = of.where.again or not GROUP.search(text)
+    mesh, made = read_mesh(of, text, named), Prepared([], finer=FINER)
+    case = read(groups_of(mesh, of.where.space, named), "")
+    if of.where.again:
+        return mesh, case, made
+    deck = of.file.suffix.lower() == ".inp"
+    refuse_shapes(case, deck)
+    numbered = not deck and (case.has(g.Join) or any(isinstance(s.pick, NUMBERED) for s in case.of(g.PickedGroup)))
+    if numbered or (of.check and not deck):
+        try:
+            made = pick_on(of.file, of.where.space, read, of.folder, numbered, of.check)
+        except GmshError:
+            if numbered:
+                raise
+        made.finer = FINER
+    if numbered:
+        return read_msh(Path(made.mesh)), case, made
+    return pick_on_mesh(mesh, case), case, made
 
 
 def tell_faces(of: Problem) -> None:
@@ -80,6 +120,7 @@ def tell_faces(of: Problem) -> None:
     if of.file.suffix.lower() == ".inp":
         write(of.folder / "table", listing(of.file, of.where.space))
         return
+    refuse_surface(of.file)
     made = prepare(of.file, of.where.space, None, None, of.folder, of.sets, True)
     write(of.folder / "table", made.table)
     write(of.folder / "faces", made.faces)
@@ -99,9 +140,7 @@ def read_problem(of: Problem) -> None:
         mesh = read_msh(Path(made.mesh))
         case = read(groups_of(mesh, of.where.space), "") if made.case is None else made.case
     else:
-        mesh = read_mesh(of, text)
-        case = read(groups_of(mesh, of.where.space), "")
-        mesh = mesh if of.where.again else pick_on_mesh(mesh, case)
+        mesh, case, made = read_on_mesh(of, text, read)
     surface = Path(made.surface or of.surface or os.devnull)
     straight = not of.where.space and of.file.suffix.lower() in KINDS
     smooth = read_msh(surface) if surface.is_file() else None
