@@ -7,9 +7,10 @@ import pytest
 from reader import Group, Refusal, Where, read_case
 from reader.abaqus import listing, read_inp
 from reader.bodies import write_bodies
+from reader.grammar import ElementSides, OnCylinder
 from reader.mesh import CENTRES, EDGES, KINDS, Block, Mesh, MeshRefusal, alone, groups_of, keys_of, sides_of
 from reader.msh import read_msh
-from reader.sides import Boundary, ElementSides, OnCylinder, pick_on_mesh, pick_sides
+from reader.sides import Boundary, pick_on_mesh, pick_sides
 from reader.simplices import cut_to_simplices
 from reader.values import table
 
@@ -715,14 +716,17 @@ def test_cylinder_and_elements():
         groups_of(mesh, True),
     )
     s = read.statements[0]
-    assert sum(map(len, pick_sides(boundary, s, OnCylinder((0, 0, 5), (0, 0, -3), 2)))) == 12
-    assert sum(map(len, pick_sides(boundary, s, OnCylinder((0, 0, 5), (0, 0, 1), 1.7)))) == 0
+    assert sum(map(len, pick_sides(boundary, s, OnCylinder(point=(0, 0, 5), axis=(0, 0, -3), radius=2)))) == 12
+    assert sum(map(len, pick_sides(boundary, s, OnCylinder(point=(0, 0, 5), axis=(0, 0, 1), radius=1.7)))) == 0
     rim = grid(5, (1, 1, 1), lambda p: (p - 0.5) * np.sqrt(2))
-    assert sum(map(len, pick_sides(Boundary(rim, rim.blocks), s, OnCylinder((0, 0, 0), (0, 0, 1), 1)))) == 4
-    chosen = pick_sides(boundary, s, ElementSides((1, 3), 1))
+    assert (
+        sum(map(len, pick_sides(Boundary(rim, rim.blocks), s, OnCylinder(point=(0, 0, 0), axis=(0, 0, 1), radius=1))))
+        == 4
+    )
+    chosen = pick_sides(boundary, s, ElementSides(elements=(1, 3), side=1))
     assert [len(rows_) for rows_ in chosen] == [2, 0, 0, 0, 0, 0]
     with pytest.raises(Refusal, match="side 2 of element 1 is inside"):
-        pick_sides(boundary, s, ElementSides((1, 3), 2))
+        pick_sides(boundary, s, ElementSides(elements=(1, 3), side=2))
     assert sum(int(free.sum()) for free in alone(boundary.sides)) == 2 * (2 * 6 + 6 * 2 + 2 * 2)
 
 

@@ -94,18 +94,23 @@ class Thickness(Statement, word="thickness", example="thickness 12"):
 
 @dataclass(frozen=True)
 class Numbers:
-    """At least one number of an entity of the geometry, up to the end of the line."""
+    """At least one number of an entity of the geometry, up to the end of the line, or to a word."""
 
     what: str
+    end: str = ""
 
     def read(self, reading: Reading) -> tuple[int, ...]:
         many = shown(self.what, reading.where)
-        if not reading.line.left:
+        numbers = reading.line.left
+        if self.end in numbers:
+            numbers = numbers[: numbers.index(self.end)]
+        if not numbers:
             reading.no(f"numbers are missing after {many}")
-        for text in reading.line.left:
+        for text in numbers:
             if not (text.isascii() and text.isdigit()):
-                reading.line.no(f"{text}: not the number of one of the {many}; allowed: those that -check 1 draws")
-        return tuple(int(reading.line.next()) for _ in list(reading.line.left))
+                allowed = "those of the mesh" if self.end else "those that -check 1 draws"
+                reading.line.no(f"{text}: not the number of one of the {many}; allowed: {allowed}")
+        return tuple(int(reading.line.next()) for _ in numbers)
 
     def usage(self, where: Where) -> str:
         return "N ..."
@@ -133,6 +138,21 @@ class Near(Part):
     point: Vector3 = vector("the place")
 
 
+class OnCylinder(Part):
+    """A cylinder about an axis, in the plane a circle about a point."""
+
+    point: Vector3 = vector("the place")
+    axis: Vector3 = vector("the axis", "dx dy dz", only=in_space, nonzero=True)
+    radius: float = number("the radius", "r", above=0, prefix="R", unit="length")
+
+
+class ElementSides(Part):
+    """Sides of elements of a mesh, as a deck numbers them."""
+
+    elements: tuple[int, ...] = custom(Numbers("elements", end="side"))
+    side: float = keyword("side", number("the number of the side", "S", above=0, below=7, whole=True))
+
+
 class Between(Part):
     one: Group = body()
     other: Group = body()
@@ -144,6 +164,8 @@ SELECTIONS = {
     "box": Box,
     "plane": InPlane,
     "near": Near,
+    "{circle|cylinder}": OnCylinder,
+    "elements": ElementSides,
     "between": Between,
 }
 
@@ -154,10 +176,11 @@ class PickedGroup(Statement, word="group", example="group bore near 12 0{| 0}"):
     once = "group {s.name}"
     usage = (
         "group NAME {curves|faces} N ..., {surfaces|volumes} N ..., box x y{| z} x y{| z}, "
-        "plane x y{| z} nx ny{| nz}, near x y{| z} or between BODY BODY"
+        "plane x y{| z} nx ny{| nz}, near x y{| z}, {circle x y|cylinder x y z dx dy dz} R r, elements N ... side S "
+        "or between BODY BODY"
     )
     name: str = word("NAME")
-    pick: BoundaryNumbers | BodyNumbers | Box | InPlane | Near | Between = one_of(
+    pick: BoundaryNumbers | BodyNumbers | Box | InPlane | Near | OnCylinder | ElementSides | Between = one_of(
         "what it is picked by", "SELECTION", SELECTIONS
     )
 

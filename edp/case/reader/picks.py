@@ -36,6 +36,9 @@ def words(numbers: Iterable[int]) -> str:
     return " ".join(map(str, numbers))
 
 
+HOW = {g.Box: "box", g.InPlane: "plane", g.Near: "near", g.OnCylinder: "cylinder", g.Between: "between"}
+
+
 class Picks:
     """The groups of a geometry by numbers, and what a case does with them."""
 
@@ -131,7 +134,7 @@ class Picks:
             else:
                 found = self.picked(line, dimension, pick)
             if not found:
-                how = {g.Box: "box", g.InPlane: "plane", g.Near: "near", g.Between: "between"}[type(pick)]
+                how = HOW[type(pick)] if self.made.space or not isinstance(pick, g.OnCylinder) else "circle"
                 what = "body" if dimension == self.dimension else "face" if self.made.space else "curve"
                 there = f"allowed: one or more, of {self.listed(dimension)}"
                 self.no(line, f"{name}: {how}: no {what} lies there; {there}")
@@ -150,6 +153,8 @@ class Picks:
                     there = self.listed(dimension)
                     self.no(line, f"{number}: no such number of {self.many(dimension)}; allowed: {there}")
             return found
+        if isinstance(pick, g.ElementSides):
+            self.no(line, "elements: a geometry has none yet; allowed: with a mesh, here plane, box, near")
         return [n for n in self.entities(dimension) if self.within(self.faces_of(dimension, n), pick)]
 
     def faces_of(self, dimension: int, number: int) -> list[int]:
@@ -165,6 +170,10 @@ class Picks:
             ends = np.array([pick.corner, pick.opposite])[:, : self.dimension]
             at = at[:, : self.dimension]
             return bool((at > ends.min(0) - size).all() and (at < ends.max(0) + size).all())
+        if isinstance(pick, g.OnCylinder):
+            axis = np.array(pick.axis) / np.linalg.norm(pick.axis)
+            off = at - pick.point
+            return bool(np.abs(np.linalg.norm(off - np.outer(off @ axis, axis), axis=1) - pick.radius).max() < size)
         normal = np.array(pick.normal) / np.linalg.norm(pick.normal)
         return bool(np.abs((at - pick.point) @ normal).max() < size)
 

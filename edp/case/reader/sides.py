@@ -8,7 +8,7 @@ quadratic map of elements of second order. A body is picked by a box, or as the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import NoReturn
 
@@ -25,23 +25,6 @@ SMOOTH = 30.0  # degrees between neighbours
 NEAR = 1e-6  # of the whole: nodes so near to a plane or a box lie in it
 ROUND = 1e-4  # of its radius: nodes so near to a cylinder lie on it
 DOUBT = 0.05  # of a side's size: how far flat sides may be off what they stand for
-
-
-@dataclass(frozen=True)
-class OnCylinder:
-    """cylinder x y z dx dy dz R r, in the plane circle x y R r: its axis, in the plane none."""
-
-    point: Vector3
-    axis: Vector3
-    radius: float
-
-
-@dataclass(frozen=True)
-class ElementSides:
-    """elements N ... side S, as *SURFACE of a deck has them."""
-
-    elements: tuple[int, ...]
-    side: int
 
 
 def every(inside: Bools) -> Bools:
@@ -197,17 +180,15 @@ def pick_sides(boundary: Boundary, s: g.PickedGroup, pick: object) -> list[Ints]
         case g.InPlane():
             normal = np.array(pick.normal) / np.linalg.norm(pick.normal)
             return boundary.chosen(boundary.where(np.abs((x - pick.point) @ normal) < near))
-        case OnCylinder():
+        case g.OnCylinder():
             return boundary.chosen(boundary.on_cylinder(pick.point, pick.axis, pick.radius))
-        case ElementSides():
+        case g.ElementSides():
             sides = boundary.sides
-            inside = [np.isin(side.block.number, pick.elements) & (side.number == pick.side) for side in sides]
+            inside = [np.isin(side.block.number, pick.elements) & (side.number == int(pick.side)) for side in sides]
             for side, own, free in zip(sides, inside, boundary.free, strict=True):
                 for k in np.flatnonzero(own & ~free)[:1]:
-                    no(
-                        s,
-                        f"side {pick.side} of element {side.block.number[k]} is inside; allowed: sides of the boundary",
-                    )
+                    inside_ = f"side {pick.side:g} of element {side.block.number[k]} is inside"
+                    no(s, f"{inside_}; allowed: sides of the boundary")
             return boundary.chosen(inside)
         case g.Near():
             found, why = boundary.near(pick.point)
