@@ -421,6 +421,7 @@ def columns():
 def statements():
     """A row a statement of a case file, as its reader says them in the plane and in space; what they mean stays."""
     from reader import Where, fields
+    from reader import grammar as _grammar  # noqa: F401 (declares the statements)
 
     places = Where(), Where(space=True)
     plane, space = ({word: fields.usage(word, where) for word in fields.STATEMENTS} for where in places)

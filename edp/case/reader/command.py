@@ -15,10 +15,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .case import read_open
-from .groups import Where
 from .kept import keep, place_of, take
-from .modules import Run, modules, needs
 from .words import Refusal, text_of
 
 Words = dict[str, str]  # the arguments by their names
@@ -29,6 +26,10 @@ def ask_modules(of: Words) -> int:
 
     A case that cannot be read yet is no fault here.
     """
+    from .case import read_open
+    from .groups import Where
+    from .modules import Run, modules, needs
+
     flags = of["flags"].split("\n")
     run = Run(
         space=of["space"] == "1",
@@ -56,6 +57,7 @@ def ask_problem(of: Words) -> int:
     if place and take(place, folder):
         return 0
     # modules that take time to load
+    from .groups import Where
     from .problem import Problem, run
 
     options, sets = of["options"].split(), of["sets"].split()
