@@ -72,7 +72,7 @@ def test_taken(first):
 )
 def test_changed(first, tmp_path, name, old, new):
     """A changed number, group, size or geometry shall give what a first reading gives, and then the former again."""
-    folder, cache, found = first
+    folder, _, found = first
     text = (folder / name).read_text()
     assert text.count(old) == 1
     (tmp_path / "a.geo").write_text((folder / "a.geo").read_text())
