@@ -613,7 +613,7 @@ def test_check(tmp_path):
     assert "top upper bottom: hard contact, frictionless, 25 points, initial gap " in said
     assert "iteration" not in said
     folder = tmp_path / "out/check"
-    files = {"check-boundary.csv", "check-faces.csv", "check-mesh.vtu", "check-points.csv", "check.json"}
+    files = {"check-boundary.csv", "check-mesh.vtu", "check-points.csv", "check.json"}  # faces: of geometries
     assert {file.name for file in folder.glob("check*")} == files
     found = json.loads((folder / "check.json").read_text())
     assert [body["name"] for body in found["bodies"]] == ["block", "upper"]
