@@ -519,8 +519,9 @@ choice: $(VENV)/dev.stamp | system ## find for an hour what each test costs and 
 	@$(PYTHON) tests/campaigns/choose.py measure && $(PYTHON) tests/campaigns/choose.py
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
-	@$(PYTHON) -m ruff check postprocess tests edp/case/reader
-	@$(PYTHON) -m ruff format --check postprocess tests edp/case/reader
+	@$(PYTHON) -m ruff check postprocess tests edp/case
+	@$(PYTHON) -m ruff format --check postprocess tests edp/case
+	@MYPYPATH=edp/case $(PYTHON) -m mypy --strict -p reader
 	@$(PYTHON) tests/lint_edp.py edp
 
 pages: $(VENV)/run.stamp | system ## write the pages' tables from heads, -help, a few short runs and a case file's grammar

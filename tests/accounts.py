@@ -25,9 +25,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 HERE = ROOT / "tests"
-UNWATCHED = ("results/", "build/", ".venv", ".pytest_cache/", ".ruff_cache/", "meshes/generated/.")
+UNWATCHED = ("results/", "build/", ".venv", ".pytest_cache/", ".ruff_cache/", ".mypy_cache/", "meshes/generated/.")
 ALWAYS = ["tests/conftest.py", "tests/freefem.py", "tests/accounts.py", "pyproject.toml"]
-SKIPPED = set("results build generated .git .pytest_cache .ruff_cache __pycache__ .venv .venv-peers".split())
+SKIPPED = set(".git .venv .venv-peers .pytest_cache .ruff_cache .mypy_cache __pycache__ build generated results".split())
 TOOLS = "FreeFem++ FreeFem++-mpi gmsh mawk python3 sh ccx chromium mpiexec make".split()
 EVERYTHING = "everything"
 UNCHANGED_TESTS = "unchanged"

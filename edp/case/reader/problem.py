@@ -82,14 +82,14 @@ def refuse_shapes(case: Case, deck: bool) -> None:
     """Refuses what only a geometry can have."""
     for s in case.of(g.Size):
         raise Refusal("sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file", s.line)
-    for s in case.of(g.Join):
-        join = f"join {s.one} {s.other}"
-        if s.how == "part":
-            allowed = f"with a geometry, or {join} tie"
-            raise Refusal(f"{join} part: a mesh cannot be joined; allowed: {allowed}", s.line)
+    for join in case.of(g.Join):
+        words = f"join {join.one} {join.other}"
+        if join.how == "part":
+            allowed = f"with a geometry, or {words} tie"
+            raise Refusal(f"{words} part: a mesh cannot be joined; allowed: {allowed}", join.line)
         if deck:
             nothing = "the file does not say which faces are a body's"
-            raise Refusal(f"{s.one}-{s.other}: between: {nothing}; allowed: with a geometry", s.line)
+            raise Refusal(f"{join.one}-{join.other}: between: {nothing}; allowed: with a geometry", join.line)
 
 
 def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prepared]:
