@@ -1,5 +1,6 @@
 """Parts from CAD: bodies cut for a bolt, joined bodies, the table of faces, one surface in several contacts."""
 
+import ast
 import os
 import re
 import subprocess
@@ -727,15 +728,59 @@ def test_no_shapes(tmp_path):
     assert code == 3 and "bodies of it cannot be cut, joined or taken apart" in why and "OpenCASCADE" in why, why
 
 
+def text_of(node, own):
+    """The text of an expression, `…` for values; own: what the names of its function stand for."""
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    if isinstance(node, ast.JoinedStr):
+        return "".join(text_of(part, own) for part in node.values)
+    if isinstance(node, ast.FormattedValue):
+        return text_of(node.value, own)
+    if isinstance(node, ast.BinOp):
+        return text_of(node.left, own) + text_of(node.right, own)
+    if isinstance(node, ast.IfExp):
+        return f"{text_of(node.body, own)}…{text_of(node.orelse, own)}"
+    if isinstance(node, ast.Name) and node.id in own:
+        return text_of(own.pop(node.id), own)
+    return "…"
+
+
+def named(nodes):
+    """What names stand for, by assignments."""
+    pairs = [(node.targets[0], node.value) for node in nodes if isinstance(node, ast.Assign)]
+    return {target.id: value for target, value in pairs if isinstance(target, ast.Name)}
+
+
+def refusals(names):
+    """What modules of the reader refuse, `…` for values."""
+    for name in names:
+        module = ast.parse((ROOT / f"edp/case/reader/{name}.py").read_text())
+        known = named(module.body)
+        for function in (node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)):
+            own = known | named(ast.walk(function))
+            for call in (node for node in ast.walk(function) if isinstance(node, ast.Call)):
+                called = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
+                if called in ("no", "refuse", "bent", "Refusal", "GmshError", "MeshRefusal"):
+                    yield "…".join(text_of(argument, dict(own)) for argument in call.args)
+
+
 def test_messages_on_the_page():
-    """What the readers of meshes refuse about parts from CAD stands on the page of refusals."""
+    """What the reader refuses about parts from CAD stands on the page of refusals, which has no other."""
     page = (ROOT / "edp/TROUBLESHOOTING.md").read_text().split("## Refused mesh files")[1]
     known = [
-        p.split("…")
+        [piece.strip() for piece in pattern.split("…")]
         for line in page.splitlines()
-        for p in re.findall(r"`([^`]+)`", line.split("|")[1] if "|" in line else "")
+        for pattern in re.findall(r"`([^`]+)`", line.split("|")[1] if "|" in line else "")
     ]
-    for name in ("cad", "cuts", "same"):
-        for call in re.findall(r"\b(?:no|fail)\((.*)\)$", (ROOT / f"meshes/{name}.awk").read_text(), re.M):
-            text = " ".join(re.findall(r'"((?:\\.|[^"\\])*)"', call))
-            assert any(all(piece.strip() in text for piece in pieces) for pieces in known), call
+    parts = [text for text in refusals(["picks", "sides"]) if re.search("[a-z]{3}", text)]
+
+    def match(text, pieces):
+        return all(piece in text for piece in pieces)
+
+    assert len(parts) > 15
+    assert [text for text in parts if not any(match(text, pieces) for pieces in known)] == []
+    sources = [ast.parse(path.read_text()) for path in (ROOT / "edp/case/reader").glob("*.py")]
+    constants = [node.value for source in sources for node in ast.walk(source) if isinstance(node, ast.Constant)]
+    said = [text for text in constants if isinstance(text, str)]
+    every = [piece.strip(" :,") for pieces in known for piece in pieces]
+    assert [piece for piece in every if not any(piece in text for text in said)] == []

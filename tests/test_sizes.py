@@ -4,15 +4,19 @@ Two ellipses with random axes and turns touch at the places whose normals are op
 where. Splines are held against the same, for a line between them, normal to both, is the shortest.
 """
 
+import json
 import os
 import re
-import shutil
 import subprocess
+from importlib.util import find_spec
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 from freefem import ROOT, environment, part
+from reader import Where, mesher, read_case
+from reader.near import Store
 
 BODIES = "body A E 200e3 nu 0.3\nbody B E 200e3 nu 0.3\ncontact a b\n"
 PRESSED = BODIES + "clamp b-base\nmove a-base 0 {}\n"
@@ -151,91 +155,10 @@ def test_what_overlaps_is_in_contact(tmp_path):
     assert inside.sum() > 60 and lengths[inside].max() < 0.15 < 1 < lengths.max()
 
 
-def asked(places, *calls, faces=None):
-    """What functions of meshes/near.awk return, of pieces 1, 2, ...: in the plane ends and middle (n, 3, 2), in space
-    corners and middles (n, 6, 3); all of face 1, or of these faces. every(nearest(...)): how many, widest, and of each
-    its middle and its radius."""
-    space = places.shape[1] == 6
-    lines = [
-        f"face[{e + 1}] = {f}; {axis}[{e + 1}, {k}] = {value!r}" + f"; list[{e + 1}] = {e + 1}; ball({e + 1})" * last
-        for e, (piece, f) in enumerate(zip(places.tolist(), faces or [1] * len(places), strict=True))
-        for k, place in enumerate(piece)
-        for axis, value in zip("XYZ", place, strict=False)
-        for last in [k == len(piece) - 1 and axis == "XYZ"[len(place) - 1]]
-    ]
-    lines = [
-        f"space = {int(space)}",
-        *lines,
-        "for (e = 1; e in face; e++) { if (!(face[e] in first)) first[face[e]] = e; last[face[e]] = e }",
-        f"elements = pieces = {len(places)}; flat = 1e-6",
-        *(f'printf "%.15g\\n", {call}' for call in calls),
-        "failed = 1; exit",
-    ]
-    files = [word for name in ("pick", "near", "cad", "kinds", "touch") for word in ("-f", ROOT / f"meshes/{name}.awk")]
-    program = "BEGIN {\n" + "\n".join(lines) + "\n}\n"
-    program += "function far(x, y, p,   v) { v[1] = x; v[2] = y; return closest(p, v, 1e300) }\n"
-    program += "function every(n,   i, p) {\n  told(n, widest)\n"
-    program += "  for (i = 1; i <= n; i++) { p = zone[i]; told(CX[p], CY[p]); told(CZ[p], reach[p]) }\n  return n\n}\n"
-    program += 'function told(a, b) { printf "%.15g %.15g\\n", a, b }\n'
-    done = subprocess.run(
-        ["awk", *files, "-f", "/dev/stdin"],
-        input=program,
-        stdout=subprocess.PIPE,
-        text=True,
-        env={"LC_ALL": "C"},
-        timeout=60,  # pieces that never get flat are halved for ever
-    )
-    return np.array(done.stdout.split(), float)
-
-
 def bent(piece, count=2001):
     """Places of a quadratic piece (count, 2)."""
     t = np.linspace(0, 1, count)[:, None]
     return piece[0] * (1 - t) * (1 - 2 * t) + piece[1] * t * (2 * t - 1) + 4 * piece[2] * t * (1 - t)
-
-
-@pytest.mark.parametrize("changing", [0, 0.3])
-def test_doubt_about_an_outline(changing):
-    """The error of quadratic pieces of a curve, whose curvature changes or not, is below its estimate, and not far."""
-    turn = np.linspace(0, 1.6, 80001)
-    bend = 5 * np.exp(changing * turn)
-    steps = 0.5 * (bend[1:, None] * np.array([np.cos(turn), np.sin(turn)]).T[1:])
-    steps += 0.5 * (bend[:-1, None] * np.array([np.cos(turn), np.sin(turn)]).T[:-1])
-    curve = np.vstack([[0, 0], np.cumsum(steps * turn[1], axis=0)])
-    ends = np.arange(0, 80001, 20000)
-    places = np.array([[curve[a], curve[b], curve[(a + b) // 2]] for a, b in pairwise(ends)])
-    for alone in (False, True):
-        taken = places[1:2] if alone else places
-        estimate = asked(taken, f"doubt({1 if alone else 2})")[0]
-        dense = curve[ends[1] : ends[2] : 4]
-        off = [np.linalg.norm(dense - place, axis=1).min() for place in bent(places[1], 101)]
-        assert max(off) < estimate < (400 if alone else 12) * max(off), alone
-
-
-def test_places_and_pieces():
-    """The distance from a quadratic piece, and whether pieces surround a place, against many points of the pieces."""
-    rng = np.random.default_rng(5)
-    corners = 4 * np.array([[np.cos(k), np.sin(k)] for k in np.arange(7) * 2 * np.pi / 7])
-    after = np.roll(corners, -1, axis=0)
-    places = np.stack([corners, after, 0.5 * (corners + after) + rng.uniform(-0.9, 0.9, (7, 2))], axis=1)
-    outline = np.vstack([bent(piece)[:-1] for piece in places])
-    spots = rng.uniform(-5, 5, (60, 2))
-    calls = [f"far({x!r}, {y!r}, {k % 7 + 1})" for k, (x, y) in enumerate(spots.tolist())]
-    calls += [f"surrounded({x!r}, {y!r}, list, 7)" for x, y in spots.tolist()]
-    found = asked(places, *calls)
-    for k, spot in enumerate(spots):
-        dense = bent(places[k % 7])
-        away = np.linalg.norm(dense - spot, axis=1)
-        # near a piece, where it counts, the nearest place; from afar a piece may have two
-        if away.min() < 1:
-            assert found[k] == pytest.approx(away.min(), abs=1e-5)
-        rise, go = outline[:, 1] > spot[1], np.roll(outline, -1, axis=0)
-        cross = rise != (go[:, 1] > spot[1])
-        at = outline[:, 0] + (spot[1] - outline[:, 1]) / (go[:, 1] - outline[:, 1] + 1e-300) * (
-            go[:, 0] - outline[:, 0]
-        )
-        assert found[60 + k] == (cross & (at > spot[0])).sum() % 2
-    assert 15 < found[60:].sum() < 45
 
 
 # ---------------------------------------------------------------- surfaces of which the distance is known
@@ -283,19 +206,6 @@ def middles_over(surface, edges):
     return surface.on(surface.pieces(edges)[:, : 3 if len(surface.bends) == 2 else 2, :-1].mean(axis=1))
 
 
-def check_zone(found, places, distance, margin, grain):
-    """The pieces found are those whose middles, `places`, are at most the margin farther away than the nearest."""
-    count, widest, zone = int(found[0]), found[1], found[2:-1].reshape(-1, 4)
-    assert count == len(zone) > 0 and widest == pytest.approx(zone[:, 3].max()) and 0.5 * grain < widest <= grain
-    off = np.linalg.norm(zone[:, None, : places.shape[1]] - places, axis=2)
-    taken = off.argmin(axis=1)
-    assert off.min(axis=1).max() < 1e-9 and len(set(taken)) == count
-    more = distance - distance.min()
-    assert more[taken].max() < 1.1 * margin, more[taken].max() / margin
-    left = np.delete(more, taken)
-    assert left.min() > 0.9 * margin, left.min() / margin
-
-
 UPPER = [Bent(0.03, [0.6], [0.1]), Bent(0.03, [0.6, 0.4], [0.1, -0.05])]
 LOWER = [Bent(0, [-0.5], [0.3]), Bent(0, [-0.5, -0.3], [0.3, 0.1])]
 SEARCHED = [
@@ -304,18 +214,6 @@ SEARCHED = [
     (1, 32, 32, 0.3),
     (2, 2, 16, 0.02),
 ]
-
-
-@pytest.mark.parametrize("components, coarse, fine, margin", SEARCHED)
-def test_nearest_pieces(components, coarse, fine, margin):
-    """Of two parabolas or paraboloids, cut into few pieces or into many, against distances by Newton's method."""
-    upper, lower = UPPER[components - 1], LOWER[components - 1]
-    one, other = (surface.pieces(np.linspace(-1, 1, coarse + 1)) for surface in (upper, lower))
-    grain = 2 / fine * (0.75 if components == 1 else 1.1)
-    faces = [1] * len(one) + [2] * len(other)
-    found = asked(np.concatenate([one, other]), f'every(nearest("1", "2", {grain}, {margin}, ""))', faces=faces)
-    places = middles_over(upper, np.linspace(-1, 1, fine + 1))
-    check_zone(found, places, lower.distance(places), margin, grain)
 
 
 SHAPES = {
@@ -328,78 +226,51 @@ SHAPES = {
 }
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_pieces_nearest_to_an_obstacle(shape):
-    """Against distances from its shape, outside and inside; a smaller margin asks for a closer look at the outline."""
-    surface, grain, margin = UPPER[1], 2 / 16 * 1.1, 0.02
-    pieces = surface.pieces(np.linspace(-1, 1, 5))
-    found = asked(pieces, f'every(nearest("1", "", {grain}, {margin}, "{shape}"))', "finest + 0")
-    places = middles_over(surface, np.linspace(-1, 1, 17))
-    check_zone(found[:-1], places, SHAPES[shape](places), margin, grain)
-    assert found[-1] == 0 < asked(pieces, f'0 * nearest("1", "", {grain}, 0.001, "{shape}") + finest')[0]
-
-
-@pytest.mark.parametrize("components", [1, 2])
-def test_units_of_length(components):
-    """In other units all lengths are as many times greater, curvatures smaller, and as many pieces are found."""
-    pieces = UPPER[components - 1].pieces(np.linspace(-1, 1, 5))
-    plane = "plane 0 0 0 0 1 0" if components == 1 else "plane 0 0 0 0 0 1"
-    found = []
-    for unit in (1.0, 1e-3):
-        near, unsure = (f'nearest("1", "", {0.1 * unit}, {margin * unit}, "{plane}")' for margin in (0.03, 0.001))
-        bend = "curvature(1)" if components == 1 else "sharpest(1)"
-        found.append(abs(asked(unit * pieces, bend, "doubt(1)", near, "widest", f"0 * {unsure} + finest")))
-    assert (found[0] > 0).all()
-    assert found[1] == pytest.approx(found[0] * [1e3, 1e-3, 1, 1e-3, 1e-3], rel=1e-9)
-    if components == 1:  # the parabola's in the middle of the first piece, 0.85 from its vertex
-        assert found[0][0] == pytest.approx(0.6 / (1 + (0.6 * 0.85) ** 2) ** 1.5, rel=1e-9)
-
-
-@pytest.mark.parametrize("times", [1.0, 2.0, 6.0, 400.0])
-def test_how_much_closer(times):
-    """The error falls with the third power of the size: at the size asked for it is 0.15 of the margin; but that is at
-    most half as large, and at least a tenth."""
-    size, margin = 0.8, 0.01
-    piece = np.array([[[0, 0], [size, 0], [size / 2, 0]]])
-    (asks,) = asked(piece, f"unsure(1 + 0 * (doubt_[1] = {times * margin}) + 0 * (root[1] = 1), {margin}) + finest")
-    assert asks == pytest.approx(size * np.clip((0.15 / times) ** (1 / 3), 0.1, 0.5))
-
-
 # ---------------------------------------------------------------- what gmsh is told
 
-NO_MESH = """#!/bin/sh
-case $* in *msh22*) exit 1 ;; esac
-exec "{gmsh}" "$@"
-"""
+
+EMPTY = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n$EndPhysicalNames\n$EndElements\n"
 
 
-def told(folder, geo, case, space=0):
-    """Places (n, 3) that gmsh is told to mesh finely; places and both sizes of each closer look at the outline."""
-    (folder / "bin").mkdir(exist_ok=True)
-    (folder / "bin/gmsh").write_text(NO_MESH.format(gmsh=shutil.which("gmsh")))
-    (folder / "bin/gmsh").chmod(0o755)
-    (folder / "a.geo").write_text(geo)
-    (folder / "a.case").write_text(case)
-    words = [str(os.getpid()), folder / "a.geo", folder / "read", folder / "a.case", str(space), "solve", ""]
-    env = environment(PATH=f"{folder / 'bin'}:{os.environ['PATH']}", CONTACT_CACHE=str(folder / "cache"))
-    subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], env=env | {"LC_ALL": "C"})
-    closer, picked = [(folder / "read" / name).read_text() for name in ("closer.geo", "picked.geo")]
-    subprocess.run(["rm", "-r", folder / "read"], check=True)
-    places = [
-        np.array(re.findall(r"^Point.*= \{(\S+), (\S+), (\S+)\};", text, re.M), float) for text in (picked, closer)
-    ]
-    return *places, np.array(re.findall(r'F = Sprintf\("(\S+?)\+0\.25\*Max\(0,F%\.0f-(\S+)\)"', closer), float)
+@pytest.fixture
+def told(tmp_path, monkeypatch):
+    """A function of a geometry, a case and whether in space: places (n, 3) that gmsh is told to mesh finely; places and
+    size of each closer look at the outline."""
+    if find_spec("gmsh") is None:
+        (tmp_path / "gmsh.py").symlink_to("/usr/lib/python3/dist-packages/gmsh.py")
+        monkeypatch.syspath_prepend(tmp_path)
+    look = mesher.look
+
+    def recorded(gmsh, cad, space, closer=(), listed=False):
+        (tmp_path / "closer").write_text(json.dumps([(places.tolist(), size) for places, size in closer]))
+        return look(gmsh, cad, space, closer, listed)
+
+    def nothing(session, plan, mesh, surface):
+        mesh.write_text(EMPTY)
+
+    monkeypatch.setattr(mesher, "look", recorded)
+    monkeypatch.setattr(mesher.Session, "make", nothing)
+
+    def tell(geo, case, space=False):
+        file = tmp_path / "a.geo"
+        file.write_text(geo)
+        made = mesher.prepare(file, space, case, lambda groups, _: read_case(case, Where(space), groups), tmp_path)
+        sizes = json.loads(Path(made.plan).read_text())["sizes"]
+        places = [place for size in sizes for place in size.get("zone", ())]
+        return np.array(places), [(np.array(at), h) for at, h in json.loads((tmp_path / "closer").read_text())]
+
+    return tell
 
 
-def test_fine_along_all_of_a_contact(tmp_path):
+def test_fine_along_all_of_a_contact(told):
     """Two blocks that touch all over have fine places everywhere, also on both hands of 0."""
     h = 0.02
     geo = closed(1, [(-1, -1), (1, -1), (1, 0), (-1, 0)], "Line")
     geo += closed(2, [(-1, 0), (1, 0), (1, 1), (-1, 1)], "Line")
-    places, closer, _ = told(tmp_path, geo, f"size contact {h}\n{BODIES}pressure a 1\n")
+    places, looks = told(geo, f"size contact {h}\n{BODIES}pressure a 1\n")
     along = np.sort(places[abs(places[:, 1]) < 1e-9, 0])
     assert np.diff(along).max() < 3 * h and along[0] < -1 + 2 * h and along[-1] > 1 - 2 * h
-    assert len(closer) == 0  # straight curves are as their outline
+    assert len(looks) == 0  # straight curves are as their outline
 
 
 SPHERES = """
@@ -412,11 +283,11 @@ Physical Surface("a") = Abs(Boundary{{ Volume{{1}}; }}); Physical Surface("b") =
 """
 
 
-def test_where_spheres_are_nearest(tmp_path):
+def test_where_spheres_are_nearest(told):
     """All of the disc is fine where spheres are nearer than 0.05 h, and nothing beside it; it touches at the origin."""
     h, way = 0.03, np.array([2, 3, 6]) / 7
     geo = SPHERES.format(*-10 * way, *15.2 * way)
-    places, closer, looks = told(tmp_path, geo, f"size contact {h}\n{BODIES}pressure a 1\n", 1)
+    places, looks = told(geo, f"size contact {h}\n{BODIES}pressure a 1\n", True)
     radius = np.sqrt(0.1 * h / (1 / 10 + 1 / 15.2))
     assert np.linalg.norm(places, axis=1).max() == pytest.approx(radius, rel=0.1)
     side = np.cross(way, [1, 0, 0]) / np.linalg.norm(np.cross(way, [1, 0, 0]))
@@ -425,25 +296,28 @@ def test_where_spheres_are_nearest(tmp_path):
     off = np.linalg.norm(disc.reshape(-1, 1, 3) - places, axis=2).min(axis=1)
     assert off.max() < 2 * h, off.max() / h
     # one closer look is enough, and it is at the place
-    assert len(looks) == 1 and np.linalg.norm(closer, axis=1).min() < looks[0, 0]
+    ((closer, size),) = looks
+    assert np.linalg.norm(closer, axis=1).min() < size
 
 
-def test_closer_look(tmp_path):
-    """One is enough for ellipses: at places no farther apart than its size, which holds up to the next."""
+def test_closer_look(told):
+    """One is enough for ellipses: at places no farther apart than its size."""
     geo = closed(1, [(0, -2), (3, -2), (0, 0), (-3, -2), (0, -4)], "Ellipse")
     geo += closed(2, [(0, 5), (9, 5), (0, 10), (-9, 5), (0, 0)], "Ellipse")
-    _, closer, looks = told(tmp_path, geo, f"size contact 0.005\n{BODIES}pressure a 1\n")
-    ((size, held),) = looks
-    assert np.diff(np.sort(closer[:, 0])).max() < 0.8 * size and held == pytest.approx(2 * size)
+    _, looks = told(geo, f"size contact 0.005\n{BODIES}pressure a 1\n")
+    ((closer, size),) = looks
+    assert np.diff(np.sort(closer[:, 0])).max() < 0.8 * size
 
 
-def test_closer_look_at_teeth(tmp_path):
+def test_closer_look_at_teeth(told):
     """The sizes of the outline are bounded below: gmsh would not end."""
     pair = ROOT / "edp/examples/gear-pair/gear-pair"
-    *_, looks = told(tmp_path, pair.with_suffix(".geo").read_text(), pair.with_suffix(".case").read_text())
-    assert len(looks) == 1 and 0.1 < looks[0, 0] < 2
-    short = np.array([[[0, 0], [0.01, 0], [0.005, 0]]])
-    assert asked(short, "unsure(1 + 0 * (doubt_[1] = 1e300), 0.4) finest")[0] == 0.2
+    _, looks = told(pair.with_suffix(".geo").read_text(), pair.with_suffix(".case").read_text())
+    assert len(looks) == 1 and 0.1 < looks[0][1] < 2
+    short = Store({1: np.array([[[0, 0, 0], [0.01, 0, 0], [0.005, 0, 0]]])})
+    short.doubt[:] = 1e300
+    short.look(np.array([0]), np.array([0]), np.array([0]), 0.4, None)
+    assert short.finest == 0.2
 
 
 # ---------------------------------------------------------------- gaps

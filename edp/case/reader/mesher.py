@@ -476,7 +476,7 @@ def make(gmsh: Any, job: Job) -> Prepared:
         plan.options += SEWN
         session.open(plan.options)
     if not session.numbers(session.dimension):
-        nothing = f"no {'solid' if job.space else 'surface'} in it"
+        nothing = "no solid in it" if job.space else "no surface in it"
         raise GmshError(PLANE if job.space and not job.cad else nothing)
     made = Prepared(session.groups(), version=version(gmsh), finer=smaller(job.file))
     made.bodies = " ".join(map(str, session.numbers(session.dimension))) if job.cad else ""

@@ -161,8 +161,11 @@ def run(of: Problem) -> int:
         if of.case == "none":
             tell_faces(of)
             return 4
-        read_problem(of)
-        return 0
+        if Path(of.case).exists() and not Path(of.case).is_file():
+            why, code = f"-case {of.case}: a folder, a pipe or a device; allowed: a case file", 3
+        else:
+            read_problem(of)
+            return 0
     except Refusal as refusal:
         why, code = refusal.text(of.case), 3
     except (GmshError, MeshRefusal) as error:
