@@ -370,6 +370,8 @@ def test_changes_in_later_phases():
     assert [of for of, _ in found] == [3, 2, 2, 3]
     assert [values.get("value") for _, values in found] == [7, None, None, 0]
     assert [vector(values, "drive.by") for _, values in found[1:3]] == [[0, -0.3, 0], [0, 0, 0]]
+    # a statement that changes another is no load and no obstacle itself: it has no words, only numbers
+    assert [list(values) for _, values in found[:2]] == [["value"], ["drive.by.x", "drive.by.y", "drive.by.z"]]
 
 
 VALUES = """

@@ -88,7 +88,12 @@ def table(case: Case, groups: Sequence[Group] = (), split: Mapping[int, int] | N
             place[id(s)] = len(rows)
             word = s.word if changes < 0 else "change"
             density = dense.get(s.on, 0.0) if isinstance(s, g.Spin) else 0.0
-            put(word, s.line, [group for _, group in s.groups()], changes, values(s, case.where, density))
+            found = values(s, case.where, density)
+            if changes >= 0:  # only what it changes
+                found = [(name, value) for name, value in found if isinstance(value, float)]
+                if isinstance(s, (g.Obstacle, g.ObstacleMove)):
+                    found = [(name, value) for name, value in found if name.startswith("drive.")]
+            put(word, s.line, [group for _, group in s.groups()], changes, found)
     for gravity in case.of(g.Gravity):
         for group, found in weights(gravity, dense, used):
             put("weight", gravity.line, [group], -1, found)
