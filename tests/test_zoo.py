@@ -250,6 +250,54 @@ def test_files_that_are_none(tmp_path, cad):
     assert code == 1 and why == "-set: it has no numbers to be set; allowed: with a .geo file"
 
 
+TWO = "body low E 1 nu 0\nbody high E 1 nu 0\nclamp foot\n"
+SAVED = (
+    'Physical Volume("low") = {1}; Physical Volume("high") = {2}; Physical Surface("foot") = {5}; Mesh.SaveAll = 1;\n'
+)
+ON_TOP = "obstacle lid plane 0 0 9 0 0 -1\n"
+
+
+@pytest.fixture(scope="module")
+def numbered(tmp_path_factory):
+    """A mesh with the numbers of its geometry."""
+    folder = tmp_path_factory.mktemp("numbered")
+    return gmsh(folder, "a.msh", BOXES + SAVED, "-3", "-format", "msh41", "-clmax", 1)
+
+
+@pytest.mark.parametrize(
+    "lines, areas",
+    [
+        ("group lid faces 12\njoin high low contact\n", {"lid": 4, "high-low": 4, "low-high": 16}),
+        ("group lid plane 0 0 3.01 0 0 1\ngroup a between high low\ngroup b faces 6\ncontact a b\n", {"a": 4, "b": 16}),
+        ("group lid near 2 2 9\n", {"lid": 4}),
+    ],
+)
+def test_groups_of_a_mesh(tmp_path, numbered, lines, areas):
+    """A case picks on a mesh by numbers and between bodies if it has those of a geometry, by place in any case."""
+    code, why, found, _ = readable(tmp_path, numbered, TWO + lines + ON_TOP)
+    assert code == 0, why
+    assert found == pytest.approx({"foot": 16, "lid": 4, **areas})
+
+
+@pytest.mark.parametrize(
+    "lines, said",
+    [
+        (
+            "join low high part\n",
+            "line 4: join low high part: a mesh cannot be joined; allowed: with a geometry, or join",
+        ),
+        ("join low high tie\n", "line 4: join low high tie: they touch nowhere, there is a gap between them"),
+        ("size low 1\n", "line 4: sizes need a geometry; allowed: with a .geo, .step, .iges or .brep file"),
+        ("group a faces 33\npressure a 1\n", "line 4: 33: no such number of faces; allowed: 1 2 3"),
+        ("cut a low plane 0 0 1.1 0 0 1\npreload a 1\n", 'cut "a" of the case file, line 4: the plane goes through'),
+    ],
+)
+def test_meshes_refused(tmp_path, numbered, lines, said):
+    case = TWO + lines + "group lid plane 0 0 3.01 0 0 1\n" + ON_TOP
+    code, why, *_ = readable(tmp_path, numbered, case)
+    assert code == (1 if "cut" in lines else 3) and said in why
+
+
 def test_numbers_of_a_geometry(tmp_path):
     """-set NAME value is a number of a .geo file, another name refused with those that there are."""
     geo = ROOT / "edp/examples/roller/roller.geo"
