@@ -24,7 +24,7 @@ Words = dict[str, str]  # the arguments by their names
 def ask_modules(of: Words) -> int:
     """Writes which Python this is, how many macros the second start of FreeFEM has, and these, a line each.
 
-    A case that cannot be read yet is no fault here.
+    A case that cannot be read yet is no fault here. Exit code 2: no room for the answer, which a line says.
     """
     from .case import read_open
     from .groups import Where
@@ -39,14 +39,21 @@ def ask_modules(of: Words) -> int:
         axis="-axis" in flags,
         check=of["check"] == "1",
     )
+    code = 0
     try:
         asked = modules(needs(*read_open(text_of(of["case"]), Where(space=run.space))), run)
+        macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
+        lines = [sys.executable, str(len(macros)), *macros]
     except Refusal as refusal:
-        Path(of["to"]).write_text(refusal.text(of["case"]) + "\n", errors="surrogateescape")
-        return 1
-    macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
-    Path(of["to"]).write_text("\n".join([sys.executable, str(len(macros)), *macros]) + "\n")
-    return 0
+        code, lines = 1, [refusal.text(of["case"])]
+    try:
+        Path(of["to"]).write_text("\n".join(lines) + "\n", errors="surrogateescape")
+    except OSError:
+        where = Path(of["to"]).parent
+        allowed = "another folder, named by the variable TMPDIR"
+        print(f"-case {of['case']}: cannot be checked: {where} cannot be written; allowed: {allowed}")
+        return 2
+    return code
 
 
 def ask_problem(of: Words) -> int:
