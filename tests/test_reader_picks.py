@@ -16,7 +16,7 @@ from reader.geometry import Outline
 from reader.gmsh_process import GmshError
 from reader.near import PARTS, Shape, Store, first_of_cell
 from reader.picks import Picks
-from test_reader_geometry import box, curve
+from test_reader_geometry import AT, TURN, box, closed, curve, solid
 from test_sizes import LOWER, SEARCHED, SHAPES, UPPER, bent, middles_over
 
 BODIES = "body low E 1 nu 0\nbody high E 1 nu 0\n"
@@ -85,6 +85,28 @@ def test_picked(pick, face):
 ])  # fmt: skip
 def test_not_picked(pick, said):
     assert refused(f"group up {pick}\ngroup down faces 12\n{CONTACT}").startswith(f"line 7: {said}")
+
+
+def test_on_a_cylinder():
+    """Faces about an axis, at a radius, whatever the length of the axis; a geometry has no elements."""
+    made = solid(closed(5.0))
+    at, way = (" ".join(f"{x:.17g}" for x in v) for v in (AT, 3 * TURN[:, 2]))
+    body = "body low E 1 nu 0\ngroup ends faces 4\nclamp ends\nobstacle wall plane 0 0 99 0 0 -1\n"
+
+    def on(pick):
+        found = picks(f"{body}group wall {pick}\n", made, bodies="1")
+        found.choose()
+        return found.members[2, "wall"]
+
+    assert on(f"cylinder {at} {way} R 5") == [1, 2, 3]
+    for pick, said in (
+        (f"cylinder {at} {way} R 4.99", "wall: cylinder: no face lies there"),
+        (f"cylinder {at} 1 0 0 R 5", "wall: cylinder: no face lies there"),
+        ("elements 4 side 2", "elements: a geometry has none yet"),
+    ):
+        with pytest.raises(Refusal) as refusal:
+            on(pick)
+        assert str(refusal.value).startswith(said)
 
 
 def test_bodies_picked():
