@@ -1,6 +1,8 @@
 """The Makefile as a user meets it. Nothing is installed here: set-up counts as done (-o)."""
 
+import shutil
 import subprocess
+import sys
 
 import pytest
 from freefem import ROOT, environment, execute, tree
@@ -59,7 +61,9 @@ QUICK = "edp/scenes/confined-block.edp -h 5 -estimate 0"
 def test_results_are_targets(package):
     """A result shall be made once, again when a source is newer, and not at all while it is current."""
     target = "results/figures/paper/summary.json"
-    words = [f"case.paper={QUICK}", target]
+    shutil.copytree(ROOT / "postprocess", package / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
+    (package / "postprocess" / "figures.toml").write_text(f'[figures.runs]\npaper = "{QUICK}"\n')
+    words = f"PYTHON={sys.executable}", target
     code, stdout = make(package, *words)
     assert code == 0, stdout
     made = (package / target).stat().st_mtime_ns
@@ -68,6 +72,12 @@ def test_results_are_targets(package):
     (package / "edp" / "laws" / "power.idp").touch()
     make(package, *words)
     assert (package / target).stat().st_mtime_ns > made
+
+
+def test_length():
+    """The Makefile shall be read in one go: at most 220 lines, none above 130 characters."""
+    lines = (ROOT / "Makefile").read_text().splitlines()
+    assert len(lines) <= 220 and max(map(len, lines)) <= 130
 
 
 def test_clean(package):
