@@ -572,7 +572,7 @@ def test_usages():
     assert usage("film", plane) == "film NAME h T"
     assert usage("body", plane) == "body NAME E number nu number [yield number] [density number]"
     assert usage("conduct", space) == "conduct BODY k [expand alpha [from T]]"
-    assert usage("move", space) == "move NAME x y z" and usage("move", plane) == "move NAME x y"
+    assert usage("move", space).startswith("move NAME x y z, or *") and usage("clamp", plane) == "clamp NAME [x] [y]"
     assert usage("spring", space) == "spring NAME kx ky kz" and usage("spring", plane) == "spring NAME kx ky"
     assert usage("expand", plane) == "expand NAME alpha dT, two numbers"
     assert usage("obstacle", space).endswith("sphere x y z R r, cylinder x y z dx dy dz R r")
