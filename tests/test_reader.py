@@ -296,7 +296,9 @@ def test_supports_along_axes():
         {"by.x": 0, "by.y": 3, "by.z": 0},
         {"by.x": 2, "by.y": 0, "by.z": 0},
     ]
-    assert "move right: other components than in line 7; allowed: those of that line" in refused(f"{first}move right 1 2")
+    assert "move right: other components than in line 7; allowed: those of that line" in refused(
+        f"{first}move right 1 2"
+    )
     assert "in line 4: move right 0 *" in refused(f"{GOOD}leg 1\nleg 1\nmove right 1 *")
     assert "move of left in leg 2: stated before, in line 9; allowed: once" in refused(f"{first}move left * 4")
 

@@ -41,7 +41,11 @@ def test_bars(tmp_path, turned):
         "pulled": ([("left", 0, None), ("bottom", None, 0), ("right", 0.03, None)], (0.01, -0.01 * ASIDE), (0, 0)),
         "both": ([("bottom", None, 0), ("bottom", 0.1, None)], (0, 0), (0.1, 0)),
         "pressed": ([("left", 0, None), ("bottom", None, 0)], (-0.0273, 0.0273 * ASIDE), (0, 0)),
-        "driven": ([("left", 0, None), ("bottom", None, 0.02), ("right", -0.06, None)], (-0.02, 0.02 * ASIDE), (0, 0.02)),
+        "driven": (
+            [("left", 0, None), ("bottom", None, 0.02), ("right", -0.06, None)],
+            (-0.02, 0.02 * ASIDE),
+            (0, 0.02),
+        ),
     }
     text = {name: STEEL + "".join(held(*line, turned) for line in bar[0]) + PLANE for name, bar in bars.items()}
     text["pressed"] += "pressure right 3\n"
@@ -59,7 +63,9 @@ def test_cube_between_planes_along_no_axis(tmp_path):
     """In space, moved along an axis between two symmetries along no axis: nodes of both have turned dofs."""
     case = STEEL + "symmetry back\nsymmetry left\nclamp bottom z\nmove top * * -0.02\n"
     matrix = turn(0.5)
-    result, _ = bodies(tmp_path, cube(Mesh()).text(matrix), case + "obstacle front sphere 100 100 100 R 1\n", space=True)
+    result, _ = bodies(
+        tmp_path, cube(Mesh()).text(matrix), case + "obstacle front sphere 100 100 100 R 1\n", space=True
+    )
     assert strained(result, "block", matrix @ np.diag([0.006, 0.006, -0.02]) @ matrix.T) < 1e-9
     assert result["balance"] < 1e-11
 
@@ -82,7 +88,7 @@ def test_free_motions(tmp_path):
 
 DISAGREEING = """
 clamp bottom y / move right 0.1 0.2 | clamp bottom y: line 3 moves its node at (3, 0) elsewhere; allowed: the same
-move bottom * 0.2 / clamp right | move bottom y: line 3 moves its node at (3, 0) elsewhere; allowed: the same motion there
+move bottom * 0.2 / clamp right | move bottom y: line 3 moves its node at (3, 0) elsewhere; allowed: the same
 clamp bottom y / move right * 0.2 | move right y: line 2 moves its node at (3, 0) elsewhere; allowed: the same motion
 symmetry bottom / move right * 0.2 | symmetry bottom: line 3 moves its node at (3, 0) across it; allowed: along it
 clamp bottom y / force right 1 2 | force right: it touches the clamp bottom y of line 2, across which it cannot follow

@@ -369,10 +369,10 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
             )
     loaded = {s.groups()[0][1]: s for s in case.statements if s.load() and (s.changes is None or s.loads)}
     for group, load in loaded.items():
-        holding = rules.held.get(group, [])
-        by = next((s for s in holding if s.word != "force"), None)
-        if by and set("xyz"[: where.dimension]).issubset(set().union(*(s.axes() for s in holding))):
-            nothing = f"{group}: a {load.load()} on what line {by.line} holds ({by.word}) does nothing"
+        holding = [by for by in rules.held.get(group, []) if by.word != "force"]
+        if set("xyz"[: where.dimension]).issubset(axis for by in holding for axis in by.axes()):
+            line, word = holding[0].line, holding[0].word
+            nothing = f"{group}: a {load.load()} on what line {line} holds ({word}) does nothing"
             yield Refusal(f"{nothing}; allowed: on another group", load.line)
     preloads = case.on(g.Preload)
     for group, cut in case.on(g.Cut).items():
