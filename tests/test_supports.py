@@ -12,7 +12,7 @@ STACK = 'body block E 100 nu 0.3\nbody upper E 100 nu 0.3\ncontact top "upper bo
 
 def supports(run):
     """The forces of the supports by their names, and what prescribed motions need."""
-    forces = {row["name"]: row["force"] for row in run.summary["supports"]}
+    forces = {row["name"]: np.array(row["force"]) for row in run.summary["supports"]}
     return forces, {row["name"]: row["force"] for row in run.summary["prescribed"]}
 
 
@@ -160,6 +160,22 @@ def test_roller_is_no_mirror(tmp_path):
     assert [run.summary["prescribed"][0]["times"] for run in (half, whole)] == [2, 1]
     errors = [run.summary["prescribed"][0]["error"] for run in (half, whole)]
     assert errors[1] == pytest.approx(errors[0], rel=0.1)
+
+
+def test_squeezed_between_two_rollers(tmp_path):
+    """A block that nothing lets widen: each side carries what it does in uniaxial strain, also the one that is moved."""
+    case = STEEL + "clamp bottom y\nclamp right x\nmove left 0.03 *\nobstacle top plane 0 2 0 -1\n"
+    forces, needed = supports(solve(tmp_path, block(Mesh()).text(), case, "-tol", 1e-10))
+    stress = 100 * 0.7 / (1.3 * 0.4) * 0.01
+    assert needed == {"move left x": pytest.approx(2 * stress, rel=1e-6)}
+    assert forces["clamp right x"] == pytest.approx([-2 * stress, 0], rel=1e-6)
+    assert forces["clamp bottom y"] == pytest.approx([0, 3 * stress * ASIDE], rel=1e-6)
+    # under a disc the contact does not tell it
+    forces, needed = supports(
+        solve(tmp_path, block(Mesh()).text(), case.replace("plane 0 2 0 -1", "circle 0.7 4.95 R 3"))
+    )
+    assert abs(forces["clamp right x"] + forces["move left x"])[0] > 1e-3
+    assert needed["move left x"] == pytest.approx(forces["move left x"][0], rel=1e-6)
 
 
 UNDER_A_DISC = STEEL + "move bottom * {}\nmove left {} *\nobstacle top circle 0.7 5 R 3\n"
