@@ -163,7 +163,7 @@ def test_roller_is_no_mirror(tmp_path):
 
 
 def test_squeezed_between_two_rollers(tmp_path):
-    """A block that nothing lets widen: each side carries what it does in uniaxial strain, also the one that is moved."""
+    """A block that nothing lets widen: each side carries what it does in uniaxial strain, also the moved one."""
     case = STEEL + "clamp bottom y\nclamp right x\nmove left 0.03 *\nobstacle top plane 0 2 0 -1\n"
     forces, needed = supports(solve(tmp_path, block(Mesh()).text(), case, "-tol", 1e-10))
     stress = 100 * 0.7 / (1.3 * 0.4) * 0.01
