@@ -50,6 +50,13 @@ CASES = {
         RUBS + 'symmetry "upper sides"\nleg 1\npressure "upper top" 1\nleg 2\npressure "upper top" 3\n',
         ["-order", 1],
     ),
+    # supports along the axes, which are those of no side
+    "rollers": (
+        2,
+        STACK.replace("clamp bottom", "symmetry bottom\nclamp left x\nclamp back y")
+        + 'clamp "upper left" y\nmove "upper back" 0.01 * *\nmove "upper top" * * -0.02\n',
+        ["-order", 1],
+    ),
     "heated": (2, RUBS + f'expand upper 1e-3 1\nmove "upper top" {PRESS}\n', ["-order", 1]),
     "series": (2, MOVED, ["-order", 1, "-history", 1, "-steps", 2, "-estimate", 0]),
     "exact": (3, MOVED, ["-order", 1, "-distance", "exact", "-estimate", 0]),

@@ -254,6 +254,55 @@ def test_first_load_phase():
     read(f"{LEGS}force left 0 0 free\n")
 
 
+ALONG_AXES = """
+clamp left z | z: more than the statement takes; allowed: clamp NAME [x] [y], as clamp base
+clamp left x x | x: stated before in this line; allowed: once
+clamp left xy | xy: more than the statement takes
+clamp left x / clamp left x | line 5: left: clamp after clamp along x in line 4; allowed: only one of clamp
+clamp left x / move left 1 * | line 5: left: move after clamp along x in line 4
+clamp left x / move left 1 2 | line 5: left: move after clamp along x in line 4
+clamp left / move left * 2 | line 5: left: move after clamp along y in line 4
+move left * 1 / clamp left y x | line 5: left: clamp after move along y in line 4
+clamp left x / symmetry left | line 5: left: symmetry after clamp along x in line 4
+clamp left x / rotate left 0 0 1 | line 5: left: rotate after clamp along x in line 4
+clamp left x / force left 0 1 | line 5: left: force after clamp along x in line 4
+move left * * | every component is free; allowed: move NAME x y, or * for a component that is left free, as move grip
+move left 1 | the move is missing after 1
+move left 1 * * | *: move has 3 numbers, more than the 2 components there are
+clamp left y 1 | 1: more than the statement takes
+move left * 1 2 | 2: move has 3 numbers, more than the 2 components there are
+traction left * 1 | *: the traction is no number
+clamp left y / move left 1 * / pressure left 1 | line 6: left: a pressure on what line 4 holds (clamp) does nothing
+clamp left x / contact left right | line 5: left: a slave that line 4 holds (clamp); allowed: the other surface
+roller left | did you mean clamp (no displacement, or none along axes)? allowed
+"""
+
+
+@pytest.mark.parametrize("lines, words", [line.split(" | ") for line in ALONG_AXES.strip().splitlines()])
+def test_supports_along_axes_are_refused(lines, words):
+    assert words in refused(GOOD + lines.replace(" / ", "\n"))
+
+
+def test_supports_along_axes():
+    """Of one group each component once; loads act on what is free; later phases change the same components."""
+    case = read(f"{GOOD}clamp left y\nmove left 1 *\nmove right * 2\npressure right 3\nspring right 1 0")
+    assert [s.only for s in (*case.of(g.Clamp), *case.of(g.Move))] == ["", "y", "x", "y"]
+    case = read(f"{GOOD_SPACE}clamp left z x\nmove left * 2 *\nmove right 1 * 3\nclamp right y", space=True)
+    assert [s.only for s in (*case.of(g.Clamp), *case.of(g.Move))] == ["", "xz", "y", "y", "xz"]
+    first = f"{GOOD}leg 1\nmove left 0 *\nmove left * 1\nmove right * 0\nleg 2\nmove left * 3\nmove left 2 *\n"
+    case = read(first)
+    assert [s.changes.line for s in case.statements if s.changes] == [6, 5]
+    assert [values for word, *_, values in said(case) if word == "change"] == [
+        {"by.x": 0, "by.y": 3, "by.z": 0},
+        {"by.x": 2, "by.y": 0, "by.z": 0},
+    ]
+    assert "move right: other components than in line 7; allowed: those of that line" in refused(
+        f"{first}move right 1 2"
+    )
+    assert "in line 4: move right 0 *" in refused(f"{GOOD}leg 1\nleg 1\nmove right 1 *")
+    assert "move of left in leg 2: stated before, in line 9; allowed: once" in refused(f"{first}move left * 4")
+
+
 SCRIPTS = [
     ({"friction": ""}, "contact left right friction 0.1", "friction: read by parts.edp and parts-3d.edp alone"),
     ({"friction": ""}, "leg 3", "leg: read by parts.edp and parts-3d.edp alone"),
@@ -376,6 +425,11 @@ def test_changes_in_later_phases():
 
 VALUES = """
 move left 1 2 | move 4 0 | by 1 2 0
+move left * 2 | move 4 0 | by 0 2 0; only y
+move left 1 * | move 4 0 | by 1 0 0; only x
+clamp left | clamp 4 0 |
+clamp left y | clamp 4 0 | only y
+clamp left y x | clamp 4 0 |
 rotate left 1 2 3 | rotate 4 0 | centre 1 2 0; axis 0 0 1; angle 3
 force left 1 2 | force 4 0 | resultant 1 2 0
 force left 1 2 free at 3 4 | force 4 0 | resultant 1 2 0; how free; how.at 3 4 0
@@ -572,7 +626,7 @@ def test_usages():
     assert usage("film", plane) == "film NAME h T"
     assert usage("body", plane) == "body NAME E number nu number [yield number] [density number]"
     assert usage("conduct", space) == "conduct BODY k [expand alpha [from T]]"
-    assert usage("move", space) == "move NAME x y z" and usage("move", plane) == "move NAME x y"
+    assert usage("move", space).startswith("move NAME x y z, or *") and usage("clamp", plane) == "clamp NAME [x] [y]"
     assert usage("spring", space) == "spring NAME kx ky kz" and usage("spring", plane) == "spring NAME kx ky"
     assert usage("expand", plane) == "expand NAME alpha dT, two numbers"
     assert usage("obstacle", space).endswith("sphere x y z R r, cylinder x y z dx dy dz R r")

@@ -58,6 +58,9 @@ def refusals():
     cases += [(f"state axisymmetric\n{GOOD}{line}", {}) for line, _ in test_reader.AXISYMMETRIC]
     cases += [(f"{legs}leg 4\nleg 4\n" + lines.replace(" / ", "\n"), {}) for lines, _ in test_reader.PHASES]
     cases += [(GOOD + line, where) for where, line, _ in test_reader.SCRIPTS]
+    along_axes = [line.split(" | ")[0].replace(" / ", "\n") for line in test_reader.ALONG_AXES.strip().splitlines()]
+    cases += [(GOOD + lines, {}) for lines in along_axes]
+    cases += [(f"{legs}leg 1\nmove right 0 *\nleg 1\nmove right 1 1", {})]
     cases += [(case, {"friction": "", "wear": False, "plastic": False}) for case, _ in test_parts.REFUSED]
     cases += [
         (GOOD + line, {}) for line in ('clamp le"ft"', "clamp \x07", "about a.b 0 0", "contact left right law table")

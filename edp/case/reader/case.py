@@ -16,7 +16,10 @@ from .groups import KINDS, Group, Groups, Where
 from .words import Line, Refusal, spells_number, split_case, split_line
 
 MOST = 1000  # statements
-ONLY_ONE = "only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group"
+ONLY_ONE = (
+    "only one of clamp, symmetry, move, rotate, force and a moment that is rigid or about a point for a group, "
+    "or clamp and move along different axes"
+)
 LATER = "move, rotate, pressure, traction, weight, a free force or moment, an obstacle's move"
 WITHOUT_SHAPE = "move force law friction wear".split()
 S = TypeVar("S", bound=Statement)
@@ -70,7 +73,7 @@ class Rules:
 
     case: Case
     stated: dict[object, Statement] = field(default_factory=dict)  # by key: the first
-    held: dict[Group, Statement] = field(default_factory=dict)
+    held: dict[Group, list[Statement]] = field(default_factory=dict)
     gap_way: dict[object, tuple[bool, int]] = field(default_factory=dict)  # of each slave: vertical, and the line
     first_leg: int = 0
     rows: int = 0
@@ -153,18 +156,25 @@ class Rules:
             )
 
     def hold(self, s: Statement) -> None:
-        """A boundary is held in one way."""
+        """A boundary is held in one way, or along each axis in one."""
         word, group = s.word, s.groups()[0][1]
         if self.case.where.phase > 1:
             self.no(s, f"{group}: a rigid group's {word} in two legs; allowed there: a {word} that is free")
-        if before := self.held.get(group):
-            self.not_twice(s, f"{word} {group}", before, before.word == word)
-            self.no(s, f"{group}: {word} after {before.word} in line {before.line}; allowed: {ONLY_ONE}")
-        self.held[group] = self.stated[s.key()] = s
+        for before in self.held.get(group, []):
+            if both := s.axes() & before.axes():
+                along = f" along {min(both)}" if len(both) < 3 else ""
+                self.not_twice(s, f"{word} {group}", before, before.word == word)
+                self.no(s, f"{group}: {word} after {before.word}{along} in line {before.line}; allowed: {ONLY_ONE}")
+        self.held.setdefault(group, []).append(s)
+        self.stated[s.key()] = s
 
     def change(self, s: Statement, key: object) -> None:
         """In later load phases: what was stated before, as a total reached in this one."""
         phase, start = self.case.where.phase, f"{s.words[0]} {s.words[1]}"
+        holding = self.held.get(s.groups()[0][1], []) if isinstance(s, g.Move) and key not in self.stated else []
+        for other in holding:
+            if s.axes() & other.axes():
+                self.no(s, f"{start}: other components than in line {other.line}; allowed: those of that line")
         if key not in self.stated:
             self.no(
                 s,
@@ -352,16 +362,17 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
     slaves = {s.groups()[0][1]: s for s in touching}
     for group, s in slaves.items():
         if group in rules.held:
-            by = rules.held[group]
+            by = rules.held[group][0]
             yield Refusal(
                 f"{group}: a slave that line {by.line} holds ({by.word}); allowed: the other surface as slave",
                 s.line,
             )
     loaded = {s.groups()[0][1]: s for s in case.statements if s.load() and (s.changes is None or s.loads)}
     for group, load in loaded.items():
-        if group in rules.held and rules.held[group].word != "force":
-            by = rules.held[group]
-            nothing = f"{group}: a {load.load()} on what line {by.line} holds ({by.word}) does nothing"
+        holding = [by for by in rules.held.get(group, []) if by.word != "force"]
+        if set("xyz"[: where.dimension]).issubset(axis for by in holding for axis in by.axes()):
+            line, word = holding[0].line, holding[0].word
+            nothing = f"{group}: a {load.load()} on what line {line} holds ({word}) does nothing"
             yield Refusal(f"{nothing}; allowed: on another group", load.line)
     preloads = case.on(g.Preload)
     for group, cut in case.on(g.Cut).items():

@@ -125,6 +125,10 @@ class Statement(Part):
         """Whether it is the support of its group."""
         return self.support
 
+    def axes(self) -> set[str]:
+        """The components of the displacement that a support holds."""
+        return set("xyz")
+
     def load(self) -> str:
         """The word for it if it is a load on a boundary, which does nothing where that is held."""
         return self.loads
@@ -218,6 +222,7 @@ class Vector:
     what: str
     shown: str = "x y{| z}"
     nonzero: bool = False
+    free: str = ""  # a word for a component that is not given, which is 0 here
     counted: str = ""  # by this name it is refused if there are more numbers than components
     only: Condition = always  # where it is there; elsewhere it is `other`
     other: Vector3 = (0.0, 0.0, 1.0)
@@ -227,18 +232,20 @@ class Vector:
             return self.other
         size = reading.where.dimension
         if self.counted:
-            count = next(
-                (k for k, word in enumerate(reading.line.left) if not spells_number(word)), len(reading.line.left)
-            )
+            left = reading.line.left
+            count = next((k for k, word in enumerate(left) if not spells_number(word) and word != self.free), len(left))
             if count > size:
                 reading.no(
                     f"{reading.line.left[size]}: {self.counted} has {count} numbers, "
                     f"more than the {size} components there are"
                 )
-        values = [Number(self.what).read(reading) for _ in range(size)]
+        values = [0.0 if self.is_free(reading) else Number(self.what).read(reading) for _ in range(size)]
         if self.nonzero and not any(values):
             reading.no(f"{self.what} is 0 in every direction")
         return values[0], values[1], values[2] if size == 3 else 0.0
+
+    def is_free(self, reading: Reading) -> bool:
+        return bool(self.free) and reading.line.starts(self.free) and reading.line.next() == self.free
 
     def usage(self, where: Where) -> str:
         return shown(self.shown, where) if self.only(where) else ""

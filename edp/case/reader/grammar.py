@@ -424,23 +424,79 @@ class Join(Statement, word="join", example="join bolt plate contact", rest=True)
 # Supports
 
 
+@dataclass(frozen=True)
+class Axes:
+    """Axes in any order, each once, or none."""
+
+    def read(self, reading: Reading) -> str:
+        axes, found = "xyz"[: reading.where.dimension], ""
+        while reading.line.starts(*axes):
+            axis = reading.line.next()
+            if axis in found:
+                reading.line.no(f"{axis}: stated before in this line; allowed: once")
+            found += axis
+        return only_some(found, reading.where)
+
+    def usage(self, where: Where) -> str:
+        return shown("[x] [y]{| [z]}", where)
+
+
+def only_some(axes: str, where: Where) -> str:
+    """The axes along which a support holds, in their order; nothing if they are all there are."""
+    return "" if len(axes) == where.dimension else "".join(sorted(axes))
+
+
 class Clamp(Statement, word="clamp", example="clamp base", holds=True):
-    does = "no displacement"
-    synonyms = "fix fixed fixity encastre support anchor hold bc boundary"
+    """With axes, only the displacement along these is 0."""
+
+    does = "no displacement, or none along axes"
+    synonyms = "fix fixed fixity encastre support anchor hold bc boundary roller slider"
     on: Group = boundary()
+    only: str = custom(Axes())
+
+    def axes(self) -> set[str]:
+        return set(self.only or "xyz")
 
 
 class Symmetry(Statement, word="symmetry", example="symmetry left", holds=True):
-    does = "no displacement across a flat group"
-    synonyms = "roller slider"
+    does = "no displacement across a flat group, whose mirror image belongs to the model"
+    synonyms = "mirror"
     on: Group = boundary()
+
+
+@dataclass(frozen=True)
+class Numbered:
+    """Reads no word: the axes along which the vector before it has numbers."""
+
+    def read(self, reading: Reading) -> str:
+        axes = "xyz"[: reading.where.dimension]
+        words = reading.line.words[reading.line.read - len(axes) : reading.line.read]
+        found = "".join(axis for axis, word in zip(axes, words, strict=True) if word != "*")
+        if not found:
+            reading.no("every component is free")
+        return only_some(found, reading.where)
+
+    def usage(self, where: Where) -> str:
+        return ""
 
 
 class Move(Statement, word="move", example="move grip 0{| 0} -0.05", holds=True, in_legs=True):
+    """A component that is * is left free."""
+
+    once = "{s.word} of {s.on}{s.along}"
     does = "a displacement that is given"
     synonyms = "displacement disp displace"
+    note = ", or * for a component that is left free"
     on: Group = boundary()
-    by: Vector3 = vector("the move", counted="move")
+    by: Vector3 = vector("the move", counted="move", free="*")
+    only: str = custom(Numbered())
+
+    def axes(self) -> set[str]:
+        return set(self.only or "xyz")
+
+    @property
+    def along(self) -> str:
+        return f" along {' '.join(self.only)}" if self.only else ""
 
 
 class Rotate(Statement, word="rotate", example="rotate core 0 0{| 0 0 0 1} 0.01", holds=True, in_legs=True):
