@@ -66,7 +66,8 @@ class Part:
     refused: ClassVar[tuple[tuple[Condition, str], ...]] = ()
 
     def __init_subclass__(cls) -> None:
-        # methods made for each of sixty classes would double the reader's start
+        # methods and a docstring made for each of sixty classes would double the reader's start
+        cls.__doc__ = cls.__doc__ or cls.__name__
         dataclass(kw_only=True, init=False, repr=False, eq=False, match_args=False)(cls)
 
     def __init__(self, **values: Any) -> None:

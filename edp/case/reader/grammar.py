@@ -197,9 +197,11 @@ class SizedGroup:
         name = reading.need("a name")
         dimension = reading.where.dimension
         found = [Group(d, name) for d in (dimension, dimension - 1) if Group(d, name) in reading.groups.all]
-        if not found and name != "contact" and not reading.groups.any_name:
-            reading.line.no(reading.groups.why_not(dimension - 1, name, "size"))
-        return found[0] if found else None
+        if found or name == "contact":
+            return found[0] if found else None
+        if wrong := reading.groups.why_not(dimension - 1, name, "size"):
+            reading.line.no(wrong)
+        return Group(dimension - 1, name)
 
     def usage(self, where: Where) -> str:
         return "NAME"

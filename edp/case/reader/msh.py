@@ -14,6 +14,7 @@ from typing import NoReturn
 import numpy as np
 
 from .mesh import KINDS, Block, Floats, Ints, Mesh, refuse, rows_of
+from .names import named_in
 from .words import spells_number
 
 FORMAT = "not gmsh's version 2 text format"
@@ -119,21 +120,13 @@ def read_section(mesh: Mesh, section: Section, whole: bool) -> None:
             if not 2 <= float(version) < 3 or words[1:2] != ["0"]:
                 refuse(f"{FORMAT}: version {words[0]}, binary {' '.join(words[1:2])}")
     elif section.name == "PhysicalNames":
-        read_names(mesh, section)
+        mesh.names = named_in(section.text)
     elif section.name == "Nodes":
         read_nodes(mesh, section)
     else:
         read_elements(mesh, section)
     if whole and section.said != len(section.lines):
         refuse(f"${section.name} has {len(section.lines)} lines, and says {section.said}: cut off?")
-
-
-def read_names(mesh: Mesh, section: Section) -> None:
-    for row in section.text.decode(errors="surrogateescape").replace("\r", "").split("\n"):
-        words = row.split()
-        if len(words) > 1 and words[0].isdecimal() and words[1].isdecimal():
-            first, last = row.find('"'), row.rfind('"')
-            mesh.names[int(words[0]), int(words[1])] = row[first + 1 : last] if last > first else row[first + 1 :]
 
 
 def read_nodes(mesh: Mesh, section: Section) -> None:
