@@ -426,8 +426,7 @@ def perhaps(show: str, variants: Mapping[str, type[Part]], default: Callable[[],
 
 def kind_of(value: Any) -> Kind | None:
     if isinstance(value, dataclasses.Field):
-        found: Kind = value.metadata["kind"]
-        return found
+        return value.metadata["kind"]
     return None if value is None else PartOf(value)
 
 

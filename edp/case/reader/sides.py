@@ -27,12 +27,6 @@ ROUND = 1e-4  # of its radius: nodes so near to a cylinder lie on it
 DOUBT = 0.05  # of a side's size: how far flat sides may be off what they stand for
 
 
-def every(inside: Bools) -> Bools:
-    """By row whether all are."""
-    found: Bools = np.logical_and.reduce(inside, axis=1)
-    return found
-
-
 class Boundary:
     """The sides of one element only. of: their rows in `sides`; ends: their corners and the middles between them."""
 
@@ -50,7 +44,7 @@ class Boundary:
 
     def where(self, places_inside: Bools) -> list[Bools]:
         """Sides whose nodes are all inside."""
-        return [every(places_inside[side.nodes]) for side in self.sides]
+        return [np.logical_and.reduce(places_inside[side.nodes], axis=1) for side in self.sides]
 
     def ring(self, side: Side) -> tuple[Ints, Ints | None]:
         """The corners of a side, and the middles behind them."""
@@ -167,8 +161,7 @@ def no(s: g.PickedGroup, what: str) -> NoReturn:
 
 def in_box(x: Floats, pick: g.Box, near: float) -> Bools:
     low, high = np.minimum(pick.corner, pick.opposite), np.maximum(pick.corner, pick.opposite)
-    inside = (x > low - near) & (x < high + near)
-    return every(inside)
+    return np.logical_and.reduce((x > low - near) & (x < high + near), axis=1)
 
 
 def pick_sides(boundary: Boundary, s: g.PickedGroup, pick: object) -> list[Ints]:
@@ -202,7 +195,7 @@ def pick_body(boundary: Boundary, blocks: list[Block], s: g.PickedGroup, pick: o
     """The elements that a statement picks as a body: by block."""
     if isinstance(pick, g.Box):
         inside = in_box(boundary.mesh.places, pick, NEAR * boundary.diagonal)
-        return [every(inside[block.nodes]) for block in blocks]
+        return [np.logical_and.reduce(inside[block.nodes], axis=1) for block in blocks]
     if not isinstance(pick, g.Near):
         no(s, "a mesh has no numbers of bodies; allowed: box, near")
     begin = dict(zip(map(id, blocks), np.cumsum([0, *(len(b.nodes) for b in blocks)]).tolist(), strict=False))
