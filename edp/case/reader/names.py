@@ -11,7 +11,7 @@ from pathlib import Path
 
 from .groups import Group
 from .kept import KINDS, checksum, stands_alone, write_whole
-from .words import CONTROL
+from .words import CONTROL, whole_number
 
 EVERY_CURVE = "every curve of the geometry"
 HEAD = 1 << 20  # bytes of a mesh in which its names are looked for
@@ -32,7 +32,7 @@ def named_in(section: bytes) -> dict[tuple[int, int], str]:
     found = {}
     for row in section.decode(errors="surrogateescape").replace("\r", "").split("\n"):
         words = row.split()
-        if len(words) > 1 and words[0].isdecimal() and words[1].isdecimal():
+        if len(words) > 1 and min(map(whole_number, words[:2])) >= 0:
             first, last = row.find('"'), row.rfind('"')
             found[int(words[0]), int(words[1])] = row[first + 1 : last] if last > first else row[first + 1 :]
     return found
