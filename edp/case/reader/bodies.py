@@ -25,7 +25,7 @@ import numpy as np
 from . import grammar as g
 from .case import Case
 from .groups import Group
-from .mesh import Bools, Floats, Ints, Mesh, components, keys_of, refuse, table
+from .mesh import Bools, Floats, Ints, Mesh, components, keys_of, mixed, refuse, table
 from .simplices import cut_to_simplices
 from .words import brief
 
@@ -435,12 +435,11 @@ def middles_on(surface: Mesh, x: Floats, edges: Ints) -> tuple[Ints, Ints]:
 
 def same_places(x: Floats) -> Ints:
     """By row the first one that is the same to the last digit."""
-    both = x + 0.0  # no -0
-    order = np.lexsort((np.arange(len(both)), *both.T))
-    new = np.append(True, (both[order[1:]] != both[order[:-1]]).any(axis=1))
-    row = np.empty(len(both), np.int64)
-    row[order] = order[np.flatnonzero(new)[np.cumsum(new) - 1]]
-    return row
+    key = np.zeros(len(x), np.int64)
+    for component in (x + 0.0).T:  # no -0
+        key = mixed(key ^ component.view(np.int64))
+    _, first, same = np.unique(key, return_index=True, return_inverse=True)
+    return first[same]
 
 
 class Cuts:

@@ -176,9 +176,7 @@ class Number:
     whole: bool = False
     prefix: str = ""  # a word that may stand before it
     only: Condition = always  # where it is there; elsewhere it is 0
-    unit: str = (
-        ""  # its dimension: length, pressure, force, temperature, time, power and their products; "" for a pure number
-    )
+    unit: str = ""  # its dimension in length, pressure, force, temperature, time, power; "" for a pure number
 
     def read(self, reading: Reading) -> float:
         if not self.only(reading.where):
@@ -250,7 +248,7 @@ class GroupName:
     """A group of the mesh: of its bodies, or of their boundaries."""
 
     bodies: bool
-    shown: str
+    shown: str = ""
 
     def read(self, reading: Reading) -> Group:
         name = reading.need("a name")
@@ -261,7 +259,7 @@ class GroupName:
         return Group(dimension, name)
 
     def usage(self, where: Where) -> str:
-        return self.shown
+        return self.shown or ("BODY" if self.bodies else "NAME")
 
 
 @dataclass(frozen=True)
@@ -380,24 +378,13 @@ def custom(kind: Kind) -> Any:
     return field(metadata={"kind": kind})
 
 
-def number(what: str, show: str = "number", **bounds: Any) -> Any:
-    return custom(Number(what, show, **bounds))
+def field_of(kind: Callable[..., Kind], *first: Any) -> Callable[..., Any]:
+    """What declares a field of this kind, and takes the kind's own arguments."""
+    return lambda *given, **more: custom(kind(*first, *given, **more))
 
 
-def vector(what: str, show: str = "x y{| z}", **more: Any) -> Any:
-    return custom(Vector(what, show, **more))
-
-
-def boundary(show: str = "NAME") -> Any:
-    return custom(GroupName(False, show))
-
-
-def body(show: str = "BODY") -> Any:
-    return custom(GroupName(True, show))
-
-
-def word(show: str, what: str = "a name", **more: Any) -> Any:
-    return custom(Word(show, what, **more))
+number, vector, word = field_of(Number), field_of(Vector), field_of(Word)
+boundary, body = field_of(GroupName, False), field_of(GroupName, True)
 
 
 def keyword(text: str, value: Any = None) -> Any:
