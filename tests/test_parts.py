@@ -248,7 +248,7 @@ def test_refused_before_anything_is_written(plane):
         (["-case", "a.case"], "-mesh none: a mesh is needed"),
         (["-mesh", plane / "block.msh"], "-case none: a case file is needed"),
         (["-mesh", plane / "block.msh", "-case", "b.case"], "-case b.case: no such file"),
-        (["-mesh", plane / "block.msh", "-case", plane / "a.case", "-law", "power"], "line 4: lfet: "),  # the case first
+        (["-mesh", plane / "block.msh", "-case", plane / "a.case", "-law", "power"], "line 4: lfet: "),
         (["-mesh", plane / "block.msh", "-case", plane / "good.case", "-law", "power"], "-law: "),
     ):
         code, stdout = execute([*FREEFEM, "edp/parts.edp", *flags])
