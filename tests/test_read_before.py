@@ -154,6 +154,10 @@ def test_refused_before_the_mesh(tmp_path):
     assert "clmp: unknown statement; did you mean clamp" in ask(CASE + "clmp grip\n")[1]
     case.write_text(CASE)
     read(tmp_path, tmp_path / "cache")
+    assert ask(wrong)[0] == 0  # a geometry without names is refused as a whole
+    geo.write_text(BOXES + 'Physical Surface("side") = {1};\n')
+    case.write_text(CASE)
+    read(tmp_path, tmp_path / "cache")
     code, said = ask(wrong)
     assert code == 1 and "nothing: no physical surface of the mesh; allowed: " in said
     assert ask(CASE)[0] == 0

@@ -69,7 +69,8 @@ def names_of(file: Path, space: bool, sets: object, cache: Path) -> tuple[list[G
             text = place_of_names(file, space, sets, cache).read_text(encoding="utf-8")
             bodies, *lines = text.split("\n")
             parts = (line.partition(" ") for line in lines)
-            return [Group(int(dimension), name) for dimension, _, name in parts], bodies
+            groups = [Group(int(dimension), name) for dimension, _, name in parts]
+            return groups if groups or bodies else None, bodies  # without both it is refused as a whole
     except (OSError, ValueError):
         pass
     return None, ""
