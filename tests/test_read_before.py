@@ -5,8 +5,10 @@ import subprocess
 
 import pytest
 from freefem import ROOT
-from reader.groups import Group
+from reader.groups import Group, Where
 from reader.names import names_of
+from reader.problem import Problem, run
+from test_reader_fuzz import INP, PLANE
 from test_zoo import BOXES, NAMED, PICKED
 
 CASE = PICKED + NAMED.format("0")
@@ -134,6 +136,16 @@ def test_names_of_a_mesh(tmp_path):
     assert names_of(mesh, True, [], tmp_path) == ([Group(1, "curve"), Group(2, "two words"), Group(3, "a")], "")
     mesh.write_text(mesh.read_text().replace("3 1", "2 1"))
     assert names_of(mesh, True, [], tmp_path) == (None, "")  # a plane mesh: refused as a whole
+
+
+def test_names_of_a_deck(tmp_path):
+    """The sets of a deck are known once it has been read, also for a case that was refused."""
+    (tmp_path / "a.inp").write_text(INP)
+    (tmp_path / "a.case").write_text(PLANE.replace("bottom", "botom"))
+    problem = Problem(tmp_path / "a.inp", str(tmp_path / "a.case"), tmp_path, Where(), [], cache=tmp_path)
+    assert names_of(problem.file, False, [], tmp_path) == (None, "")
+    assert run(problem) == 3
+    assert names_of(problem.file, False, [], tmp_path) == ([Group(1, "top"), Group(1, "bottom"), Group(2, "block")], "")
 
 
 def test_refused_before_the_mesh(tmp_path):

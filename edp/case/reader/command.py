@@ -50,7 +50,8 @@ def ask_modules(of: Words) -> int:
     code = 0
     try:
         groups, bodies = names_of(Path(of["file"]), run.space, sets_of(of["sets"]), Path(of["cache"]))
-        case = read_case(text_of(of["case"]), Where(space=run.space, bodies=bodies), groups)
+        where = Where(space=run.space, bodies=bodies, overlap=of["file"].lower().endswith(".inp"))
+        case = read_case(text_of(of["case"]), where, groups)
         asked = modules(needs(case), run)
         macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
         lines = [sys.executable, str(len(macros)), *macros]
@@ -59,9 +60,9 @@ def ask_modules(of: Words) -> int:
     try:
         Path(of["to"]).write_text("\n".join(lines) + "\n", errors="surrogateescape")
     except OSError:
-        where = Path(of["to"]).parent
+        folder = Path(of["to"]).parent
         allowed = "another folder, named by the variable TMPDIR"
-        print(f"-case {of['case']}: cannot be checked: {where} cannot be written; allowed: {allowed}")
+        print(f"-case {of['case']}: cannot be checked: {folder} cannot be written; allowed: {allowed}")
         return 2
     return code
 

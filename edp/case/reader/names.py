@@ -1,7 +1,7 @@
 """The groups of a file, where they are known without numpy and gmsh's module: a refusal then waits for neither.
 
-A mesh in gmsh's version 2 text has its names near its beginning. For a geometry that reads no other file they are kept
-once gmsh has opened it.
+A mesh in gmsh's version 2 text has its names near its beginning. For a deck, and a geometry that reads no other file,
+they are kept once it has been read.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from .kept import KINDS, checksum, stands_alone, write_whole
 from .words import CONTROL, whole_number
 
 EVERY_CURVE = "every curve of the geometry"
+KEPT = {*KINDS, ".inp"}
 HEAD = 1 << 20  # bytes of a mesh in which its names are looked for
 
 
@@ -53,7 +54,7 @@ def place_of_names(file: Path, space: bool, sets: object, cache: Path) -> Path:
 
 
 def keep_names(file: Path, space: bool, sets: object, cache: Path, groups: list[Group], bodies: str) -> None:
-    """Keeps what a geometry has, with the numbers of a CAD file's bodies."""
+    """Keeps what a file has, with the numbers of a CAD file's bodies."""
     with suppress(OSError):
         cache.mkdir(parents=True, exist_ok=True)
     lines = [bodies, *(f"{group.dimension} {group.name}" for group in groups)]
@@ -65,7 +66,7 @@ def names_of(file: Path, space: bool, sets: object, cache: Path) -> tuple[list[G
     try:
         if is_text_of_gmsh(file):
             return of_mesh(file, space) or None, ""
-        if file.suffix.lower() in KINDS and stands_alone(file):
+        if file.suffix.lower() in KEPT and stands_alone(file):
             text = place_of_names(file, space, sets, cache).read_text(encoding="utf-8")
             bodies, *lines = text.split("\n")
             parts = (line.partition(" ") for line in lines)

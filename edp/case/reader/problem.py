@@ -24,7 +24,7 @@ from .kept import KINDS, write_whole
 from .mesh import Mesh, MeshRefusal, groups_of
 from .mesher import Prepared, Reader, Sets, check_file, convert, pick_on, prepare, refuse_surface
 from .msh import read_msh
-from .names import is_text_of_gmsh
+from .names import is_text_of_gmsh, keep_names
 from .sides import pick_on_mesh
 from .values import table
 from .words import Refusal, split_case, text_of
@@ -87,10 +87,12 @@ def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prep
     """A mesh with the groups that the case picks: by place, or by numbers of a geometry, which gmsh knows."""
     named = of.where.again or not GROUP.search(text)
     mesh, made = read_mesh(of, text, named), Prepared([], finer=FINER)
-    case = read(groups_of(mesh, of.where.space, named), "")
+    groups, deck = groups_of(mesh, of.where.space, named), of.file.suffix.lower() == ".inp"
+    if deck and of.cache:
+        keep_names(of.file, of.where.space, of.sets, of.cache, groups, "")
+    case = read(groups, "")
     if of.where.again:
         return mesh, case, made
-    deck = of.file.suffix.lower() == ".inp"
     refuse_shapes(case, deck)
     numbered = not deck and (case.has(g.Join) or any(isinstance(s.pick, NUMBERED) for s in case.of(g.PickedGroup)))
     if numbered or (of.check and not deck):
