@@ -239,6 +239,7 @@ def test_obstacle_in_a_later_phase(plane):
 def test_refused_before_anything_is_written(plane):
     """The exit code is 10, with -check too, and no folder is there."""
     (plane / "a.case").write_text(GOOD + "clamp lfet")
+    (plane / "good.case").write_text(GOOD)
     code, stdout = run_parts(plane, "block.msh", "a.case", "-check", 1)
     assert code == 10
     assert stdout.splitlines()[-1].startswith(f"-case {plane}/a.case, line 4: lfet: no physical curve")
@@ -247,7 +248,8 @@ def test_refused_before_anything_is_written(plane):
         (["-case", "a.case"], "-mesh none: a mesh is needed"),
         (["-mesh", plane / "block.msh"], "-case none: a case file is needed"),
         (["-mesh", plane / "block.msh", "-case", "b.case"], "-case b.case: no such file"),
-        (["-mesh", plane / "block.msh", "-case", plane / "a.case", "-law", "power"], "-law: "),
+        (["-mesh", plane / "block.msh", "-case", plane / "a.case", "-law", "power"], "line 4: lfet: "),
+        (["-mesh", plane / "block.msh", "-case", plane / "good.case", "-law", "power"], "-law: "),
     ):
         code, stdout = execute([*FREEFEM, "edp/parts.edp", *flags])
         assert code == 10 and said in stdout

@@ -5,6 +5,10 @@ import subprocess
 
 import pytest
 from freefem import ROOT
+from reader.groups import Group, Where
+from reader.names import names_of
+from reader.problem import Problem, run
+from test_reader_fuzz import INP, PLANE
 from test_zoo import BOXES, NAMED, PICKED
 
 CASE = PICKED + NAMED.format("0")
@@ -120,3 +124,52 @@ def test_not_alone(tmp_path):
     (tmp_path / "a.geo").write_text(BOXES)
     assert read(tmp_path, tmp_path / "cache", how="check") == before
     assert not kept(tmp_path / "cache")
+
+
+def test_names_of_a_mesh(tmp_path):
+    """The groups of a mesh are known without numpy, those of a geometry that was never opened are not."""
+    (tmp_path / "a.geo").write_text(BOXES)
+    assert names_of(tmp_path / "a.geo", True, [], tmp_path) == (None, "")
+    names = '1 7 "curve"\n2 3 "two words"\n3 1 "a"'
+    mesh = tmp_path / "a.msh"
+    mesh.write_text(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n{names}\n$EndPhysicalNames\n")
+    assert names_of(mesh, True, [], tmp_path) == ([Group(1, "curve"), Group(2, "two words"), Group(3, "a")], "")
+    mesh.write_text(mesh.read_text().replace("3 1", "2 1"))
+    assert names_of(mesh, True, [], tmp_path) == (None, "")  # a plane mesh: refused as a whole
+
+
+def test_names_of_a_deck(tmp_path):
+    """The sets of a deck are known once it has been read, also for a case that was refused."""
+    (tmp_path / "a.inp").write_text(INP)
+    (tmp_path / "a.case").write_text(PLANE.replace("bottom", "botom"))
+    problem = Problem(tmp_path / "a.inp", str(tmp_path / "a.case"), tmp_path, Where(), [], cache=tmp_path)
+    assert names_of(problem.file, False, [], tmp_path) == (None, "")
+    assert run(problem) == 3
+    assert names_of(problem.file, False, [], tmp_path) == ([Group(1, "top"), Group(1, "bottom"), Group(2, "block")], "")
+
+
+def test_refused_before_the_mesh(tmp_path):
+    """A wrong name, once the geometry was opened, and a wrong word at any time are refused by the first question."""
+    case, geo, answer = tmp_path / "a.case", tmp_path / "a.geo", tmp_path / "answer"
+    geo.write_text(BOXES)
+    given = ["0", "modules", f"to={answer}", f"file={geo}", f"case={case}"]
+    given += ["space=1", "own=1", "check=0", "flags=", "sets="]
+    environment = {**os.environ, "CONTACT_CACHE": str(tmp_path / "cache")}
+
+    def ask(text):
+        case.write_text(text)
+        code = subprocess.run(["sh", "edp/case/read.sh", *given], cwd=ROOT, env=environment).returncode
+        return code, answer.read_text()
+
+    wrong = CASE + "clamp nothing\n"
+    assert ask(wrong)[0] == 0 and ask(CASE)[0] == 0
+    assert "clmp: unknown statement; did you mean clamp" in ask(CASE + "clmp grip\n")[1]
+    case.write_text(CASE)
+    read(tmp_path, tmp_path / "cache")
+    assert ask(wrong)[0] == 0  # a geometry without names is refused as a whole
+    geo.write_text(BOXES + 'Physical Surface("side") = {1};\n')
+    case.write_text(CASE)
+    read(tmp_path, tmp_path / "cache")
+    code, said = ask(wrong)
+    assert code == 1 and "nothing: no physical surface of the mesh; allowed: " in said
+    assert ask(CASE)[0] == 0

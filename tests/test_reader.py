@@ -56,6 +56,18 @@ def vector(values, name):
     return [values[f"{name}.{axis}"] for axis in "xyz"]
 
 
+def test_before_the_mesh():
+    """Where the groups are not known, any name is one, and every other mistake is refused; `where` stays as it is."""
+    where = Where()
+    case = read_case(f"{LEGS.replace('bottom', 'anything')}size one 1\nsize other 2\nsize contact 3\n", where, None)
+    assert [str(s.on) for s in case.of(g.Clamp)] == ["anything"] and len(case.of(g.Size)) == 3
+    assert (where.phase, case.where.phase) == (0, 1)
+    for text in ("clmp top", "clamp", f"{GOOD}clamp bottom", f"{STEEL}clamp bottom", "body block E x nu 0.3"):
+        with pytest.raises(Refusal) as before:
+            read_case(text, Where(), None)
+        assert before.value.text("a.case") == refused(text)
+
+
 # ---------------------------------------------------------------- words
 
 

@@ -21,7 +21,5 @@ case $2 in /*) file=$2 ;; *) file=./$2 ;; esac
     done
     rm -rf "$folder"
 ) < /dev/null > /dev/null 2>&1 &
-cache=$(sh "${0%/*}/../case/cache.sh" "$run" "${0%/*}/../..")
-cache=${cache:+$cache/meshes}
 exec sh "${0%/*}/../case/read.sh" "$run" problem "file=$file" "case=$4" "folder=$folder" "space=$5" "as=${6-solve}" "sets=${7-}" \
-    "options=${8-}" "unlike=${9-}" "surface=${10-}" "cache=${cache:-${0%/*}/../../meshes/generated}"
+    "options=${8-}" "unlike=${9-}" "surface=${10-}"

@@ -7,6 +7,8 @@
 here=${0%/*}
 export CONTACT_RUN="$1"
 shift
+cache=$(sh "$here/cache.sh" "$CONTACT_RUN" "$here/../..")
+set -- "$@" "cache=${cache:-$here/../..}/meshes$(test -n "$cache" || echo /generated)"
 # -I: no module of the present folder takes the place of numpy
 test ! -x "$CONTACT_READER" || exec "$CONTACT_READER" -I "$here/read.py" "$@"
 for python in "$CONTACT_PYTHON" "${CONTACT_CACHE:+$CONTACT_CACHE/venv/bin/python}" "$here/../../.venv/bin/python" python3 /usr/bin/python3; do

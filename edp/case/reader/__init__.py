@@ -8,8 +8,8 @@ all together. Names are loaded when they are asked for: a run that finds its fil
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = False  # the module typing takes time to load
 if TYPE_CHECKING:
     from .case import Case, read_case
     from .groups import Group, Where
@@ -19,7 +19,7 @@ OF = {"Case": "case", "read_case": "case", "Group": "groups", "Where": "groups",
 __all__ = ["Case", "Group", "Refusal", "Where", "read_case"]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in OF:
         raise AttributeError(name)
     return getattr(import_module(f".{OF[name]}", __name__), name)

@@ -17,7 +17,7 @@ import numpy as np
 
 from .mesh import KINDS, Block, Floats, Ints, Mesh, MeshRefusal, Side, alone, rows_of, sides_of
 from .msh import all_numbers, words_of_lines
-from .words import spells_number
+from .words import spells_number, whole_number
 
 # a kind of element: gmsh's type, and its nodes in gmsh's order
 ORDER = {"C3D4": (4, "0 1 2 3"), "C3D10": (11, "0 1 2 3 4 5 6 7 9 8"), "C3D8": (5, "0 1 2 3 4 5 6 7")}
@@ -28,6 +28,7 @@ ORDER |= {"L2": (1, "0 1"), "L3": (8, "0 2 1")}
 SOLID = re.compile(r"(C3D(?:4|6|8|10|15|20))(?:R|I|H|RH|M|MH|T|IH|RT|HT|E)?")
 PLANE = re.compile(r"(?:CPE|CPS|CAX|M3D)(3|4|6|8|9)(?:R|I|H|RH|M|MH|T|RT)?")
 LINE = re.compile(r"T[23]D([23])")
+NONE = np.zeros(0, np.int64)
 NO_SOLID = {
     "S": "a shell",
     "B": "a beam",
@@ -89,9 +90,13 @@ class Deck:
     def names(self, kind: str) -> list[str]:
         return [name for of, name in self.sets if of == kind]
 
+    def named(self, kind: str, word: str) -> list[Ints]:
+        """What a word stands for: a number, or the pieces of a set."""
+        return [np.array([number])] if (number := whole_number(word)) >= 0 else self.sets.get((kind, word), [])
+
     def members(self, kind: str, name: str) -> Ints:
         pieces = self.sets.get((kind, name), [])
-        return np.unique(np.concatenate(pieces)) if pieces else np.zeros(0, np.int64)
+        return np.unique(np.concatenate(pieces)) if pieces else NONE
 
     def is_body(self, name: str) -> bool:
         members = self.members("ELSET", name)
@@ -147,16 +152,17 @@ class Keyword:
         else:
             rows = np.array([self.node(line, fields) for line, fields in self.rows()])
         rows = np.column_stack([rows, np.zeros((len(rows), 4 - rows.shape[1]))])
-        if (rows[:, 0] < 1).any() or (np.abs(rows) >= 1e150).any():
+        number = rows[:, 0]
+        if ((number < 1) | (number > 1e15) | (number % 1 > 0)).any() or (np.abs(rows) >= 1e150).any():
             for line, fields in self.rows():
                 self.node(line, fields)
         self.deck.nodes.append(np.column_stack([rows, lines + self.line]))
-        into.append(rows[:, 0].astype(np.int64))
+        into.append(number.astype(np.int64))
 
     def node(self, line: int, fields: list[str]) -> list[float]:
         """The number and the places of a line."""
         numbers = [word.upper().replace("D", "E") or "0" for word in fields[:4]]
-        if len(numbers) < 3 or not numbers[0].isdecimal() or int(numbers[0]) < 1:
+        if len(numbers) < 3 or whole_number(numbers[0]) < 1:
             self.no("no node: number and places; allowed: number, x, y, z", line)
         for word in numbers:
             if not spells_number(word) or abs(float(word)) >= 1e150:
@@ -194,7 +200,7 @@ class Keyword:
                 number, given = words[0], 0
             given += len(words)
             for text in words:
-                if not text.isdecimal():
+                if whole_number(text) < 0:
                     self.no(f"element {number}: a node that is missing: {text}; allowed: nodes above", line)
             if given > width:
                 self.no(f"element {number} has {given - 1} nodes, of the {width - 1} that {word} has", line)
@@ -205,7 +211,7 @@ class Keyword:
         into = self.new_set(kind, kind)
         if "GENERATE" in self.options:
             for line, fields in self.rows():
-                if not all(word.isdecimal() for word in fields if word) or len(fields) < 2:
+                if not all(whole_number(word) >= 0 for word in fields if word) or len(fields) < 2:
                     self.no(f"*{kind}: no range; allowed: from, to, step", line)
                 first, last, step = (int(word or 0) for word in [*fields, "", ""][:3])
                 if last - first > 1e8:
@@ -217,15 +223,14 @@ class Keyword:
             into.append(found.astype(np.int64))
             return
         for word in (word for _, fields in self.rows() for word in fields if word):
-            into.extend([np.array([int(word)])] if word.isdecimal() else self.deck.sets.get((kind, word), []))
+            into.extend(self.deck.named(kind, word))
 
     def read_surface(self) -> None:
         name = self.options.get("NAME", "")
         if self.options.get("TYPE", "").upper() == "NODE":
             into = self.new_set("NSET", "NAME")
             for _, fields in self.rows():
-                word = fields[0]
-                into.extend([np.array([int(word)])] if word.isdecimal() else self.deck.sets.get(("NSET", word), []))
+                into.extend(self.deck.named("NSET", fields[0]))
             return
         self.new_set("SURFACE", "NAME")
         for line, fields in self.rows():
@@ -311,7 +316,7 @@ def read_inp(path: Path, space: bool, wanted: Collection[str]) -> Mesh:
         for _, target, number in (one for one in deck.surfaces if one[0] == name):
             if not target.isdecimal() and ("ELSET", target) not in deck.sets:
                 raise MeshRefusal(f"*SURFACE {name}: no *ELSET {target}")
-            members = np.array([int(target)]) if target.isdecimal() else deck.members("ELSET", target)
+            members = np.concatenate([NONE, *deck.named("ELSET", target)])
             hit = 0
             for block in deck.bodies:
                 here = np.flatnonzero(np.isin(block.number, members))
@@ -386,7 +391,7 @@ def listing(path: Path, space: bool) -> str:
     for name in deck.names("SURFACE"):
         found = []
         for _, target, number in (one for one in deck.surfaces if one[0] == name):
-            members = np.array([int(target)]) if target.isdecimal() else deck.members("ELSET", target)
+            members = np.concatenate([NONE, *deck.named("ELSET", target)])
             for side in (side for side in sides if side.number == number):
                 found.append(side.nodes[np.isin(side.block.number, members)])
         row("surface", name, sum(len(part) for part in found), found)

@@ -25,7 +25,7 @@ import numpy as np
 from . import grammar as g
 from .case import Case
 from .groups import Group
-from .mesh import Bools, Floats, Ints, Mesh, components, keys_of, refuse, table
+from .mesh import Bools, Floats, Ints, Mesh, components, keys_of, mixed, refuse, table
 from .simplices import cut_to_simplices
 from .words import brief
 
@@ -100,10 +100,12 @@ def missing(of: Elements, used: Bools) -> tuple[Elements, Bools, Callable[[int],
     return of, used & (nodes < 0).any(axis=1), what
 
 
-def difference(x: Floats, a: Ints, b: Ints) -> Floats:
-    """By component the way from nodes a to nodes b."""
-    found: Floats = (x[b] - x[a]).T
-    return found
+def signed(x: Floats, corners: Ints) -> tuple[Floats, Floats]:
+    """Of triangles twice the area, of tetrahedra six times the volume, with a sign; and the square of their reach."""
+    edges = x[corners[:, 1:]] - x[corners[:, :1]]
+    across = np.cross(edges[:, 0], edges[:, 1])
+    size = across[:, 2] if corners.shape[1] == 3 else (across * edges[:, 2]).sum(axis=1)
+    return size, (edges**2).sum(axis=2).max(axis=1)
 
 
 class Bodies:
@@ -140,15 +142,7 @@ class Bodies:
         solids, sides, kind = self.solids, self.sides, self.body_kind
         every = "volume" if self.space else "surface"
         c = np.maximum(solids.corners, 0)
-        b, d = difference(self.x, c[:, 0], c[:, 1]), difference(self.x, c[:, 0], c[:, 2])
-        reach = np.maximum(b[0] * b[0] + b[1] * b[1] + b[2] * b[2], d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
-        if self.space:
-            e = difference(self.x, c[:, 0], c[:, 3])
-            reach = np.maximum(reach, e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
-            size = b[0] * (d[1] * e[2] - d[2] * e[1]) - b[1] * (d[0] * e[2] - d[2] * e[0])
-            size = size + b[2] * (d[0] * e[1] - d[1] * e[0])
-        else:
-            size = b[0] * d[1] - b[1] * d[0]
+        size, reach = signed(self.x, c)
         small = np.abs(size)
         flat = small <= 1e-10 * reach * (np.sqrt(reach) if self.space else 1)
         tiny = small * (1e18 / 6 if self.space else 0.5e12) < 1e-7
@@ -174,17 +168,6 @@ class Bodies:
         if not self.space and (high[2] > 1e-9 * self.size or low[2] < -1e-9 * self.size):
             refuse(f"z goes from {brief(low[2])} to {brief(high[2])}; a plane mesh has z = 0 everywhere")
 
-    def beside(self, side: Ints, v: Ints) -> Floats:
-        """On which side of a side's corners v lies."""
-        b, w = difference(self.x, side[:, 0], side[:, 1]), difference(self.x, side[:, 0], v)
-        found: Floats = b[0] * w[1] - b[1] * w[0]
-        if not self.space:
-            return found
-        c = difference(self.x, side[:, 0], side[:, 2])
-        sides = w[0] * (b[1] * c[2] - b[2] * c[1]) + w[1] * (b[2] * c[0] - b[0] * c[2])
-        found = sides + w[2] * (b[0] * c[1] - b[1] * c[0])
-        return found
-
     def join(self) -> None:
         """The sides of the elements: by place the first element that has it, and the corner of this that is across."""
         size = self.dim + 1
@@ -197,7 +180,8 @@ class Bodies:
         count = np.diff(begin, append=len(order))
         first = order[begin]
         second = order[begin[count > 1] + 1]
-        wrong = (self.beside(side[second], tip[first[count > 1]]) > 0) == (self.beside(side[second], tip[second]) > 0)
+        both = (signed(self.x, np.column_stack([side[second], tip[k]]))[0] > 0 for k in (first[count > 1], second))
+        wrong = np.equal(*both)
         found = [(int(k), int(j), 3) for k, j in zip(order[begin[count > 2] + 2], first[count > 2], strict=True)]
         found += [(int(k), int(j), 2) for k, j in zip(second[wrong], first[count > 1][wrong], strict=True)]
         if found:
@@ -369,8 +353,7 @@ class Bodies:
         """Whether the nodes in the middle of edges are off the straight line."""
         a, b = self.x[ends[..., 0]], self.x[ends[..., 1]]
         off = ((self.x[middle] - (a + b) / 2) ** 2)[..., : self.dim].sum(axis=-1)
-        found: Bools = off > 1e-16 * ((b - a) ** 2)[..., : self.dim].sum(axis=-1)
-        return found
+        return off > 1e-16 * ((b - a) ** 2)[..., : self.dim].sum(axis=-1)
 
     # ------------------------------------------------------------ rises, in space
 
@@ -452,12 +435,11 @@ def middles_on(surface: Mesh, x: Floats, edges: Ints) -> tuple[Ints, Ints]:
 
 def same_places(x: Floats) -> Ints:
     """By row the first one that is the same to the last digit."""
-    both = x + 0.0  # no -0
-    order = np.lexsort((np.arange(len(both)), *both.T))
-    new = np.append(True, (both[order[1:]] != both[order[:-1]]).any(axis=1))
-    row = np.empty(len(both), np.int64)
-    row[order] = order[np.flatnonzero(new)[np.cumsum(new) - 1]]
-    return row
+    key = np.zeros(len(x), np.int64)
+    for component in (x + 0.0).T:  # no -0
+        key = mixed(key ^ component.view(np.int64))
+    _, first, same = np.unique(key, return_index=True, return_inverse=True)
+    return first[same]
 
 
 class Cuts:

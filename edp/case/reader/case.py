@@ -1,19 +1,20 @@
 """A whole case: its statements in the order of the file, and the rules that hold between them.
 
-`read_case(text, where, groups)` reads a case file's text, with the groups of its mesh: a Case, or a Refusal is raised.
+`read_case(text, where, groups)` reads a case file's text, with the groups of its mesh if they are known: a Case, or a
+Refusal is raised.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import TypeVar
 
 from . import grammar as g
 from .fields import STATEMENTS, GroupName, Reading, Statement, read_statement, shown, usage_of
 from .groups import KINDS, Group, Groups, Where
-from .words import Line, Refusal, spells_number, split_case, split_line
+from .words import Line, Refusal, spells_number, split_case
 
 MOST = 1000  # statements
 ONLY_ONE = (
@@ -385,30 +386,14 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
         yield Refusal("thickness with state axisymmetric; allowed: with strain and stress", line)
 
 
-def read_open(text: str, where: Where) -> tuple[Case, set[str]]:
-    """What of a text can be read before its mesh is: any name is a group. Also the words of lines that cannot be."""
-    spoilt: set[str] = set()
-    lines: list[Line] = []
-    for number, one in enumerate(text.removeprefix("\ufeff").split("\n")):
-        try:
-            lines.append(split_line(number + 1, one, lambda word: ""))
-        except Refusal:
-            spoilt.update(one.split())
-    groups = Groups(where, (), any_name=True)
-    rules = Rules(Case(where, groups))
-    for line in lines:
-        try:
-            if line.words:
-                rules.read(line)
-        except Refusal:
-            spoilt.update(line.words)
-    return rules.case, spoilt
+def read_case(text: str, where: Where, of_mesh: Sequence[Group] | None) -> Case:
+    """The case of this text; raises a Refusal. `of_mesh`: the groups of its mesh, in their order.
 
-
-def read_case(text: str, where: Where, of_mesh: Sequence[Group]) -> Case:
-    """The case of this text; raises a Refusal. `of_mesh`: the groups of its mesh, in their order."""
+    None: they are not known yet; any name is a group then, and all other mistakes are refused.
+    """
+    where = replace(where)  # reading changes it
     lines = split_case(text, lambda word: usage_of(word, where))
-    groups = Groups(where, of_mesh)
+    groups = Groups(where, of_mesh or (), any_name=of_mesh is None)
     groups.look_ahead(lines)
     rules = Rules(Case(where, groups))
     for line in lines:

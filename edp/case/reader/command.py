@@ -1,7 +1,7 @@
 """What FreeFEM and the shell programs of the package ask of the reader: `main([COMMAND, NAME=VALUE, ...])`.
 
     ready    nothing: whether this Python can run it
-    modules  the macros of a case's second start  case= space= own= check= flags= to=
+    modules  the macros of a case's second start  file= case= space= sets= own= check= flags= to= cache=
     problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= cache=
     again    another mesh of a geometry           file= space= plan= view= to=
 
@@ -16,19 +16,27 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .kept import keep, place_of, take
-from .words import Refusal, text_of
 
 Words = dict[str, str]  # the arguments by their names
+
+
+def sets_of(text: str) -> list[tuple[str, float]]:
+    """The numbers of -set, each -setnumber NAME VALUE."""
+    words = text.split()
+    return [(name, float(value)) for name, value in zip(words[1::3], words[2::3], strict=True)]
 
 
 def ask_modules(of: Words) -> int:
     """Writes which Python this is, how many macros the second start of FreeFEM has, and these, a line each.
 
-    A case that cannot be read yet is no fault here. Exit code 2: no room for the answer, which a line says.
+    Where the groups of the mesh are not known yet, a wrong name is no fault here. Exit code 2: no room for the answer,
+    which a line says.
     """
-    from .case import read_open
+    from .case import read_case
     from .groups import Where
     from .modules import Run, modules, needs
+    from .names import names_of
+    from .words import Refusal, text_of
 
     flags = of["flags"].split("\n")
     run = Run(
@@ -41,7 +49,10 @@ def ask_modules(of: Words) -> int:
     )
     code = 0
     try:
-        asked = modules(needs(*read_open(text_of(of["case"]), Where(space=run.space))), run)
+        groups, bodies = names_of(Path(of["file"]), run.space, sets_of(of["sets"]), Path(of["cache"]))
+        where = Where(space=run.space, bodies=bodies, overlap=of["file"].lower().endswith(".inp"))
+        case = read_case(text_of(of["case"]), where, groups)
+        asked = modules(needs(case), run)
         macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
         lines = [sys.executable, str(len(macros)), *macros]
     except Refusal as refusal:
@@ -49,25 +60,25 @@ def ask_modules(of: Words) -> int:
     try:
         Path(of["to"]).write_text("\n".join(lines) + "\n", errors="surrogateescape")
     except OSError:
-        where = Path(of["to"]).parent
+        folder = Path(of["to"]).parent
         allowed = "another folder, named by the variable TMPDIR"
-        print(f"-case {of['case']}: cannot be checked: {where} cannot be written; allowed: {allowed}")
+        print(f"-case {of['case']}: cannot be checked: {folder} cannot be written; allowed: {allowed}")
         return 2
     return code
 
 
 def ask_problem(of: Words) -> int:
     """Reads mesh and case into the run's folder, or takes what a run before has kept of them."""
-    folder, cache = Path(of["folder"]), Path(of["cache"]) if of["cache"] else None
+    folder, cache = Path(of["folder"]), Path(of["cache"])
     alike = (of["space"], of["sets"], of["options"], of["unlike"])
-    place = place_of(Path(of["file"]), of["case"], cache, *alike) if cache and of["as"] == "solve" else None
+    place = place_of(Path(of["file"]), of["case"], cache, *alike) if of["as"] == "solve" else None
     if place and take(place, folder):
         return 0
     # modules that take time to load
     from .groups import Where
     from .problem import Problem, run
 
-    options, sets = of["options"].split(), of["sets"].split()
+    options, sets = of["options"].split(), sets_of(of["sets"])
     where = Where(
         space=of["space"] == "1",
         friction=(of["unlike"] or "1") if "friction" in options else "",
@@ -75,9 +86,8 @@ def ask_problem(of: Words) -> int:
         plastic="plastic" in options,
         again=of["as"] == "again",
     )
-    pairs = [(name, float(value)) for name, value in zip(sets[1::3], sets[2::3], strict=True)]
     check = of["as"] == "check"
-    code = run(Problem(Path(of["file"]), of["case"], folder, where, pairs, check, cache, of["surface"]))
+    code = run(Problem(Path(of["file"]), of["case"], folder, where, sets, check, cache, of["surface"]))
     if code == 0 and place:
         keep(folder, place)
     return code

@@ -66,7 +66,8 @@ class Part:
     refused: ClassVar[tuple[tuple[Condition, str], ...]] = ()
 
     def __init_subclass__(cls) -> None:
-        # methods made for each of sixty classes would double the reader's start
+        # methods and a docstring made for each of sixty classes would double the reader's start
+        cls.__doc__ = cls.__doc__ or cls.__name__
         dataclass(kw_only=True, init=False, repr=False, eq=False, match_args=False)(cls)
 
     def __init__(self, **values: Any) -> None:
@@ -179,9 +180,7 @@ class Number:
     whole: bool = False
     prefix: str = ""  # a word that may stand before it
     only: Condition = always  # where it is there; elsewhere it is 0
-    unit: str = (
-        ""  # its dimension: length, pressure, force, temperature, time, power and their products; "" for a pure number
-    )
+    unit: str = ""  # its dimension in length, pressure, force, temperature, time, power; "" for a pure number
 
     def read(self, reading: Reading) -> float:
         if not self.only(reading.where):
@@ -256,7 +255,7 @@ class GroupName:
     """A group of the mesh: of its bodies, or of their boundaries."""
 
     bodies: bool
-    shown: str
+    shown: str = ""
 
     def read(self, reading: Reading) -> Group:
         name = reading.need("a name")
@@ -267,7 +266,7 @@ class GroupName:
         return Group(dimension, name)
 
     def usage(self, where: Where) -> str:
-        return self.shown
+        return self.shown or ("BODY" if self.bodies else "NAME")
 
 
 @dataclass(frozen=True)
@@ -386,24 +385,13 @@ def custom(kind: Kind) -> Any:
     return field(metadata={"kind": kind})
 
 
-def number(what: str, show: str = "number", **bounds: Any) -> Any:
-    return custom(Number(what, show, **bounds))
+def field_of(kind: Callable[..., Kind], *first: Any) -> Callable[..., Any]:
+    """What declares a field of this kind, and takes the kind's own arguments."""
+    return lambda *given, **more: custom(kind(*first, *given, **more))
 
 
-def vector(what: str, show: str = "x y{| z}", **more: Any) -> Any:
-    return custom(Vector(what, show, **more))
-
-
-def boundary(show: str = "NAME") -> Any:
-    return custom(GroupName(False, show))
-
-
-def body(show: str = "BODY") -> Any:
-    return custom(GroupName(True, show))
-
-
-def word(show: str, what: str = "a name", **more: Any) -> Any:
-    return custom(Word(show, what, **more))
+number, vector, word = field_of(Number), field_of(Vector), field_of(Word)
+boundary, body = field_of(GroupName, False), field_of(GroupName, True)
 
 
 def keyword(text: str, value: Any = None) -> Any:
@@ -432,8 +420,7 @@ def perhaps(show: str, variants: Mapping[str, type[Part]], default: Callable[[],
 
 def kind_of(value: Any) -> Kind | None:
     if isinstance(value, dataclasses.Field):
-        found: Kind = value.metadata["kind"]
-        return found
+        return value.metadata["kind"]
     return None if value is None else PartOf(value)
 
 

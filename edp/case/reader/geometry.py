@@ -137,7 +137,26 @@ def look(
     return made
 
 
-# ---------------------------------------------------------------- areas of pieces of second order
+# ---------------------------------------------------------------- pieces of second order
+
+
+def with_middles(ends: Array) -> Array:
+    """Corners, and the middle between each and the next; of two corners the one middle."""
+    return np.vstack([ends, (ends + np.roll(ends, -1, axis=0))[: 1 if len(ends) == 2 else 3] / 2])
+
+
+def shapes(at: Array) -> Array:
+    """The shape functions of second order at places with these weights of corners."""
+    middles = 4 * at * np.roll(at, -1, axis=1)
+    return np.hstack([at * (2 * at - 1), middles[:, : 1 if at.shape[1] == 2 else 3]])
+
+
+# by the number of a piece's nodes: these by weights of corners, its parts by nodes, and as mixtures of its nodes its
+# parts' nodes and its middle
+NODES = {3: with_middles(np.eye(2)), 6: with_middles(np.eye(3))}
+QUARTERS = {3: ((0, 2), (2, 1)), 6: ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))}
+PARTS = {n: np.array([shapes(with_middles(at[list(part)])) for part in QUARTERS[n]]) for n, at in NODES.items()}
+MIDDLE = {3: shapes(np.full((1, 2), 1 / 2))[0], 6: shapes(np.full((1, 3), 1 / 3))[0]}
 
 
 def crosses(pieces: Array, weights: tuple[float, float, float]) -> Array:
@@ -166,8 +185,8 @@ def solid_angle(pieces: Array, centre: Array) -> float:
     """Of all pieces, each as four flat triangles, seen from a point (van Oosterom and Strackee, 1983)."""
     rays = pieces - centre
     total = 0.0
-    for corners in ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)):
-        a, b, c = (rays[:, k] for k in corners)
+    for part in QUARTERS[6]:
+        a, b, c = (rays[:, k] for k in part)
         la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
         det = np.abs(np.einsum("ij,ij->i", a, np.cross(b, c)))
         ab, bc, ca = (np.einsum("ij,ij->i", x, y) for x, y in ((a, b), (b, c), (c, a)))
@@ -250,8 +269,7 @@ def start_axis(pieces: Array) -> Array:
     units = normals / areas[:, None]
     middle = np.average(units, axis=0, weights=areas)
     moments = np.einsum("i,ij,ik->jk", areas / areas.sum(), units - middle, units - middle)
-    least: Array = np.linalg.eigh(moments)[1][:, 0]
-    return least
+    return np.linalg.eigh(moments)[1][:, 0]
 
 
 def face_of(made: Outline, number: int) -> Face:

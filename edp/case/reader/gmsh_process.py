@@ -78,8 +78,7 @@ def in_child(
     done, value = pickle.loads(answer)
     if not done:
         raise value
-    result: T = value
-    return result
+    return value
 
 
 def end_with(parent: int) -> None:

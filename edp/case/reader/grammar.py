@@ -35,7 +35,7 @@ from .fields import (
 )
 from .groups import Group, Where
 from .laws import NAMES, Law, LawKind, is_file
-from .words import Line, nearest
+from .words import Line, nearest, whole_number
 
 FILE_NAME = "[A-Za-z0-9_-]+"
 STRAIN = "allowed: state strain or axisymmetric"
@@ -107,7 +107,7 @@ class Numbers:
         if not numbers:
             reading.no(f"numbers are missing after {many}")
         for text in numbers:
-            if not (text.isascii() and text.isdigit()):
+            if not text.isascii() or whole_number(text) < 0:
                 allowed = "those of the mesh" if self.end else "those that -check 1 draws"
                 reading.line.no(f"{text}: not the number of one of the {many}; allowed: {allowed}")
         return tuple(int(reading.line.next()) for _ in numbers)
@@ -197,9 +197,11 @@ class SizedGroup:
         name = reading.need("a name")
         dimension = reading.where.dimension
         found = [Group(d, name) for d in (dimension, dimension - 1) if Group(d, name) in reading.groups.all]
-        if not found and name != "contact" and not reading.groups.any_name:
-            reading.line.no(reading.groups.why_not(dimension - 1, name, "size"))
-        return found[0] if found else None
+        if found or name == "contact":
+            return found[0] if found else None
+        if wrong := reading.groups.why_not(dimension - 1, name, "size"):
+            reading.line.no(wrong)
+        return Group(dimension - 1, name)
 
     def usage(self, where: Where) -> str:
         return "NAME"

@@ -6,29 +6,32 @@ neither numpy nor gmsh's module, so that a run that finds its files waits for no
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 import shutil
-from importlib.util import find_spec
+import sys
 from pathlib import Path
-
-from .words import text_of
 
 CAD = {".step", ".stp", ".brep", ".iges", ".igs"}
 KINDS = {".geo", *CAD}  # of geometries
-READS = re.compile("merge|include|shapefromfile|filename|systemcall|getenv|onelab", re.I)
 WHOLE = "whole"  # the file that says which others there are
-FILES = re.compile(r"(^|[ \t\"])(table|from)([ \t\"]|$)", re.M)  # what names a file in a case
+FILES = re.compile(rb"(^|[ \t\"])(table|from)([ \t\"]|$)", re.M)  # what names a file in a case
 
 
 def module_version() -> str:
     """Which gmsh module there is, without starting it."""
-    spec = find_spec("gmsh")
+    spec = next(filter(None, (finder.find_spec("gmsh", None) for finder in sys.meta_path)), None)
     if spec is None or spec.origin is None:
         return ""
     found = os.stat(spec.origin)
     return f"{spec.origin} {found.st_size} {found.st_mtime_ns}"
+
+
+def words_that_read() -> str:
+    """The words of a .geo file that read other files, as bodies/reads.sh has them: the only place that names them."""
+    found = re.search(r"geo \| opt\) words='(.*)'", (Path(__file__).parents[2] / "bodies/reads.sh").read_text())
+    assert found
+    return found[1]
 
 
 def stands_alone(file: Path) -> bool:
@@ -38,11 +41,14 @@ def stands_alone(file: Path) -> bool:
     if file.suffix.lower() != ".geo":
         return True
     lines = file.read_text(errors="replace").splitlines()
-    return not any(READS.search(re.sub(r"//.*", "", re.sub(r'"[^"]*"', " ", line))) for line in lines)
+    reads = re.compile(words_that_read(), re.I)
+    return not any(reads.search(re.sub(r"//.*", "", re.sub(r'"[^"]*"', " ", line))) for line in lines)
 
 
 def checksum(file: Path, *more: object) -> str:
     """Of a geometry, of all else that is made of it, of gmsh's module and of the reader itself."""
+    import hashlib  # takes time to load
+
     own = [repr([module_version(), *more]).encode(errors="surrogateescape"), file.read_bytes()]
     own += [source.read_bytes() for source in sorted(Path(__file__).parent.glob("*.py"))]
     return hashlib.blake2b(b"\0".join(own), digest_size=12).hexdigest()
@@ -53,7 +59,7 @@ def place_of(file: Path, case: str, cache: Path, *more: object) -> Path | None:
     try:
         if file.suffix.lower() not in KINDS or not Path(case).is_file() or not stands_alone(file):
             return None
-        text = text_of(case)
+        text = Path(case).read_bytes()
         return None if FILES.search(text) else cache / f"own-{checksum(file, text, case, *more)}"
     except (OSError, ValueError):
         return None
@@ -75,6 +81,18 @@ def take(place: Path, folder: Path) -> bool:
         for file in place.iterdir():
             shutil.copyfile(file, folder / file.name)
     except OSError:
+        return False
+    return True
+
+
+def write_whole(path: Path, text: str) -> bool:
+    """Writes a file that others may read meanwhile; whether there was room."""
+    part = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        part.write_text(text, encoding="utf-8", errors="surrogateescape")
+        part.replace(path)
+    except OSError:
+        part.unlink(missing_ok=True)
         return False
     return True
 

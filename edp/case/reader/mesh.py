@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .groups import Group
+from .names import EVERY_CURVE
 from .words import CONTROL, LONGEST
 
 Ints = npt.NDArray[np.int64]
@@ -122,9 +123,6 @@ class Mesh:
         tag = max((tag for d, tag in self.names if d == dimension), default=0) + 1
         self.names[dimension, tag] = name
         return tag
-
-
-EVERY_CURVE = "every curve of the geometry"
 
 
 def groups_of(mesh: Mesh, space: bool, some: bool = True) -> list[Group]:

@@ -28,14 +28,14 @@ from .case import Case
 from .geometry import TRIANGLE, Outline, distance_field, look, nodes_of
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
-from .kept import CAD, checksum, stands_alone
+from .kept import CAD, checksum, stands_alone, write_whole
+from .names import EVERY_CURVE, keep_names
 from .picks import Picks
 from .words import CONTROL, Refusal
 
 SEWN = ["-setnumber", "Geometry.OCCSewFaces", "1", "-setnumber", "Geometry.OCCMakeSolids", "1"]
 PLANE = "the mesh is plane, it has no volumes: use edp/parts.edp"
 NO_NAMES = "no physical groups: bodies and boundaries have no names"
-EVERY_CURVE = "every curve of the geometry"
 OTHER_MESH = (
     "another size of elements, another algorithm of gmsh's (Mesh.Algorithm), or closed surfaces, as a torus, split "
     "in the geometry"
@@ -188,18 +188,6 @@ def pick_on(
     if made.mesh and not whole(Path(made.mesh)):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), made.mesh)
     return made
-
-
-def write_whole(path: Path, text: str) -> bool:
-    """Writes a file that others may read meanwhile; whether there was room."""
-    part = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        part.write_text(text)
-        part.replace(path)
-    except OSError:
-        part.unlink(missing_ok=True)
-        return False
-    return True
 
 
 # ---------------------------------------------------------------- in the child
@@ -480,6 +468,8 @@ def make(gmsh: Any, job: Job) -> Prepared:
         raise GmshError(PLANE if job.space and not job.cad else nothing)
     made = Prepared(session.groups(), version=version(gmsh), finer=smaller(job.file))
     made.bodies = " ".join(map(str, session.numbers(session.dimension))) if job.cad else ""
+    if job.cache:
+        keep_names(job.file, job.space, job.sets, job.cache, made.groups, made.bodies)
     if job.text is None or job.read is None:
         where = Where(space=job.space)
         picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))

@@ -6,7 +6,6 @@ and options.
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from . import grammar as g
@@ -50,23 +49,17 @@ class Modules:
     options: list[str] = field(default_factory=list)
 
 
-def needs(case: Case, spoilt: Collection[str] = ()) -> Needs:
-    """What the statements need; `spoilt`: words of lines that cannot be read, whose refusal wants the same modules."""
-
-    def said(*words: str) -> bool:
-        return any(word in spoilt for word in words)
-
+def needs(case: Case) -> Needs:
     touching = case.touching
-    plastic = case.has(g.Plastic) or said("plastic")
+    plastic = case.has(g.Plastic)
     conducts = case.of(g.Conduct)
     pushed = [s for s in case.of(g.Force) if s.how]
     friction = plastic or case.has(g.Leg, g.Tie) or any(s.friction for s in touching)
-    friction = friction or said("friction", "leg", "tie")
     return Needs(
         friction=friction,
-        strains=case.has(g.Expand, g.Preload, g.Conduct) or said("expand", "preload", "conduct"),
-        heat=bool(conducts) or said("conduct"),
-        rotations=case.has(g.Rotate) or said("rotate"),
+        strains=case.has(g.Expand, g.Preload, g.Conduct),
+        heat=bool(conducts),
+        rotations=case.has(g.Rotate),
         stresses=plastic
         or case.has(g.Stresses, g.LineOut)
         or any(s.yield_stress for s in case.of(g.Body))
@@ -76,7 +69,7 @@ def needs(case: Case, spoilt: Collection[str] = ()) -> Needs:
         loads=case.has(g.Pressure, g.Traction, g.Weight, g.Gravity),
         forces=bool(pushed) or case.has(g.Moment, g.Spin, g.Spring),
         moments=friction or case.has(g.AboutPoint, g.Moment, g.Rotate),
-        wear=case.has(g.Cycles) or any(s.wear for s in touching) or said("wear", "cycles"),
+        wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
     )
 

@@ -14,7 +14,8 @@ from typing import NoReturn
 import numpy as np
 
 from .mesh import KINDS, Block, Floats, Ints, Mesh, refuse, rows_of
-from .words import spells_number
+from .names import named_in
+from .words import spells_number, whole_number
 
 FORMAT = "not gmsh's version 2 text format"
 READ = ("MeshFormat", "PhysicalNames", "Nodes", "Elements")
@@ -23,15 +24,19 @@ KNOWN = "allowed: points, lines, triangles, quadrangles, tetrahedra, bricks, pri
 
 
 def all_numbers(text: bytes, signs: bytes) -> Floats | None:
-    """All numbers of a text of digits, blanks and these signs; nothing if there is anything else."""
+    """All numbers of a text of digits, blanks and these signs; nothing if there is anything else.
+
+    Without a point they are numbers of nodes or elements, with 15 digits at most.
+    """
     if text.translate(None, b"0123456789 \t\r\n" + signs):
         return None
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            return np.fromstring(text, sep=" ") if text.strip() else np.zeros(0)
+            found = np.fromstring(text, sep=" ") if text.strip() else np.zeros(0)
         except (DeprecationWarning, ValueError):
             return None
+    return found if b"." in signs or not (np.abs(found) > 1e15).any() else None
 
 
 def words_of_lines(text: bytes) -> tuple[Ints, Ints]:
@@ -60,7 +65,7 @@ class Section:
         assert found is not None
         if not found[1].strip():
             self.said = -1  # cut off
-        elif not re.fullmatch(rb"[ \t]*[0-9]+[ \t\r]*", found[1]):
+        elif not re.fullmatch(rb"[ \t]*[0-9]{1,15}[ \t\r]*", found[1]):
             line = self.first + self.text.count(b"\n", 0, found.start(1))
             refuse(f"line {line}: the number of lines of ${self.name} is no number")
         else:
@@ -119,21 +124,13 @@ def read_section(mesh: Mesh, section: Section, whole: bool) -> None:
             if not 2 <= float(version) < 3 or words[1:2] != ["0"]:
                 refuse(f"{FORMAT}: version {words[0]}, binary {' '.join(words[1:2])}")
     elif section.name == "PhysicalNames":
-        read_names(mesh, section)
+        mesh.names = named_in(section.text)
     elif section.name == "Nodes":
         read_nodes(mesh, section)
     else:
         read_elements(mesh, section)
     if whole and section.said != len(section.lines):
         refuse(f"${section.name} has {len(section.lines)} lines, and says {section.said}: cut off?")
-
-
-def read_names(mesh: Mesh, section: Section) -> None:
-    for row in section.text.decode(errors="surrogateescape").replace("\r", "").split("\n"):
-        words = row.split()
-        if len(words) > 1 and words[0].isdecimal() and words[1].isdecimal():
-            first, last = row.find('"'), row.rfind('"')
-            mesh.names[int(words[0]), int(words[1])] = row[first + 1 : last] if last > first else row[first + 1 :]
 
 
 def read_nodes(mesh: Mesh, section: Section) -> None:
@@ -153,7 +150,7 @@ def read_nodes(mesh: Mesh, section: Section) -> None:
 def wrong_node(section: Section) -> NoReturn:
     for line, words in section.rows():
         number = words[0]
-        if not (number.isascii() and number.isdigit()) or int(number) < 1:
+        if not (number.isascii() and number.isdigit() and number.strip("0")):
             refuse(f"line {line}: the node {number}; node numbers start at 1")
         if len(words) != 4:
             refuse(f"node {number} (line {line}): {len(words) - 1} coordinates for 3")
@@ -190,10 +187,10 @@ def read_elements(mesh: Mesh, section: Section) -> None:
 def wrong_element(section: Section) -> NoReturn:
     for line, words in section.rows():
         head = f"element {words[0]} (line {line}): "
-        kind = KINDS.get(int(words[1])) if len(words) > 1 and words[1].isdecimal() else None
+        kind = KINDS.get(whole_number(words[1])) if len(words) > 1 else None
         if kind is None:
             refuse(f"{head}of gmsh's type {' '.join(words[1:2])}: {KNOWN}")
-        tags = int(words[2]) if len(words) > 2 and words[2].isdecimal() else -1
+        tags = whole_number(words[2]) if len(words) > 2 else -1
         if tags < 0 or len(words) != 3 + tags + kind.nodes:
             refuse(f"{head}{len(words)} numbers; cut off, or more than it should have?")
         for word in words[3 + tags :]:

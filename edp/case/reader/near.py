@@ -14,35 +14,12 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from .geometry import Array
+from .geometry import MIDDLE, PARTS, Array
 from .neighbours import bows, distances, normals
 
 Numbers = npt.NDArray[np.int64]
 PAIRS = 1_000_000  # at once
 MOST = 20_000  # pieces of a slave
-
-
-def weights(corners: Sequence[Sequence[int]], nodes: Array) -> Array:
-    """By part: its nodes as mixtures of the nodes of a piece; `nodes`: their weights of corners."""
-    parts = []
-    for ends in corners:
-        own = nodes[list(ends)]
-        at = np.vstack([own, (own + np.roll(own, -1, axis=0))[: len(nodes) - len(own)] / 2])
-        parts.append(shapes(at))
-    return np.array(parts)
-
-
-def shapes(at: Array) -> Array:
-    """The shape functions of second order at places with these weights of corners."""
-    ends = at * (2 * at - 1)
-    middles = 4 * at * np.roll(at, -1, axis=1)
-    return np.hstack([ends, middles[:, : 1 if at.shape[1] == 2 else 3]])
-
-
-CORNERS = {3: np.eye(2), 6: np.eye(3)}
-NODES = {n: np.vstack([c, (c + np.roll(c, -1, axis=0))[: n - len(c)] / 2]) for n, c in CORNERS.items()}
-PARTS = {3: weights(((0, 2), (2, 1)), NODES[3]), 6: weights(((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)), NODES[6])}
-MIDDLE = {n: shapes(c.mean(0)[None])[0] for n, c in CORNERS.items()}
 
 
 class Store:
@@ -75,8 +52,7 @@ class Store:
         """Which pieces are near the box of others."""
         nodes, reach = self.nodes[others].reshape(-1, 3), self.reach[pieces][:, None] + slack
         low, high = self.centre[pieces] - reach, self.centre[pieces] + reach
-        found: npt.NDArray[np.bool_] = ((high >= nodes.min(0)) & (low <= nodes.max(0))).all(axis=1)
-        return found
+        return ((high >= nodes.min(0)) & (low <= nodes.max(0))).all(axis=1)
 
     def split(self, pieces: Numbers) -> Numbers:
         """The four parts of each piece, in the plane two: (pieces, 4 or 2)."""
@@ -92,8 +68,7 @@ class Store:
             centre, reach, bow = self.balls(nodes)
             self.centre = np.concatenate([self.centre, centre])
             self.reach, self.bow = np.append(self.reach, reach), np.append(self.bow, bow)
-        first: Numbers = self.parts[pieces][:, None] + np.arange(len(mixed))
-        return first
+        return self.parts[pieces][:, None] + np.arange(len(mixed))
 
     def closest(self, places: Array, at: Numbers, of: Numbers, best: Array, flat: float) -> tuple[Array, Numbers]:
         """Least distances of places, below `best`, and the pieces of the outline there, or -1.
@@ -121,8 +96,7 @@ class Store:
         a, b, m = (self.nodes[:, k, :2] for k in range(3))
         chord, off = b - a, m - a
         square = (chord**2).sum(1)
-        found: Array = 8 * (chord[:, 0] * off[:, 1] - chord[:, 1] * off[:, 0]) / (square**1.5 + 1e-300)
-        return found
+        return 8 * (chord[:, 0] * off[:, 1] - chord[:, 1] * off[:, 0]) / (square**1.5 + 1e-300)
 
     def sharpest(self) -> Array:
         """In space: the greatest bend of each piece's face, by how far sides' middles are off the corners' planes."""
@@ -134,8 +108,7 @@ class Store:
         faces, index = np.unique(self.face, return_inverse=True)
         of_face = np.zeros(len(faces))
         np.maximum.at(of_face, index, most)
-        found: Array = of_face[index]
-        return found
+        return of_face[index]
 
     def doubts(self) -> Array:
         """How far a piece may be off its face, about four times too much.
@@ -164,8 +137,7 @@ class Store:
         """Which pieces are replaced by their parts: too large ones, but for small parts of what is in doubt."""
         root = self.root[pieces]
         vain = (self.doubt[root] > margin) & (self.reach[pieces] <= self.reach[root] / (4 if self.space else 16))
-        found: npt.NDArray[np.bool_] = (self.reach[pieces] > grain) & ~vain
-        return found
+        return (self.reach[pieces] > grain) & ~vain
 
     def surrounded(self, places: Array, around: Numbers) -> npt.NDArray[np.bool_]:
         """In the plane: do pieces surround places? By how often a ray along x meets them."""
@@ -183,15 +155,13 @@ class Store:
 
             def ahead(t: Array) -> npt.NDArray[np.bool_]:
                 at = x[..., 0] * (1 - t) * (1 - 2 * t) + x[..., 1] * t * (2 * t - 1) + 4 * x[..., 2] * t * (1 - t)
-                found: npt.NDArray[np.bool_] = at > places[:, None, 0]
-                return found
+                return at > places[:, None, 0]
 
             once = (v0 < 0) != (v1 < 0)
             middle = np.where(np.abs(t - 0.5) > np.abs(u - 0.5), u, t)
             both = (t > 0) & (t < 1) & (u > 0) & (u < 1)
             times = np.where(once, ahead(middle), np.where(both, ahead(t).astype(int) + ahead(u), 0))
-        odd: npt.NDArray[np.bool_] = np.where(clear | (square < 0), 0, times).sum(axis=1) % 2 == 1
-        return odd
+        return np.where(clear | (square < 0), 0, times).sum(axis=1) % 2 == 1
 
     def nearest(
         self, slave: Numbers, master: Numbers, grain: float, margin: float, shape: Shape | None, around: Numbers
@@ -261,8 +231,7 @@ class Store:
         if len(around):
             ask = far & (deep == 0)
             deep[ask] = np.where(self.surrounded(places[ask], around), 1, -1)
-        zone: Numbers = slave[~far | (deep == 1)]
-        return zone
+        return slave[~far | (deep == 1)]
 
     asks = True  # whether a closer outline may be asked for
 
@@ -298,8 +267,7 @@ class Shape:
         along = off @ self.way
         if self.radius:
             along = np.linalg.norm(off - along[:, None] * self.way, axis=1) - self.radius
-        found: Array = np.abs(along)
-        return found
+        return np.abs(along)
 
 
 def first_of_cell(places: Array, wide: float) -> Numbers:

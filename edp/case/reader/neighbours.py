@@ -10,11 +10,9 @@ from itertools import combinations
 
 import numpy as np
 
-from .geometry import Array, Face, Outline
+from .geometry import MIDDLE, PARTS, Array, Face, Outline
 
 Touching = dict[tuple[int, int], list[tuple[int, int]]]  # by two bodies: pairs of faces
-QUARTERS = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4), (2, 2, 2)]) / 6  # the middles of a triangle's four quarters
-HALVES = np.array([(3, 1), (1, 3)]) / 4
 
 
 def one_shape(f: Face, g: Face, near: float, diagonal: float) -> bool:
@@ -46,23 +44,15 @@ def opposite(f: Face, g: Face) -> bool:
 
 def parts_of(pieces: Array) -> Array:
     """The middles of the quarters of pieces, in the plane of their halves: (pieces, 4 or 2, 3)."""
-    if pieces.shape[1] == 3:
-        a, b = HALVES.T
-        weights = np.column_stack([a * (2 * a - 1), b * (2 * b - 1), 4 * a * b])
-    else:
-        a, b, c = QUARTERS.T
-        weights = np.column_stack([a * (2 * a - 1), b * (2 * b - 1), c * (2 * c - 1), 4 * a * b, 4 * b * c, 4 * c * a])
-    parts: Array = np.einsum("qn,pnk->pqk", weights, pieces)
-    return parts
+    return np.einsum("m,cmn,pnk->pck", MIDDLE[pieces.shape[1]], PARTS[pieces.shape[1]], pieces)
 
 
 def bows(pieces: Array) -> Array:
     """How far the sides of pieces are from straight."""
-    count = 3 if pieces.shape[1] == 6 else 1
-    middles = pieces[:, 3:] if count == 3 else pieces[:, 2:]
-    ends = np.stack([pieces[:, k] + pieces[:, (k + 1) % 3 if count == 3 else 1] for k in range(count)], axis=1) / 2
-    found: Array = np.linalg.norm(middles - ends, axis=2).max(axis=1)
-    return found
+    corners = 3 if pieces.shape[1] == 6 else 2
+    ends, middles = pieces[:, :corners], pieces[:, corners:]
+    straight = ((ends + np.roll(ends, -1, axis=1)) / 2)[:, : middles.shape[1]]
+    return np.linalg.norm(middles - straight, axis=2).max(axis=1)
 
 
 def normals(pieces: Array) -> Array:
@@ -70,15 +60,13 @@ def normals(pieces: Array) -> Array:
     a = pieces[:, 1] - pieces[:, 0]
     b = pieces[:, 2] - pieces[:, 0] if pieces.shape[1] == 6 else np.array([0.0, 0.0, 1.0])
     across = np.cross(a, b)
-    found: Array = across / (np.linalg.norm(across, axis=1)[:, None] + 1e-300)
-    return found
+    return across / (np.linalg.norm(across, axis=1)[:, None] + 1e-300)
 
 
 def to_segment(q: Array, a: Array) -> Array:
     """Distances from places q to segments from 0 to a."""
     t = np.clip((q * a).sum(-1) / ((a * a).sum(-1) + 1e-300), 0, 1)
-    found: Array = np.linalg.norm(q - t[..., None] * a, axis=-1)
-    return found
+    return np.linalg.norm(q - t[..., None] * a, axis=-1)
 
 
 def distances(places: Array, pieces: Array) -> Array:
@@ -100,8 +88,7 @@ def part_on(f: Array, g: Array, near: float) -> bool:
     """Whether a quarter of a piece of f, in the plane a half, lies on g."""
     low, high = g.reshape(-1, 3).min(0) - near, g.reshape(-1, 3).max(0) + near
     play_f, play_g, ways_f, ways_g = near + 1.2 * bows(f), near + 1.2 * bows(g), normals(f), normals(g)
-    parts = parts_of(f)
-    for k, places in enumerate(parts):
+    for k, places in enumerate(parts_of(f)):
         places = places[((places >= low) & (places <= high)).all(axis=1)]
         if len(places):
             alike = (ways_g @ ways_f[k]) ** 2 > 0.5

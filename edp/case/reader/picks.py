@@ -22,6 +22,7 @@ from .case import Case
 from .geometry import Array, Face, Outline, faces, table, triple
 from .near import PAIRS, Numbers, Shape, Store, first_of_cell
 from .neighbours import Touching, by_face, distances, normals, statements, touching
+from .sides import lies_in
 from .words import Refusal
 
 Wish = tuple[int, int, str, Any]  # a group: its line, dimension, name, and what it is picked by
@@ -165,17 +166,8 @@ class Picks:
         nodes = [self.made.pieces[face].reshape(-1, 3) for face in own if face in self.made.pieces]
         if not nodes:
             return False
-        at, size = np.concatenate(nodes), 1e-6 * self.diagonal
-        if isinstance(pick, g.Box):
-            ends = np.array([pick.corner, pick.opposite])[:, : self.dimension]
-            at = at[:, : self.dimension]
-            return bool((at > ends.min(0) - size).all() and (at < ends.max(0) + size).all())
-        if isinstance(pick, g.OnCylinder):
-            axis = np.array(pick.axis) / np.linalg.norm(pick.axis)
-            off = at - pick.point
-            return bool(np.abs(np.linalg.norm(off - np.outer(off @ axis, axis), axis=1) - pick.radius).max() < size)
-        normal = np.array(pick.normal) / np.linalg.norm(pick.normal)
-        return bool(np.abs((at - pick.point) @ normal).max() < size)
+        near = 1e-6 * self.diagonal
+        return bool(lies_in(np.concatenate(nodes), pick, near, near).all())
 
     def nearest(self, line: int, dimension: int, place: Array) -> list[int]:
         """What is nearest to a place; refused if another is as near, to what pieces leave of a curved surface."""

@@ -20,10 +20,11 @@ from .bodies import write_bodies
 from .case import Case, read_case
 from .gmsh_process import GmshError
 from .groups import Group, Where
-from .kept import KINDS
+from .kept import KINDS, write_whole
 from .mesh import Mesh, MeshRefusal, groups_of
-from .mesher import Prepared, Reader, Sets, check_file, convert, pick_on, prepare, refuse_surface, write_whole
+from .mesher import Prepared, Reader, Sets, check_file, convert, pick_on, prepare, refuse_surface
 from .msh import read_msh
+from .names import is_text_of_gmsh, keep_names
 from .sides import pick_on_mesh
 from .values import table
 from .words import Refusal, split_case, text_of
@@ -49,16 +50,6 @@ class Problem:
 
 def write(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8", errors="surrogateescape", newline="\n")
-
-
-def is_text_of_gmsh(file: Path) -> bool:
-    """Whether it is gmsh's version 2 text; a file that says nothing of its format is read as one, and refused there."""
-    if file.suffix.lower() != ".msh":
-        return False
-    with file.open("rb") as opened:
-        lines = opened.read(200).replace(b"\r", b"").split(b"\n")
-    words = lines[1].split() if lines[0].startswith(b"$MeshFormat") and len(lines) > 1 else []
-    return not words or not (words[0].startswith(b"4") or (words[0].startswith(b"2") and words[1:2] == [b"1"]))
 
 
 def words_of(text: str) -> set[str]:
@@ -96,10 +87,12 @@ def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prep
     """A mesh with the groups that the case picks: by place, or by numbers of a geometry, which gmsh knows."""
     named = of.where.again or not GROUP.search(text)
     mesh, made = read_mesh(of, text, named), Prepared([], finer=FINER)
-    case = read(groups_of(mesh, of.where.space, named), "")
+    groups, deck = groups_of(mesh, of.where.space, named), of.file.suffix.lower() == ".inp"
+    if deck and of.cache:
+        keep_names(of.file, of.where.space, of.sets, of.cache, groups, "")
+    case = read(groups, "")
     if of.where.again:
         return mesh, case, made
-    deck = of.file.suffix.lower() == ".inp"
     refuse_shapes(case, deck)
     numbered = not deck and (case.has(g.Join) or any(isinstance(s.pick, NUMBERED) for s in case.of(g.PickedGroup)))
     if numbered or (of.check and not deck):

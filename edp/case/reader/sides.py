@@ -27,12 +27,6 @@ ROUND = 1e-4  # of its radius: nodes so near to a cylinder lie on it
 DOUBT = 0.05  # of a side's size: how far flat sides may be off what they stand for
 
 
-def every(inside: Bools) -> Bools:
-    """By row whether all are."""
-    found: Bools = np.logical_and.reduce(inside, axis=1)
-    return found
-
-
 class Boundary:
     """The sides of one element only. of: their rows in `sides`; ends: their corners and the middles between them."""
 
@@ -50,7 +44,7 @@ class Boundary:
 
     def where(self, places_inside: Bools) -> list[Bools]:
         """Sides whose nodes are all inside."""
-        return [every(places_inside[side.nodes]) for side in self.sides]
+        return [np.logical_and.reduce(places_inside[side.nodes], axis=1) for side in self.sides]
 
     def ring(self, side: Side) -> tuple[Ints, Ints | None]:
         """The corners of a side, and the middles behind them."""
@@ -82,17 +76,11 @@ class Boundary:
         normal[outward] *= -1
         return normal
 
-    def on_cylinder(self, point: Vector3, axis: Vector3, radius: float) -> list[Bools]:
-        """Sides whose nodes lie on it, and which look along or against its radius."""
-        x = self.mesh.places - point
-        if self.space:
-            way = np.array(axis) / np.linalg.norm(axis)
-            x = x - (x @ way)[:, None] * way
-        inside = self.where(np.abs(np.linalg.norm(x, axis=1) - radius) < ROUND * radius)
-        for side, own in zip(self.sides, inside, strict=True):
-            normal, out = self.normals(side).mean(axis=1), x[self.ring(side)[0]].mean(axis=1)
-            own &= 2 * (normal * out).sum(axis=1) ** 2 > (normal**2).sum(axis=1) * (out**2).sum(axis=1)
-        return inside
+    def along_radius(self, side: Side, pick: g.OnCylinder) -> Bools:
+        """Which sides look along or against the radius of a cylinder."""
+        out = from_axis(self.mesh.places, pick)[self.ring(side)[0]].mean(axis=1)
+        normal = self.normals(side).mean(axis=1)
+        return 2 * (normal * out).sum(axis=1) ** 2 > (normal**2).sum(axis=1) * (out**2).sum(axis=1)
 
     def to_point(self, side: Side, rows: Ints, point: Vector3) -> tuple[Floats, Floats]:
         """The distances of sides from a point, by flat pieces between corners and middles; and the sides' sizes."""
@@ -165,23 +153,34 @@ def no(s: g.PickedGroup, what: str) -> NoReturn:
     raise Refusal(f"{s.name}: {what}", s.line)
 
 
-def in_box(x: Floats, pick: g.Box, near: float) -> Bools:
-    low, high = np.minimum(pick.corner, pick.opposite), np.maximum(pick.corner, pick.opposite)
-    inside = (x > low - near) & (x < high + near)
-    return every(inside)
+def from_axis(x: Floats, pick: g.OnCylinder) -> Floats:
+    """The ways from the axis of a cylinder to places."""
+    off, axis = x - pick.point, np.array(pick.axis) / np.linalg.norm(pick.axis)
+    return off - np.outer(off @ axis, axis)
+
+
+def lies_in(x: Floats, pick: g.Box | g.InPlane | g.OnCylinder, near: float, round_: float) -> Bools:
+    """Which places lie in a box, in a plane or on a cylinder: within `near`, on a cylinder within `round_`."""
+    match pick:
+        case g.Box():
+            low, high = np.minimum(pick.corner, pick.opposite), np.maximum(pick.corner, pick.opposite)
+            return np.logical_and.reduce((x > low - near) & (x < high + near), axis=1)
+        case g.InPlane():
+            return np.abs((x - pick.point) @ (np.array(pick.normal) / np.linalg.norm(pick.normal))) < near
+        case g.OnCylinder():
+            return np.abs(np.linalg.norm(from_axis(x, pick), axis=1) - pick.radius) < round_
 
 
 def pick_sides(boundary: Boundary, s: g.PickedGroup, pick: object) -> list[Ints]:
     """Rows, by side, that a statement picks."""
     x, near = boundary.mesh.places, NEAR * boundary.diagonal
     match pick:
-        case g.Box():
-            return boundary.chosen(boundary.where(in_box(x, pick, near)))
-        case g.InPlane():
-            normal = np.array(pick.normal) / np.linalg.norm(pick.normal)
-            return boundary.chosen(boundary.where(np.abs((x - pick.point) @ normal) < near))
+        case g.Box() | g.InPlane():
+            return boundary.chosen(boundary.where(lies_in(x, pick, near, near)))
         case g.OnCylinder():
-            return boundary.chosen(boundary.on_cylinder(pick.point, pick.axis, pick.radius))
+            inside = boundary.where(lies_in(x, pick, near, ROUND * pick.radius))
+            ways = (boundary.along_radius(side, pick) for side in boundary.sides)
+            return boundary.chosen([own & way for own, way in zip(inside, ways, strict=True)])
         case g.ElementSides():
             sides = boundary.sides
             inside = [np.isin(side.block.number, pick.elements) & (side.number == int(pick.side)) for side in sides]
@@ -201,8 +200,9 @@ def pick_sides(boundary: Boundary, s: g.PickedGroup, pick: object) -> list[Ints]
 def pick_body(boundary: Boundary, blocks: list[Block], s: g.PickedGroup, pick: object) -> list[Bools]:
     """The elements that a statement picks as a body: by block."""
     if isinstance(pick, g.Box):
-        inside = in_box(boundary.mesh.places, pick, NEAR * boundary.diagonal)
-        return [every(inside[block.nodes]) for block in blocks]
+        near = NEAR * boundary.diagonal
+        inside = lies_in(boundary.mesh.places, pick, near, near)
+        return [np.logical_and.reduce(inside[block.nodes], axis=1) for block in blocks]
     if not isinstance(pick, g.Near):
         no(s, "a mesh has no numbers of bodies; allowed: box, near")
     begin = dict(zip(map(id, blocks), np.cumsum([0, *(len(b.nodes) for b in blocks)]).tolist(), strict=False))

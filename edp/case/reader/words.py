@@ -36,6 +36,11 @@ def spells_number(text: str) -> bool:
     return NUMBER.fullmatch(text) is not None
 
 
+def whole_number(text: str) -> int:
+    """What digits stand for; -1: no digits, or more than any number of a file has."""
+    return int(text) if text.isdecimal() and len(text) < 16 else -1
+
+
 def number_text(value: float) -> str:
     """A bound as people write it: 1000000, 0.5."""
     return str(int(value)) if value == int(value) else f"{value:g}"

@@ -1,0 +1,77 @@
+"""The groups of a file, where they are known without numpy and gmsh's module: a refusal then waits for neither.
+
+A mesh in gmsh's version 2 text has its names near its beginning. For a deck, and a geometry that reads no other file,
+they are kept once it has been read.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+from .groups import Group
+from .kept import KINDS, checksum, stands_alone, write_whole
+from .words import CONTROL, whole_number
+
+EVERY_CURVE = "every curve of the geometry"
+KEPT = {*KINDS, ".inp"}
+HEAD = 1 << 20  # bytes of a mesh in which its names are looked for
+
+
+def is_text_of_gmsh(file: Path) -> bool:
+    """Whether it is gmsh's version 2 text; a file that says nothing of its format is read as one, and refused there."""
+    if file.suffix.lower() != ".msh":
+        return False
+    with file.open("rb") as opened:
+        lines = opened.read(200).replace(b"\r", b"").split(b"\n")
+    words = lines[1].split() if lines[0].startswith(b"$MeshFormat") and len(lines) > 1 else []
+    return not words or not (words[0].startswith(b"4") or (words[0].startswith(b"2") and words[1:2] == [b"1"]))
+
+
+def named_in(section: bytes) -> dict[tuple[int, int], str]:
+    """What a section $PhysicalNames has: names by dimension and tag."""
+    found = {}
+    for row in section.decode(errors="surrogateescape").replace("\r", "").split("\n"):
+        words = row.split()
+        if len(words) > 1 and min(map(whole_number, words[:2])) >= 0:
+            first, last = row.find('"'), row.rfind('"')
+            found[int(words[0]), int(words[1])] = row[first + 1 : last] if last > first else row[first + 1 :]
+    return found
+
+
+def of_mesh(file: Path, space: bool) -> list[Group]:
+    """The groups of a mesh; none, if it must be looked at as a whole."""
+    with file.open("rb") as opened:
+        _, begin, rest = opened.read(HEAD).partition(b"\n$PhysicalNames")
+    section, end, _ = rest.partition(b"\n$EndPhysicalNames")
+    named = [Group(d, name) for (d, _), name in named_in(section).items() if EVERY_CURVE not in name]
+    odd = any(CONTROL.search(group.name) for group in named) or (space and all(group.dimension < 3 for group in named))
+    return named if begin and end and not odd else []
+
+
+def place_of_names(file: Path, space: bool, sets: object, cache: Path) -> Path:
+    return cache / f"own-{checksum(file, 'names', space, sets)}.names"
+
+
+def keep_names(file: Path, space: bool, sets: object, cache: Path, groups: list[Group], bodies: str) -> None:
+    """Keeps what a file has, with the numbers of a CAD file's bodies."""
+    with suppress(OSError):
+        cache.mkdir(parents=True, exist_ok=True)
+    lines = [bodies, *(f"{group.dimension} {group.name}" for group in groups)]
+    write_whole(place_of_names(file, space, sets, cache), "\n".join(lines))
+
+
+def names_of(file: Path, space: bool, sets: object, cache: Path) -> tuple[list[Group] | None, str]:
+    """The groups of a file, None: not known; and the numbers of a CAD file's bodies. sets: the numbers of -set."""
+    try:
+        if is_text_of_gmsh(file):
+            return of_mesh(file, space) or None, ""
+        if file.suffix.lower() in KEPT and stands_alone(file):
+            text = place_of_names(file, space, sets, cache).read_text(encoding="utf-8")
+            bodies, *lines = text.split("\n")
+            parts = (line.partition(" ") for line in lines)
+            groups = [Group(int(dimension), name) for dimension, _, name in parts]
+            return groups if groups or bodies else None, bodies  # without both it is refused as a whole
+    except (OSError, ValueError):
+        pass
+    return None, ""
