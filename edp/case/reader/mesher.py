@@ -15,7 +15,8 @@ import os
 import platform
 import re
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from pathlib import Path
@@ -29,10 +30,12 @@ from .geometry import TRIANGLE, Outline, distance_field, look, nodes_of
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
 from .kept import CAD, checksum, stands_alone
+from .labels import names_of
 from .picks import Picks
 from .words import CONTROL, Refusal
 
 SEWN = ["-setnumber", "Geometry.OCCSewFaces", "1", "-setnumber", "Geometry.OCCMakeSolids", "1"]
+STEP = (".step", ".stp")
 PLANE = "the mesh is plane, it has no volumes: use edp/parts.edp"
 NO_NAMES = "no physical groups: bodies and boundaries have no names"
 EVERY_CURVE = "every curve of the geometry"
@@ -44,7 +47,7 @@ PICKS = re.compile(r"^[ \t]*(group|size|cut|join)[ \t]", re.M)
 MAKING = f".making-{platform.node()}-"
 TURNS = 6  # closer outlines
 Sets = Sequence[tuple[str, float]]
-Reader = Callable[[Sequence[Group], str], Case]
+Reader = Callable[[Sequence[Group], Mapping[int, str]], Case]
 
 
 @dataclass
@@ -67,7 +70,7 @@ class Prepared:
     """What a geometry and a case come to; paths are "" where there is no such file."""
 
     groups: list[Group]  # that the file itself has
-    bodies: str = ""  # of CAD, whose bodies have no names: their numbers
+    bodies: dict[int, str] = field(default_factory=dict)  # of CAD: the names of its parts, or ""
     mesh: str = ""
     surface: str = ""  # in space: the mesh of the same surfaces, of second order
     plan: str = ""  # a file, for again()
@@ -240,6 +243,14 @@ class Session:
         if any(CONTROL.search(name) for _, name in named):
             raise GmshError("a control character in a group's name; allowed: other names")
         return [Group(d, name) for d, name in named if name]
+
+    def labels(self) -> dict[int, str]:
+        """By body the name that the file has for its part, or nothing."""
+        found = dict.fromkeys(self.numbers(self.dimension), "")
+        for body in found if self.file.suffix.lower() in STEP else ():
+            with suppress(UnicodeDecodeError):
+                found[body] = self.gmsh.model.getEntityName(self.dimension, body)
+        return names_of(found)
 
     def look(self, closer: Sequence[Any] = (), listed: bool = False) -> Outline:
         try:
@@ -479,9 +490,9 @@ def make(gmsh: Any, job: Job) -> Prepared:
         nothing = "no solid in it" if job.space else "no surface in it"
         raise GmshError(PLANE if job.space and not job.cad else nothing)
     made = Prepared(session.groups(), version=version(gmsh), finer=smaller(job.file))
-    made.bodies = " ".join(map(str, session.numbers(session.dimension))) if job.cad else ""
+    made.bodies = session.labels() if job.cad else {}
     if job.text is None or job.read is None:
-        where = Where(space=job.space)
+        where = Where(space=job.space, bodies=made.bodies)
         picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))
         if not picks.made.bodies or picks.bare():
             raise GmshError("gmsh reads no bodies with faces out of it")
@@ -523,7 +534,7 @@ def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> 
         if job.check:
             made.table, made.faces = picks.table(), picks.pieces()
 
-    groups = [(d, name) for _, d, name, _ in picks.wishes()]
+    groups = [(d, name) for _, d, name, _ in picks.wishes() if Group(d, name) not in case.apart()]
     if operations := picks.operations():
         tell()
         before, plan.rename = picks, True
@@ -554,7 +565,7 @@ def pick_from_mesh(gmsh: Any, job: Job, picks_any: bool) -> Prepared:
     session.open([])
     made = Prepared(session.groups())
     assert job.read
-    case = job.read(made.groups, "")
+    case = job.read(made.groups, {})
     picks = Picks(session.look(), case)
     if picks_any:
         if not picks.made.pieces:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +26,7 @@ from .mesher import Prepared, Reader, Sets, check_file, convert, pick_on, prepar
 from .msh import read_msh
 from .sides import pick_on_mesh
 from .values import table
-from .words import Refusal, split_case, text_of
+from .words import Refusal, quoted, split_case, text_of
 
 FINER = "mesh with smaller elements"
 GROUP = re.compile(r"^[ \t]*group[ \t]", re.M)
@@ -89,14 +89,15 @@ def refuse_shapes(case: Case, deck: bool) -> None:
             raise Refusal(f"{words} part: a mesh cannot be joined; allowed: {allowed}", join.line)
         if deck:
             nothing = "the file does not say which faces are a body's"
-            raise Refusal(f"{join.one}-{join.other}: between: {nothing}; allowed: with a geometry", join.line)
+            group = quoted(f"{join.one.name}-{join.other.name}")
+            raise Refusal(f"{group}: between: {nothing}; allowed: with a geometry", join.line)
 
 
 def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prepared]:
     """A mesh with the groups that the case picks: by place, or by numbers of a geometry, which gmsh knows."""
     named = of.where.again or not GROUP.search(text)
     mesh, made = read_mesh(of, text, named), Prepared([], finer=FINER)
-    case = read(groups_of(mesh, of.where.space, named), "")
+    case = read(groups_of(mesh, of.where.space, named), {})
     if of.where.again:
         return mesh, case, made
     deck = of.file.suffix.lower() == ".inp"
@@ -131,14 +132,14 @@ def read_problem(of: Problem) -> None:
     text = text_of(of.case)
     made = Prepared([], finer=FINER)
 
-    def read(groups: Sequence[Group], bodies: str) -> Case:
-        of.where.bodies = bodies
+    def read(groups: Sequence[Group], bodies: Mapping[int, str]) -> Case:
+        of.where.bodies = dict(bodies)
         return read_case(text, of.where, groups)
 
     if of.file.suffix.lower() in KINDS:
         made = prepare(of.file, of.where.space, text, read, of.folder, of.sets, of.check, of.cache)
         mesh = read_msh(Path(made.mesh))
-        case = read(groups_of(mesh, of.where.space), "") if made.case is None else made.case
+        case = read(groups_of(mesh, of.where.space), {}) if made.case is None else made.case
     else:
         mesh, case, made = read_on_mesh(of, text, read)
     surface = Path(made.surface or of.surface or os.devnull)
