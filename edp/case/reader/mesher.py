@@ -80,6 +80,7 @@ class Prepared:
     touch: list[str] = field(default_factory=list)  # a line for each pair of bodies that no statement tells of
     table: str = ""  # of -check 1
     faces: str = ""  # for the picture of -check 1
+    names: str = ""  # of bodies, for the picture
     case: Case | None = None
 
 
@@ -496,7 +497,7 @@ def make(gmsh: Any, job: Job) -> Prepared:
         picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))
         if not picks.made.bodies or picks.bare():
             raise GmshError("gmsh reads no bodies with faces out of it")
-        made.table, made.faces = picks.table(), picks.pieces()
+        made.table, made.faces, made.names = picks.table(), picks.pieces(), picks.names()
         return made
     asks = job.cad or PICKS.search(job.text)
     if not made.groups and not asks:
@@ -532,7 +533,7 @@ def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> 
         if picks.wishes() and (job.cad or job.check):
             made.touch = picks.untold()
         if job.check:
-            made.table, made.faces = picks.table(), picks.pieces()
+            made.table, made.faces, made.names = picks.table(), picks.pieces(), picks.names()
 
     groups = [(d, name) for _, d, name, _ in picks.wishes() if Group(d, name) not in case.apart()]
     if operations := picks.operations():
@@ -577,7 +578,7 @@ def pick_from_mesh(gmsh: Any, job: Job, picks_any: bool) -> Prepared:
             raise Refusal(f"bodies of it cannot be cut, joined or taken apart: a mesh; allowed: {allowed}")
         picks.check_ties()
     if job.check and picks.made.bodies and not picks.bare():
-        made.table, made.faces = picks.table(), picks.pieces()
+        made.table, made.faces, made.names = picks.table(), picks.pieces(), picks.names()
     if picks_any:
         session.open([])  # the outline is of second order
         session.apply(Plan(groups=[(d, name, picks.of(d, name)) for _, d, name, _ in picks.wishes()]), False)

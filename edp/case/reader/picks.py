@@ -306,6 +306,11 @@ class Picks:
             lines += [",".join([start, *map(EXACT, row)]) for row in rows]
         return "\n".join(lines) + "\n"
 
+    def names(self) -> str:
+        """The bodies' names for a picture."""
+        rows = [f'{body},"{name}"' for body in self.made.bodies if (name := self.named(body).replace('"', ""))]
+        return "\n".join(["body,name", *rows]) + "\n" if rows else ""
+
     def left(self) -> str:
         """Of CAD: the bodies that no group has."""
         used = {number for (d, _), own in self.members.items() if d == self.dimension for number in own}

@@ -2,8 +2,8 @@
 
 case: values.py; mesh.msh, middles, curves, rises, notes, regions: bodies.py; told, a line each: gmsh's version, if it
 meshed the file; the plan of a geometry, for `again`; what makes smaller elements, in words; bodies that are left out;
-how many pairs of bodies touch that no statement tells of, and these; table, faces, for -check 1: what the geometry has,
-for the screen and for a picture.
+how many pairs of bodies touch that no statement tells of, and these; table, faces, bodies, for -check 1: what the
+geometry has, for the screen and for a picture.
 """
 
 from __future__ import annotations
@@ -115,6 +115,12 @@ def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prep
     return pick_on_mesh(mesh, case), case, made
 
 
+def write_faces(folder: Path, made: Prepared) -> None:
+    """What -check 1 prints and draws of a geometry."""
+    for name, text in (("table", made.table), ("faces", made.faces), ("bodies", made.names)):
+        write(folder / name, text)
+
+
 def tell_faces(of: Problem) -> None:
     """-check 1 without a case: the table of bodies and faces, or of sets."""
     check_file(of.file, of.sets)
@@ -123,8 +129,7 @@ def tell_faces(of: Problem) -> None:
         return
     refuse_surface(of.file)
     made = prepare(of.file, of.where.space, None, None, of.folder, of.sets, True)
-    write(of.folder / "table", made.table)
-    write(of.folder / "faces", made.faces)
+    write_faces(of.folder, made)
 
 
 def read_problem(of: Problem) -> None:
@@ -151,8 +156,7 @@ def read_problem(of: Problem) -> None:
     told = [made.version, made.plan, made.finer, made.left, str(len(made.touch)), *made.touch]
     write(of.folder / "told", "\n".join(told) + "\n")
     if made.table:
-        write(of.folder / "table", made.table)
-        write(of.folder / "faces", made.faces)
+        write_faces(of.folder, made)
 
 
 def run(of: Problem) -> int:
