@@ -228,7 +228,11 @@ class Picks:
         # bodies that touch do so where their boxes meet; what is not near there need not be looked at
         widest = 1e-4 * self.diagonal + 1.2 * float(store.bow[a].max() + store.bow[b].max())
         touching = a[store.within(a, b, widest)]
-        if len(touching) and (found := self.facing(touching, b[store.within(b, touching, widest)], True)):
+        found: list[int] = []
+        for face in unique(store.face[touching]):
+            own = touching[store.face[touching] == face]
+            found += self.facing(own, b[store.within(b, own, widest)], True)
+        if found:
             self.lies[names] = True
             return found
         self.lies[names] = False
@@ -525,14 +529,23 @@ class Picks:
         return self.store.of(unique(self.around([body for body in self.made.bodies if body in other - own])))
 
 
+def apart(one: Array, other: Array) -> Array:
+    """The distances of places from others, to about 1e-8 of the greatest: as one product of matrices."""
+    square = (one**2).sum(1)[:, None] + (other**2).sum(1) - 2 * one @ other.T
+    found: Array = np.sqrt(np.maximum(square, 0, out=square), out=square)
+    return found
+
+
 def nearest_pieces(store: Store, a: Numbers, b: Numbers) -> tuple[Array, Numbers]:
     """From the middles of pieces a to the flat pieces b: distances, and the nearest pieces."""
     best, there = np.full(len(a), np.inf), np.zeros(len(a), int)
     rows = max(1, PAIRS // len(b))
+    middle = store.centre[b].mean(axis=0)
+    others = store.centre[b] - middle
     for k in range(0, len(a), rows):
         places = store.centre[a[k : k + rows]]
-        off = np.linalg.norm(places[:, None] - store.centre[b], axis=2)
-        row, column = np.nonzero(off - store.reach[b] <= (off + store.bow[b]).min(axis=1)[:, None])
+        off = apart(places - middle, others)
+        row, column = np.nonzero(off - store.reach[b] <= (off + store.bow[b]).min(axis=1)[:, None] + 1e-6 * off.max())
         found = distances(places[row], store.nodes[b[column]])
         order = np.lexsort((found, row))
         _, first = np.unique(row[order], return_index=True)
