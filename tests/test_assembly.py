@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from text_boxes import faults
 
 from postprocess import labels, raster, style
+from postprocess.commands import check
 from postprocess.faces import WIDE, arranged, draw
 
 # ---------------------------------------------------------------- pixels
@@ -155,3 +156,46 @@ def test_picture_of_an_assembly(checked, capsys, monkeypatch):
     assert titles == [f"volume {number}: {name}" for number, name in enumerate(called, 1)]
     # each face once, on the side that shows it; what no side shows is in brackets: nothing here
     assert not any(word.startswith("(") and word[1:-1].isdigit() for word in words)
+
+
+# ---------------------------------------------------------------- the picture of a case
+
+
+def test_pairs_with_blanks():
+    """Slave and master have names with blanks; an obstacle is no group."""
+    groups = ["Base plate", "plate", "Hex", "nut", "Hex nut", "rail"]
+    assert check.pair("Hex nut Base plate", groups) == ("Hex nut", "Base plate")
+    assert check.pair("Hex nut", ["Hex", "nut"]) == ("Hex", "nut")
+    assert check.pair("rail Hex nut", groups[4:]) == ("rail", "Hex nut")
+    assert check.pair("Base plate plane 0 1", groups[:1]) == ("Base plate", "plane 0 1")
+    assert check.pair("rail", groups) == ("rail", "")
+    said = {"groups": groups, "contacts": [{"name": "Hex nut Base plate"}], "statements": []}
+    assert (
+        check.role(said, 5) == "Hex nut: slave of Base plate" and check.role(said, 1) == "Base plate: master of Hex nut"
+    )
+    assert check.role(said, 3) == "Hex" and check.roles(said) == {1: 0.9, 5: 2.4}
+
+
+def test_held_together():
+    """Of many bodies those that are held alike share a line."""
+    bodies = [{"name": f"part {k}", "held": "clamp base", "free": []} for k in range(3)]
+    bodies[1] = {"name": "nut", "held": "contact only", "free": ["nut: along x", "nut: along y"]}
+    free = "nut: held by contact only; free: along x, along y"
+    assert check.held_by(bodies, True) == f"part 0, part 2: held by clamp base\n{free}"
+    lines = check.held_by(bodies, False).split("\n")
+    assert lines == ["part 0: held by clamp base", free, "part 2: held by clamp base"]
+
+
+def test_picture_of_a_case_of_an_assembly(tmp_path):
+    """17 joins of parts of one material: pairs, what is held, a legend, and nothing on anything else."""
+    (tmp_path / "a.case").write_text(assembly.CASE)
+    words = ["-mesh", assembly.step(tmp_path), "-case", tmp_path / "a.case", "-check", 1, "-out", tmp_path / "out"]
+    code, said = execute([*FREEFEM, "edp/parts-3d.edp", *words])
+    assert code == 0 and said.count(": the case file says how") == 17 and said.count("warning: bodies touch: ") == 6
+    assert "left out" not in said
+    with style.look():
+        figure = check.draw(tmp_path / "out/check", np.eye(3))
+        assert faults(figure) == []
+    legend = [text.get_text() for text in figure.legends[0].get_texts()]
+    # four masters on the cover are one surface, and two on each bracket
+    assert len(legend) == 2 * 17 + 2 - 5 + 1 and "Cover-Base plate: slave of Base plate-Cover" in legend
