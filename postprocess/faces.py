@@ -138,7 +138,7 @@ class View:
     def paint(self, axes) -> None:
         right, top = self.low + self.step * np.array(self.shape[::-1])
         axes.imshow(
-            self.picture, origin="lower", extent=(self.low[0], right, self.low[1], top), interpolation="nearest"
+            self.picture, origin="lower", extent=(self.low[0], right, self.low[1], top), interpolation="antialiased"
         )
         frame(axes)
 
@@ -259,7 +259,7 @@ def fitted(axes, side: View, box, margin: float) -> tuple[np.ndarray, float]:
     scale = float(((np.array(box[2:]) - [2 * margin, 2 * EDGE]) / side.size).min())
     corner = np.array(box[2:]) / 2 - scale * (side.size / 2 + 2 * side.step)
     right, top = corner + scale * side.step * np.array(side.shape[::-1])
-    axes.imshow(side.picture, origin="lower", extent=(corner[0], right, corner[1], top), interpolation="nearest")
+    axes.imshow(side.picture, origin="lower", extent=(corner[0], right, corner[1], top), interpolation="antialiased")
     axes.set_xlim(0, box[2])
     axes.set_ylim(0, box[3])
     return corner - scale * side.low, scale

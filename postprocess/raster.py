@@ -42,10 +42,11 @@ def fronts(seen: np.ndarray, low: np.ndarray, step: float, shape: tuple[int, int
 
 
 def edges(number: np.ndarray) -> np.ndarray:
-    """The pixels beside which the number is another one, at the right or above."""
+    """The pixels on both sides of a line between two numbers."""
     found = np.zeros(number.shape, bool)
-    found[:, :-1] = number[:, 1:] != number[:, :-1]
-    found[:-1] |= number[1:] != number[:-1]
+    across, up = number[:, 1:] != number[:, :-1], number[1:] != number[:-1]
+    for part, edge in ((found[:, :-1], across), (found[:, 1:], across), (found[:-1], up), (found[1:], up)):
+        part |= edge
     return found
 
 

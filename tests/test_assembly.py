@@ -55,8 +55,8 @@ def test_rooms():
 
 
 def test_edges():
-    number = np.array([[0, 0, 1], [0, 2, 1]])
-    assert raster.edges(number).tolist() == [[False, True, False], [True, True, False]]
+    number = np.array([[0, 0, 0, 1], [0, 0, 0, 1], [0, 0, 2, 1]])
+    assert raster.edges(number).astype(int).tolist() == [[0, 0, 1, 1], [0, 0, 1, 1], [0, 1, 1, 1]]
 
 
 # ---------------------------------------------------------------- labels
