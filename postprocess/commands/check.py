@@ -5,7 +5,7 @@ check.pdf and check.png beside the files of the check, or what --out names. Each
 file names has a colour, its statement stands beside it; a line at each contact point is its normal, as long as its
 gap or as the elements around, whichever is less. Of a geometry faces.pdf and faces.png show its faces (in the plane
 its curves) with the numbers that a line `group NAME faces N` takes; in space from both sides. Without a case file they
-are all.
+are all. More than 40 faces take a page: the names of the bodies on the whole, and each body alone.
 """
 
 import argparse
