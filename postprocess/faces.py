@@ -1,9 +1,13 @@
 """The faces of a geometry, or in the plane its curves, with the numbers by which a case file picks them.
 
-The faces of cuts have numbers below 0, and the word cut.
+The faces of cuts have numbers below 0, and the word cut. A geometry of many faces has a page: the whole with the names
+of its bodies, then each body without the others.
 """
 
+import csv
+import sys
 import textwrap
+import time
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +15,20 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import labels, raster, space, style
 from postprocess.results import read_table
+
+FEW = 40  # faces, whose numbers have room on the whole
+WIDE = 72 * style.PAGE  # points
+GAP, MARGIN, EDGE = 5.0, 14.0, 10.0  # points: between views, left and right of a body, above and below it
+PATIENCE = 2.0  # seconds after which a line tells of the progress
 
 
 def draw(path: Path, azimuth: float, elevation: float) -> Figure:
     """One column wide; in space from where the eye is, and from the other side and below.
 
     Faces that neither side shows, inside or between bodies, stand in a panel of their own, without what hides them.
+    More than a few faces take a page.
     """
     with path.open() as file:
         plane = "x2" not in file.readline()
@@ -27,34 +37,47 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
     found = read_table(path, ["face", "body", *columns])
     at = np.column_stack([found[name] for name in columns]).reshape(-1, ends, 3)
     face, body = (np.asarray(found[name]).astype(int) for name in ("face", "body"))
-    figure = Figure(layout="constrained")
     if plane:
+        figure = Figure(layout="constrained")
         figure.set_size_inches(style.COLUMN, 0.9 * style.COLUMN)
         draw_curves(figure.subplots(), at, face)
         return figure
-    rim = rims(at, face)
-    at, face, body = finer(at, face, body)
+    names = names_of(path.with_name("check-bodies.csv"))
     views = [space.sight(azimuth, elevation), space.sight(azimuth + 180, -elevation)]
-    places = [seen_places(at, face, view) for view in views]
-    inner = sorted(set(face.tolist()) - set(places[0]) - set(places[1]))
+    if len(np.unique(face)) > FEW:
+        return page(at, face, body, views, names)
+    sides = [View(at, face, body, view, style.COLUMN * style.DPI) for view in views]
+    inner = sorted(set(face.tolist()) - set(sides[0].places) - set(sides[1].places))
+    figure = Figure(layout="constrained")
     figure.set_size_inches(style.COLUMN, (2.25 if inner else 1.5) * style.COLUMN)
     axes = figure.subplots(3 if inner else 2, 1)
-    for panel, view, seen, words in zip(axes[:2], views, places, ("", ": the other side"), strict=True):
-        draw_faces(panel, at, body, rim, view, seen)
+    for panel, side, words in zip(axes[:2], sides, ("", ": the other side"), strict=True):
+        side.paint(panel)
+        for number, place in side.places.items():
+            write(panel, place, "cut" if number < 0 else number)
         panel.set_title(f"Faces{words}", loc="left", fontsize=6.5)
     if inner:
-        draw_inner(axes[2], at, face, body, rim, views[0], inner)
+        draw_inner(axes[2], at, face, body, rims(at, face), views[0], inner)
         axes[2].set_title("Faces inside, without what hides them", loc="left", fontsize=6.5)
-    figure.supxlabel("\n".join(volumes(face, body)), x=0.02, ha="left", fontsize=6)
+    figure.supxlabel("\n".join(volumes(face, body, names)), x=0.02, ha="left", fontsize=6)
     return figure
 
 
-def volumes(face: np.ndarray, body: np.ndarray) -> list[str]:
-    """Of each body its number and those of its faces."""
+def names_of(path: Path) -> dict[int, str]:
+    """By body its name, of those that have one."""
+    if not path.exists():
+        return {}
+    with path.open(encoding="utf-8", newline="") as file:
+        return {int(row["body"]): style.plain(row["name"]) for row in csv.DictReader(file)}
+
+
+def volumes(face: np.ndarray, body: np.ndarray, names: dict[int, str]) -> list[str]:
+    """Of each body its number, its name and the numbers of its faces."""
     lines = []
     for number in np.unique(body[body > 0]):
         own = " ".join(str(each) for each in np.unique(face[body == number]) if each > 0)
-        lines += textwrap.wrap(f"volume {number}: faces {own}", 95, subsequent_indent="    ")
+        name = f" ({names[number]})" if number in names else ""
+        lines += textwrap.wrap(f"volume {number}{name}: faces {own}", 95, subsequent_indent="    ")
     return lines
 
 
@@ -72,23 +95,6 @@ def draw_curves(axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.set_title("Curves", loc="left", fontsize=6.5)
 
 
-def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray):
-    """Triangles cut until they are small beside the whole: each is drawn before or behind another as a whole."""
-    for _ in range(5):
-        large = (
-            np.linalg.norm(at - np.roll(at, 1, axis=1), axis=2).max(axis=1)
-            > np.ptp(at.reshape(-1, 3), axis=0).max() / 12
-        )
-        if not large.any() or len(at) > 4000:
-            break
-        a, b, c = at[large].transpose(1, 0, 2)
-        d, e, f = (a + b) / 2, (b + c) / 2, (c + a) / 2
-        parts = [np.stack(part, axis=1) for part in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))]
-        at = np.concatenate([at[~large], *parts])
-        face, body = (np.concatenate([each[~large], np.tile(each[large], 4)]) for each in (face, body))
-    return at, face, body
-
-
 def shaded(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
     """Colours of triangles, (triangles, 3): their bodies', darker where they look away from the light."""
     across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
@@ -98,52 +104,49 @@ def shaded(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
     return np.clip(fills[body % len(fills)] * bright[:, None], 0, 1)
 
 
-def seen_places(at: np.ndarray, face: np.ndarray, view: np.ndarray) -> dict[int, np.ndarray]:
-    """Of each face that can be seen the place of its number: the middle of what is seen of it."""
-    seen = at @ view.T
-    towards = np.abs(np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])[:, 2])
-    places = {}
-    for number in np.unique(face):
-        own = np.flatnonzero(face == number)
-        own = own[np.argsort(-towards[own])][:200]
-        free = own[~hidden(seen[own].mean(axis=1), seen)]
-        if free.size and towards[free[0]] > 0:
-            places[int(number)] = middle_of(seen[free])
-    return places
+class View:
+    """Triangles as an eye sees them, `dots` wide at most: a picture, and the places of what is seen.
 
+    places: by face the place of its number, where most of what is seen is around; room: how far from its edge.
+    """
 
-def middle_of(seen: np.ndarray) -> np.ndarray:
-    """The centre of the triangle nearest to the middle of all."""
-    centres = seen.mean(axis=1)[:, :2]
-    return centres[np.argmin(np.linalg.norm(centres - np.median(centres, axis=0), axis=1))]
+    def __init__(self, at, face, body, view, dots: float) -> None:
+        seen = at @ view.T
+        self.low, high = seen[:, :, :2].min(axis=(0, 1)), seen[:, :, :2].max(axis=(0, 1))
+        self.size = np.maximum(high - self.low, 1e-9 * np.ptp(seen) + 1e-300)
+        step = float(self.size.max() / max(dots - 4, 1))
+        self.low, shape = self.low - 2 * step, tuple((self.size[::-1] / step).astype(int) + 5)
+        self.step, self.shape = step, shape
+        front = raster.fronts(seen, self.low, step, shape)
+        numbers, index = np.unique(face, return_inverse=True)
+        self.number = np.where(front < 0, -1, index.reshape(-1)[front])
+        self.body = np.where(front < 0, -1, body[front])
+        self.picture = np.ones((*shape, 3))
+        self.picture[front >= 0] = shaded(seen, body)[front[front >= 0]]
+        self.picture[raster.edges(self.number)] = 0.25
+        found = raster.rooms(self.number)
+        self.places = {int(numbers[k]): self.place(row, column) for k, (row, column, _) in found.items()}
+        self.room = {int(numbers[k]): room * step for k, (_, _, room) in found.items()}
 
+    def place(self, row: int, column: int) -> np.ndarray:
+        return self.low + self.step * (np.array([column, row]) + 0.5)
 
-def edges_of(rim: np.ndarray, view: np.ndarray) -> np.ndarray:
-    """The rims in short pieces, as they are seen, (pieces, 2, 3)."""
-    share = np.linspace(0, 1, 17)[:, None, None, None]
-    ends = rim[:, 0] * (1 - share[..., 0]) + rim[:, 1] * share[..., 0]
-    return np.stack([ends[:-1], ends[1:]], axis=2).reshape(-1, 2, 3) @ view.T
+    def bodies(self) -> dict[int, np.ndarray]:
+        """By body that is seen the place of its name."""
+        return {number: self.place(row, column) for number, (row, column, _) in raster.rooms(self.body).items()}
 
-
-def draw_faces(axes, at, body, rim, view, places) -> None:
-    """Far triangles first, in their bodies' colours, the faces' edges on them; the numbers at their places."""
-    seen = at @ view.T
-    colours = shaded(seen, body)
-    order = np.lexsort((seen[:, :, 2].mean(axis=1), ~hidden(seen.mean(axis=1), seen)))
-    shown = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
-    axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **shown))
-    edges = edges_of(rim, view)
-    visible = ~hidden(edges.mean(axis=1), seen)
-    axes.add_collection(LineCollection(edges[visible][:, :, :2], color="#404040", linewidth=0.4))
-    for number, place in places.items():
-        write(axes, place, number)
-    frame(axes)
+    def paint(self, axes) -> None:
+        right, top = self.low + self.step * np.array(self.shape[::-1])
+        axes.imshow(
+            self.picture, origin="lower", extent=(self.low[0], right, self.low[1], top), interpolation="antialiased"
+        )
+        frame(axes)
 
 
 def draw_inner(axes, at, face, body, rim, view, inner) -> None:
     """The faces that nothing else shows, over the edges of all."""
     seen = at @ view.T
-    axes.add_collection(LineCollection(edges_of(rim, view)[:, :, :2], color="#B0B0B0", linewidth=0.3))
+    axes.add_collection(LineCollection((rim @ view.T)[:, :, :2], color="#B0B0B0", linewidth=0.3))
     own = np.isin(face, inner)
     depth = np.argsort(seen[own][:, :, 2].mean(axis=1))
     fill = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
@@ -157,6 +160,17 @@ def draw_inner(axes, at, face, body, rim, view, inner) -> None:
     for place, words in places:
         write(axes, place, ", ".join(dict.fromkeys(words)))
     frame(axes)
+
+
+def middle_of(seen: np.ndarray) -> np.ndarray:
+    """The centre of the triangle nearest to the middle of all."""
+    centres = seen.mean(axis=1)[:, :2]
+    return centres[np.argmin(np.linalg.norm(centres - np.median(centres, axis=0), axis=1))]
+
+
+def write(axes, place: np.ndarray, number: int | str) -> None:
+    look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
+    axes.annotate(str(number), place, color=style.BLACK, **look)
 
 
 def frame(axes) -> None:
@@ -175,23 +189,130 @@ def rims(at: np.ndarray, face: np.ndarray) -> np.ndarray:
     return places[first[times == 1]]
 
 
-def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Does a triangle lie between a place and the eye?"""
-    a, ab, ac = seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
-    twice = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-    flat = np.abs(twice) < 1e-12 * np.ptp(seen) ** 2
-    twice = np.where(flat, np.inf, twice)
-    away = 1e-3 * np.ptp(seen)
-    answer = np.zeros(len(points), bool)
-    for k, point in enumerate(points):
-        off = point - a
-        u = (off[:, 0] * ac[:, 1] - off[:, 1] * ac[:, 0]) / twice
-        v = (ab[:, 0] * off[:, 1] - ab[:, 1] * off[:, 0]) / twice
-        depth = a[:, 2] + u * ab[:, 2] + v * ac[:, 2]
-        answer[k] = np.any((u > 0) & (v > 0) & (u + v < 1) & ~flat & (depth > point[2] + away))
-    return answer
+# ---------------------------------------------------------------- many faces: a page
 
 
-def write(axes, place: np.ndarray, number: int | str) -> None:
-    look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
-    axes.annotate(str(number), place, color=style.BLACK, **look)
+def page(at, face, body, views, names: dict[int, str]) -> Figure:
+    """The whole with its bodies' names, from both sides, then each body alone, its faces' numbers beside them.
+
+    A number in brackets is that of a face that neither side shows.
+    """
+    begun = time.monotonic()
+    parts = {int(number): body == number for number in np.unique(body)}
+    words = {n: style.folded(f"{n} {names[n]}" if n in names else f"volume {n}", 18) for n in parts}
+    margin = 6 + max(labels.size(text)[0] for text in words.values())
+    top = 0.0
+    if len(parts) > 1:
+        least = 12 + sum(labels.size(text)[1] for text in words.values()) / 3
+        top = 10 + max(least, needed(at, views, WIDE / 2 - GAP, margin))
+    rows = arranged({n: len(np.unique(face[own])) for n, own in parts.items()})
+    tall = [max(needed(at[parts[n]], views, wide / 2, MARGIN) for n, _, wide in row) + 12 for row in rows]
+    height = top + sum(tall)
+    figure = Figure(figsize=(style.PAGE, height / 72))
+    if top:
+        whole(figure, at, face, body, views, words, (height, top, margin))
+    told, low = 0, height - top
+    for row, high in zip(rows, tall, strict=True):
+        low -= high
+        for number, left, wide in row:
+            told += 1
+            if time.monotonic() - begun > PATIENCE:
+                print(f"faces of body {told} of {len(parts)}", file=sys.stderr, flush=True)
+                begun = time.monotonic()
+            own = parts[number]
+            title = f"volume {number}{f': {names[number]}' if number in names else ''}"
+            look = {"fontsize": 6.5, "va": "top"}
+            figure.text((left + 3) / WIDE, (low + high) / height, style.folded(title, int(wide / 3.5)), **look)
+            alone(figure, at[own], face[own], body[own], views, (left, low, wide / 2, high - 12), height)
+    return figure
+
+
+def arranged(counts: dict[int, int]) -> list[list[tuple[int, float, float]]]:
+    """Rows of bodies, each with its left end and its width: of many faces wider ones."""
+    rows, left = [[]], 0.0
+    for number, count in counts.items():
+        wide = WIDE / (1 if count > 40 or len(counts) == 1 else 2 if count > 12 else 3)
+        if left + wide > WIDE * 1.001:
+            rows.append([])
+            left = 0.0
+        rows[-1].append((number, left, wide))
+        left += wide
+    return rows
+
+
+def needed(at, views, wide: float, margin: float) -> float:
+    """The height in points of a view that fills a width, or is nearly as high as that."""
+    sizes = [np.ptp((at @ view.T)[:, :, :2].reshape(-1, 2), axis=0) for view in views]
+    return min(0.95 * wide, 2 * EDGE + max((wide - 2 * margin) * up / max(right, 1e-300) for right, up in sizes))
+
+
+def panel(figure: Figure, box, height: float):
+    """Axes whose data are points of the page, by left, low, width and height."""
+    left, low, wide, tall = box
+    axes = figure.add_axes([left / WIDE, low / height, wide / WIDE, tall / height])
+    axes.set_axis_off()
+    return axes
+
+
+def fitted(axes, side: View, box, margin: float) -> tuple[np.ndarray, float]:
+    """Paints a view into the middle of axes in points; where its lower left corner is, and the points of a length."""
+    scale = float(((np.array(box[2:]) - [2 * margin, 2 * EDGE]) / side.size).min())
+    corner = np.array(box[2:]) / 2 - scale * (side.size / 2 + 2 * side.step)
+    right, top = corner + scale * side.step * np.array(side.shape[::-1])
+    axes.imshow(side.picture, origin="lower", extent=(corner[0], right, corner[1], top), interpolation="antialiased")
+    axes.set_xlim(0, box[2])
+    axes.set_ylim(0, box[3])
+    return corner - scale * side.low, scale
+
+
+def dots(at, view, room) -> float:
+    """The pixels across a view that fills a room in points."""
+    size = np.ptp((at @ view.T)[:, :, :2].reshape(-1, 2), axis=0)
+    return float(size.max() * (np.array(room) / np.maximum(size, 1e-300)).min()) * style.DPI / 72
+
+
+def whole(figure, at, face, body, views, words: dict[int, str], sizes) -> None:
+    """All bodies from two sides, the name of each beside the side that shows more of it."""
+    height, top, margin = sizes
+    wide = WIDE / 2
+    room = (wide - GAP - 2 * margin, top - 10 - 2 * EDGE)
+    sides = [View(at, face, body, view, dots(at, view, room)) for view in views]
+    seen = [side.bodies() for side in sides]
+    shares = [{n: np.sum(side.body == n) for n in words} for side in sides]
+    for k, (side, view) in enumerate(zip(sides, views, strict=True)):
+        box = (k * (wide + GAP), height - top, wide - GAP, top - 10)
+        axes = panel(figure, box, height)
+        zero, scale = fitted(axes, side, box, margin)
+        axes.set_title(("Bodies", "Bodies: the other side")[k], loc="left", fontsize=6.5, pad=0)
+        places = {}
+        for number, text in words.items():
+            hidden = not any(number in each for each in seen)
+            if number in seen[k] and (number not in seen[1 - k] or shares[k][number] >= shares[1 - k][number] + k):
+                places[number] = seen[k][number], text
+            elif hidden and k == 0:
+                places[number] = middle_of((at @ view.T)[body == number]), f"({text})"
+        anchors = [zero + scale * place for place, _ in places.values()]
+        labels.beside(axes, anchors, [text for _, text in places.values()], box[2:])
+
+
+def alone(figure, at, face, body, views, box, height: float) -> None:
+    """A body from two sides, the number of each face on the side that shows more of it."""
+    left, low, wide, tall = box
+    sides = [View(at, face, body, view, dots(at, view, (wide - 2 * MARGIN, tall - 2 * EDGE))) for view in views]
+    for k, (side, view) in enumerate(zip(sides, views, strict=True)):
+        own = (left + k * wide, low, wide, tall)
+        axes = panel(figure, own, height)
+        zero, scale = fitted(axes, side, own, MARGIN)
+        anchors, texts, rooms = [], [], []
+        for number in np.unique(face).tolist():
+            here, there = (each.room.get(number, 0.0) / max(each.step, 1e-300) for each in (side, sides[1 - k]))
+            word = "cut" if number < 0 else str(number)
+            if here > there or (here == there > 0 and k == 0):
+                anchors.append(zero + scale * side.places[number])
+                texts.append(word)
+                rooms.append(scale * side.room[number])
+            elif here == there == 0 and k == 0:
+                anchors.append(zero + scale * middle_of((at @ view.T)[face == number]))
+                texts.append(f"({word})")
+                rooms.append(0.0)
+        labels.around(axes, anchors, texts, rooms, own[2:])

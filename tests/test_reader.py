@@ -22,6 +22,7 @@ LEGS = f"{GOOD}pressure right 2\nleg 4\n"
 
 def read(text, mesh=None, **where):
     space = where.get("space", False)
+    where["bodies"] = dict.fromkeys(map(int, where.get("bodies", "").split()), "") | where.pop("labels", {})
     return read_case(text, Where(**where), (SPACE if space else PLANE) if mesh is None else mesh)
 
 

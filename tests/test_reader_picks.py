@@ -24,8 +24,9 @@ NUMBERS = "group low volumes 1\ngroup high volumes 2\n"
 ENOUGH = "group ground plane 0 0 0 0 0 1\nclamp ground\n"
 
 
-def case_of(text, bodies="1 2", space=True, groups=()):
-    return read_case(text, Where(space=space, bodies=bodies), groups)
+def case_of(text, bodies="1 2", space=True, groups=(), labels=()):
+    named = dict.fromkeys(map(int, bodies.split()), "") | dict(labels)
+    return read_case(text, Where(space=space, bodies=named), groups)
 
 
 def boxes(gap=0.0, size=(1, 1, 1), at=(0, 0)):

@@ -1,11 +1,13 @@
 # faces.sh: the faces of a geometry with their numbers, for a picture: sh faces.sh RUN FILE FOLDER SPACE SETS PICTURE
 # Needs: RUN, FILE, SPACE, SETS: as bodies/readable.sh; FOLDER, of results; PICTURE, the command that draws. Or FILE, a folder of
 #        bodies/readable.sh's, FOLDER, where a run's files are before they are published, and the word keep.
-# Gives: FOLDER/check-faces.csv, said on standard output; with keep that file is told to case/folder.sh, and FILE removed.
+# Gives: FOLDER/check-faces.csv, check-bodies.csv with the names of bodies, said on standard output; with keep that file is told to case/folder.sh, and FILE removed.
 # Exit codes: 0 done, 10 refused in one line, 30 no room, as a run's.
 keep() {
     test ! -s "$1/table" || cat "$1/table"
-    test ! -s "$1/faces" || { cp "$1/faces" "$2/check-faces.csv" && echo "check-faces.csv $(wc -c < "$1/faces")" >> "$2/.ends"; }
+    for kind in faces bodies; do
+        test ! -s "$1/$kind" || { cp "$1/$kind" "$2/check-$kind.csv" && echo "check-$kind.csv $(wc -c < "$1/$kind")" >> "$2/.ends"; }
+    done
     rm -rf "$1"
 }
 here=${0%/*}

@@ -5,7 +5,7 @@ check.pdf and check.png beside the files of the check, or what --out names. Each
 file names has a colour, its statement stands beside it; a line at each contact point is its normal, as long as its
 gap or as the elements around, whichever is less. Of a geometry faces.pdf and faces.png show its faces (in the plane
 its curves) with the numbers that a line `group NAME faces N` takes; in space from both sides. Without a case file they
-are all.
+are all. More than 40 faces take a page: the names of the bodies on the whole, and each body alone.
 """
 
 import argparse
@@ -24,6 +24,7 @@ from postprocess.results import ResultsError, brief, check_file, read_table
 from postprocess.space import VIEW, sight
 from postprocess.vtu import CORNERS, corners, read_arrays
 
+MANY = 12  # groups, or bodies, that a column has room for
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8C510A", "#35978F")
 
 
@@ -61,7 +62,14 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     cells, sides = (corners(folder / "check-mesh.vtu", found, kind) for kind in (solid, shell))
     points = read_table(folder / "check-points.csv", "contact x y z nx ny nz gap paired".split())
     plane = solid == 5
-    figure = Figure(figsize=(style.COLUMN, (1.95 if plane else 1.35) * style.COLUMN), layout="constrained")
+    many = len(np.unique(label[types == shell])) > MANY or len(said["bodies"]) > MANY
+    held = held_by(said["bodies"], many)
+    wide, high = style.COLUMN, (1.95 if plane else 1.35) * style.COLUMN
+    if many:  # the legend and what is above the picture have their room besides
+        wide = style.PAGE
+        rows = len(np.unique(label[types == shell])) / 3 + held.count("\n") + 3
+        high = (1.2 if plane else 0.65) * style.PAGE + rows * 9 / 72
+    figure = Figure(figsize=(wide, high), layout="constrained")
     axes, *close = figure.subplots(2, 1, height_ratios=[1, 0.62]) if plane else [figure.subplots()]
     groups = label[types == shell]
     colours = {int(group): COLOURS[k % len(COLOURS)] for k, group in enumerate(np.unique(groups[groups > 0]))}
@@ -80,14 +88,25 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     ]
     entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
     words = [style.plain(role(said, group)) for group in colours]
-    figure.legend(entries, [*words, "contact points and normals"], loc="outside lower left", ncols=1)
-    held = "\n".join(
-        f"{brief(str(body['name']))}: held by {brief(str(body['held']))}"
-        + ("; free: " + ", ".join(word.partition(": ")[2] for word in body["free"]) if body["free"] else "")
-        for body in said["bodies"]
-    )
-    axes.set_title(style.plain(held), loc="left", fontsize=6.5)
+    look = {"ncols": 3, "fontsize": 6, "handlelength": 1.4} if many else {"ncols": 1}
+    figure.legend(entries, [*words, "contact points and normals"], loc="outside lower left", **look)
+    if many:
+        figure.suptitle(style.plain(held), x=0.01, ha="left", fontsize=6.5)
+    else:
+        axes.set_title(style.plain(held), loc="left", fontsize=6.5)
     return figure
+
+
+def held_by(bodies: list[dict], together: bool) -> str:
+    """What holds each body, a line each; together: a line for all that are held alike."""
+    lines: dict[str, list[str]] = {}
+    for k, body in enumerate(bodies):
+        held = f"held by {brief(str(body['held']))}"
+        free = ", ".join(word.partition(": ")[2] for word in body["free"])
+        how = f"{held}; free: {free}" if free else held
+        lines.setdefault(how if together else f"{k} {how}", []).append(brief(str(body["name"])))
+    said = [f"{', '.join(names)}: {how if together else how.partition(' ')[2]}" for how, names in lines.items()]
+    return "\n".join(style.folded(line, 150) for line in said) if together else "\n".join(said)
 
 
 def read_said(path: Path) -> dict:
@@ -107,7 +126,7 @@ def role(said: dict, group: int) -> str:
     name = str(said["groups"][group - 1])
     words = [each["word"] for each in said["statements"] if each.get("group") == group and each["word"] != "contact"]
     for contact in said["contacts"]:
-        slave, _, master = str(contact["name"]).partition(" ")
+        slave, master = pair(str(contact["name"]), said["groups"])
         words += [f"slave of {master}"] if slave == name else []
         words += [f"master of {slave}"] if master == name else []
     return f"{name}: {', '.join(dict.fromkeys(words))}" if words else name
@@ -116,9 +135,16 @@ def role(said: dict, group: int) -> str:
 def roles(said: dict) -> dict[int, float]:
     """The widths of the lines of slaves and of groups that are masters alone."""
     numbers = {str(name): number for number, name in enumerate(said["groups"], 1)}
-    pairs = [str(contact["name"]).split(" ", 1) for contact in said["contacts"]]
-    found = {numbers[pair[-1]]: 0.9 for pair in pairs if pair[-1] in numbers}
-    return found | {numbers[pair[0]]: 2.4 for pair in pairs if pair[0] in numbers}
+    pairs = [pair(str(contact["name"]), said["groups"]) for contact in said["contacts"]]
+    found = {numbers[master]: 0.9 for _, master in pairs if master in numbers}
+    return found | {numbers[slave]: 2.4 for slave, _ in pairs if slave in numbers}
+
+
+def pair(contact: str, groups: list) -> tuple[str, str]:
+    """Slave and master of a contact, whose names may have blanks; a name that no group has is that of an obstacle."""
+    words, known = contact.split(" "), {str(name) for name in groups}
+    ways = [(" ".join(words[:k]), " ".join(words[k:])) for k in range(1, len(words) + 1)]
+    return max(ways, key=lambda way: (way[0] in known) + (way[1] in known))
 
 
 def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) -> float:

@@ -284,7 +284,7 @@ class Bodies:
                 first_corner = self.corner(self.sides.corners[on[0], 0])
                 refuse(
                     f"element {self.sides.number[on[0]]}: {self.side_kind} in two physical groups of the case, "
-                    f'"{one}" and "{other}", which share {len(on)} of their {total[a]} and {total[b]}, '
+                    f'"{one.name}" and "{other.name}", which share {len(on)} of their {total[a]} and {total[b]}, '
                     f"this one at ({first_corner}){ALLOWED}one of them, or two that only contacts use, with the same "
                     "sides or as masters; group ... plane and box take the sides of all bodies there, near, between "
                     "and numbers those of one"
@@ -294,7 +294,7 @@ class Bodies:
                 self.same_as[max(a, b)] = min(a, b)
         seen: dict[tuple[int, int], int] = {}
         for s in pairs if self.same_as else ():
-            what = f'contact of "{s.slave}" and "{s.master}" (line {s.line} of the case file): '
+            what = f"contact of {s.slave} and {s.master} (line {s.line} of the case file): "
             one_, other_ = sorted((self.one(self.label[s.slave]), self.one(self.label[s.master])))
             if one_ == other_:
                 refuse(f"{what}both are the same surface{ALLOWED}two surfaces")
@@ -467,10 +467,10 @@ class Cuts:
         own = of.solids.label == of.label[s.body]
         corners = of.corners[own]
         most, least = float(height[corners].max()), float(height[corners].min())
-        start = f'cut "{s.on}" of the case file, line {s.line}: '
+        start = f'cut "{s.on.name}" of the case file, line {s.line}: '
         if most <= near or least >= -near:
             lies = f"which lies from {least:.4g} to {most:.4g} along the normal from its point"
-            refuse(f'{start}the plane does not cross "{s.body}", {lies}{ALLOWED}a point between')
+            refuse(f'{start}the plane does not cross "{s.body.name}", {lies}{ALLOWED}a point between')
         through = np.flatnonzero((level[corners] < 0).any(axis=1) & (level[corners] > 0).any(axis=1))
         if len(through):
             first = of.solids.number[own][through[0]]
@@ -481,7 +481,7 @@ class Cuts:
             )
         inside = of.inner & own[of.owner] & (level[of.face] == 0).all(axis=1)
         if not inside.any():
-            refuse(f'{start}no two elements of "{s.body}" meet in the plane{ALLOWED}a plane through it')
+            refuse(f'{start}no two elements of "{s.body.name}" meet in the plane{ALLOWED}a plane through it')
         self.add(np.full(int(inside.sum()), label), of.face[inside])
         self.found.add(label)
 
@@ -572,9 +572,9 @@ class Mirrors:
                 of.groups[label - 1] = new
             of.kept_label[own[plane == k]] = len(of.groups) if j else label
             normal = ", ".join(f"{0.0 if c * c < 1e-12 else c:.4g}" for c in facing[k][: of.dim])
-            said.append(f"{new} with the normal ({normal})")
+            said.append(f"{new.name} with the normal ({normal})")
         planes = " and ".join([", ".join(said[:-1]), said[-1]])
-        self.notes.append(f"symmetry {group} of line {line} is in {len(facing)} planes: {planes}")
+        self.notes.append(f"symmetry {group.name} of line {line} is in {len(facing)} planes: {planes}")
 
     def check_bulges(self, middles: Ints, ends: Ints, rises: Floats) -> None:
         """No middle of an edge is off the plane."""
@@ -664,7 +664,7 @@ def write_bodies(
     notes = of.mirrors.notes
     (folder / "notes").write_text("\n".join([str(len(notes)), *notes, ""]), errors="surrogateescape")
     inside = [f"{k + 1} {of.name(label)}" for k, (label, _) in enumerate(of.regions)]
-    outside = [f"{k + 1} {group}" for k, group in enumerate(of.groups) if group.dimension < of.dim]
+    outside = [f"{k + 1} {group.name}" for k, group in enumerate(of.groups) if group.dimension < of.dim]
     units = [] if case.units == "none" else case.units.split(" ", 1)
     arrays = texts_of("units", units) + texts_of("bodies", inside) + texts_of("groups", outside)
     text = [f"named <FieldData>{arrays}</FieldData>", f"regions {len(of.regions)}"]

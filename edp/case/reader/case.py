@@ -14,7 +14,7 @@ from typing import TypeVar
 from . import grammar as g
 from .fields import STATEMENTS, GroupName, Reading, Statement, read_statement, shown, usage_of
 from .groups import KINDS, Group, Groups, Where
-from .words import Line, Refusal, spells_number, split_case
+from .words import Line, Refusal, quoted, spells_number, split_case
 
 MOST = 1000  # statements
 ONLY_ONE = (
@@ -60,6 +60,12 @@ class Case:
     @property
     def thickness(self) -> float:
         return next((s.value for s in self.of(g.Thickness)), 1.0)
+
+    def apart(self) -> set[Group]:
+        """Of bodies of one material, by one statement: those that only joins, sizes and groups name."""
+        if not self.groups.only_body:
+            return set()
+        return {Group(self.where.dimension, name) for name in self.groups.labels} - set(self.used())
 
     def used(self) -> list[Group]:
         """The groups that the problem uses, in the order of their first statements."""
@@ -253,9 +259,9 @@ class Rules:
 
     def name_of_group(self, s: g.PickedGroup) -> None:
         if self.case.groups.in_file(s.name):
-            self.no(s, f"{s.name}: the mesh or geometry has a group of this name; allowed: another name")
+            self.no(s, f"{quoted(s.name)}: the mesh or geometry has a group of this name; allowed: another name")
         if s.name in self.case.groups.cad:
-            self.no(s, f"{s.name}: a cut or a join has a group of this name; allowed: another name")
+            self.no(s, f"{quoted(s.name)}: a cut or a join has a group of this name; allowed: another name")
 
     def name_of_cut(self, s: g.Cut) -> None:
         groups, where = self.case.groups, self.case.where
@@ -271,7 +277,7 @@ def with_zeros(s: Statement) -> str:
     def zero(k: int, word: str) -> bool:
         return k > skipped and spells_number(word) and (s.word != "rotate" or k == last)
 
-    return " ".join("0" if zero(k, w) else f'"{w}"' if " " in w else w for k, w in enumerate(s.words))
+    return " ".join("0" if zero(k, w) else quoted(w) for k, w in enumerate(s.words))
 
 
 # Once all is read
@@ -355,9 +361,9 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
     where, touching = case.where, [*case.touching, *case.of(g.Tie)]
     if not rules.rows and not case.has(g.Spin, g.Gravity):
         yield Refusal("it has no statement; allowed: at least body and contact or obstacle")
-    bodies = case.on(g.Body)
+    known = case.on(g.Body).keys() | case.apart()
     for group in case.groups.all:
-        if group.dimension == where.dimension and not where.overlap and group not in bodies:
+        if group.dimension == where.dimension and not where.overlap and group not in known:
             made = f"{KINDS[where.dimension]} {group} is made of; allowed: a line body {group} E number nu number"
             yield Refusal(f"nothing says what the {made}")
     slaves = {s.groups()[0][1]: s for s in touching}

@@ -195,11 +195,12 @@ class SizedGroup:
 
     def read(self, reading: Reading) -> Group | None:
         name = reading.need("a name")
-        dimension = reading.where.dimension
-        found = [Group(d, name) for d in (dimension, dimension - 1) if Group(d, name) in reading.groups.all]
+        dimension, groups = reading.where.dimension, reading.groups
+        found = [Group(d, name) for d in (dimension, dimension - 1) if groups.has(d, name)]
         if found or name == "contact":
             return found[0] if found else None
-        if wrong := reading.groups.why_not(dimension - 1, name, "size"):
+        as_body = nearest(name, groups.listed(dimension))
+        if wrong := groups.why_not(dimension - (not as_body), name, "size"):
             reading.line.no(wrong)
         return Group(dimension - 1, name)
 
@@ -420,7 +421,10 @@ class Join(Statement, word="join", example="join bolt plate contact", rest=True)
 
     def line_of(self, rest: Line) -> Line:
         """The line of the statement that it makes."""
-        return Line(self.line, [self.how, f"{self.one}-{self.other}", f"{self.other}-{self.one}", *rest.left])
+        return Line(
+            self.line,
+            [self.how, f"{self.one.name}-{self.other.name}", f"{self.other.name}-{self.one.name}", *rest.left],
+        )
 
 
 # Supports

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from .words import Line, meant
+from .words import Line, meant, quoted
 
 KINDS = ("point", "curve", "surface", "volume")
 
@@ -18,7 +18,8 @@ class Group:
     name: str
 
     def __str__(self) -> str:
-        return self.name
+        """As a line of a case names it."""
+        return quoted(self.name)
 
 
 @dataclass
@@ -27,7 +28,7 @@ class Where:
 
     friction: whether the script reads it; with a blank in it, it names the flags that ties exclude. wear, plastic:
     whether the script reads them. overlap: an element may be in several groups, of which the case needs one. bodies:
-    of a geometry whose bodies have no names, their numbers. again: the mesh has the groups that the case picks.
+    of a CAD file, by number the names that its parts have, or "". again: the mesh has the groups that the case picks.
     """
 
     space: bool = False
@@ -35,7 +36,7 @@ class Where:
     wear: bool = True
     plastic: bool = True
     overlap: bool = False
-    bodies: str = ""
+    bodies: dict[int, str] = field(default_factory=dict)
     again: bool = False
     state: str = ""
     phase: int = 0
@@ -61,15 +62,23 @@ class Groups:
     all: list[Group] = field(default_factory=list)
     picked: dict[str, int] = field(default_factory=dict)  # by the case: their dimensions
     cad: set[str] = field(default_factory=set)  # of cuts and joins
+    labels: dict[str, int] = field(default_factory=dict)  # names of a CAD file's parts: its bodies
     only_body: str = ""  # of a geometry: a body that needs no group, for it is all there is
     any_name: bool = False  # the mesh is not known yet
 
     def __post_init__(self) -> None:
         self.all = list(self.of_mesh)
+        self.labels = {name: body for body, name in self.where.bodies.items() if name}
 
     def add(self, group: Group) -> None:
         if group not in self.all:
             self.all.append(group)
+
+    def has(self, dimension: int, name: str) -> bool:
+        """Whether there is such a group; a part of the file becomes one when it is asked for."""
+        if dimension == self.where.dimension and name in self.labels:
+            self.add(Group(dimension, name))
+        return Group(dimension, name) in self.all
 
     def in_file(self, name: str) -> bool:
         """Whether the mesh or geometry itself has a group of that name."""
@@ -77,7 +86,9 @@ class Groups:
         return not self.where.again and any(Group(d, name) in self.of_mesh for d in (dimension, dimension - 1))
 
     def listed(self, dimension: int) -> list[str]:
-        return [group.name for group in self.all if group.dimension == dimension]
+        found = [group.name for group in self.all if group.dimension == dimension]
+        found += [*self.labels] if dimension == self.where.dimension else []
+        return list(dict.fromkeys(found))
 
     def look_ahead(self, lines: Sequence[Line]) -> None:
         """Before the rest: the names that the case gives to groups. What is said to be made of something is a body."""
@@ -98,31 +109,34 @@ class Groups:
                 self.cad |= {f"{words[1]}-{words[2]}", f"{words[2]}-{words[1]}"}
         for name, size in self.picked.items():
             self.add(Group(size, name))
+        # a name of the case's own goes before the same one of the file
+        self.labels = {name: body for name, body in self.labels.items() if name not in {*self.picked, *self.cad}}
         for name in sorted(self.cad):
             self.add(Group(dimension - 1, name))
-        if self.where.bodies and len(own) == 1 and dimension not in self.picked.values():
+        alone = len(own) == 1 and own[0] not in self.labels
+        if self.where.bodies and alone and dimension not in self.picked.values():
             self.only_body = own[0]
             self.add(Group(dimension, own[0]))
 
     def why_not(self, dimension: int, name: str, statement: str) -> str:
         """Why a name is no group of that dimension, with those there are; nothing if it is one."""
-        if self.any_name or Group(dimension, name) in self.all:
+        if self.any_name or self.has(dimension, name):
             return ""
-        names = self.listed(dimension)
-        there = " ".join(names) or "none"
+        names, known = self.listed(dimension), quoted(name)
+        there = " ".join(map(quoted, names)) or "none"
         bodies = self.where.bodies
         if bodies and dimension == self.where.dimension:
-            return (
-                f"{name}: no body of the geometry has this name; "
-                f"allowed: a line group {name} {self.where.many(dimension)} N ..., of {bodies}"
-            )
+            said = f"{known}: no body of the geometry has this name; {meant(name, names)}allowed: "
+            said += f"{there}, or " if names else ""
+            numbers = " ".join(map(str, bodies))
+            return f"{said}a line group {known} {self.where.many(dimension)} N ..., of {numbers}"
         if bodies and not names:
             several = self.where.many(dimension)
             drawn = "(-check 1 without -case draws their numbers)"
-            return f"{name}: no group; allowed: a line group {name} {several} N ... {drawn}"
+            return f"{known}: no group; allowed: a line group {known} {several} N ... {drawn}"
         for other in (3, 2, 1, 0):
             if other != dimension and Group(other, name) in self.all:
                 return (
-                    f"{name}: a {KINDS[other]} of the mesh; allowed for {statement}: its {KINDS[dimension]}s: {there}"
+                    f"{known}: a {KINDS[other]} of the mesh; allowed for {statement}: its {KINDS[dimension]}s: {there}"
                 )
-        return f"{name}: no physical {KINDS[dimension]} of the mesh; {meant(name, names)}allowed: {there}"
+        return f"{known}: no physical {KINDS[dimension]} of the mesh; {meant(name, names)}allowed: {there}"

@@ -15,7 +15,8 @@ import os
 import platform
 import re
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from pathlib import Path
@@ -29,11 +30,13 @@ from .geometry import TRIANGLE, Outline, distance_field, look, nodes_of
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
 from .kept import CAD, checksum, stands_alone, write_whole
+from .labels import names_of
 from .names import EVERY_CURVE, keep_names
 from .picks import Picks
 from .words import CONTROL, Refusal
 
 SEWN = ["-setnumber", "Geometry.OCCSewFaces", "1", "-setnumber", "Geometry.OCCMakeSolids", "1"]
+STEP = (".step", ".stp")
 PLANE = "the mesh is plane, it has no volumes: use edp/parts.edp"
 NO_NAMES = "no physical groups: bodies and boundaries have no names"
 OTHER_MESH = (
@@ -44,7 +47,7 @@ PICKS = re.compile(r"^[ \t]*(group|size|cut|join)[ \t]", re.M)
 MAKING = f".making-{platform.node()}-"
 TURNS = 6  # closer outlines
 Sets = Sequence[tuple[str, float]]
-Reader = Callable[[Sequence[Group], str], Case]
+Reader = Callable[[Sequence[Group], Mapping[int, str]], Case]
 
 
 @dataclass
@@ -67,7 +70,7 @@ class Prepared:
     """What a geometry and a case come to; paths are "" where there is no such file."""
 
     groups: list[Group]  # that the file itself has
-    bodies: str = ""  # of CAD, whose bodies have no names: their numbers
+    bodies: dict[int, str] = field(default_factory=dict)  # of CAD: the names of its parts, or ""
     mesh: str = ""
     surface: str = ""  # in space: the mesh of the same surfaces, of second order
     plan: str = ""  # a file, for again()
@@ -77,6 +80,7 @@ class Prepared:
     touch: list[str] = field(default_factory=list)  # a line for each pair of bodies that no statement tells of
     table: str = ""  # of -check 1
     faces: str = ""  # for the picture of -check 1
+    names: str = ""  # of bodies, for the picture
     case: Case | None = None
 
 
@@ -228,6 +232,14 @@ class Session:
         if any(CONTROL.search(name) for _, name in named):
             raise GmshError("a control character in a group's name; allowed: other names")
         return [Group(d, name) for d, name in named if name]
+
+    def labels(self) -> dict[int, str]:
+        """By body the name that the file has for its part, or nothing."""
+        found = dict.fromkeys(self.numbers(self.dimension), "")
+        for body in found if self.file.suffix.lower() in STEP else ():
+            with suppress(UnicodeDecodeError):
+                found[body] = self.gmsh.model.getEntityName(self.dimension, body)
+        return names_of(found)
 
     def look(self, closer: Sequence[Any] = (), listed: bool = False) -> Outline:
         try:
@@ -467,15 +479,15 @@ def make(gmsh: Any, job: Job) -> Prepared:
         nothing = "no solid in it" if job.space else "no surface in it"
         raise GmshError(PLANE if job.space and not job.cad else nothing)
     made = Prepared(session.groups(), version=version(gmsh), finer=smaller(job.file))
-    made.bodies = " ".join(map(str, session.numbers(session.dimension))) if job.cad else ""
+    made.bodies = session.labels() if job.cad else {}
     if job.cache:
         keep_names(job.file, job.space, job.sets, job.cache, made.groups, made.bodies)
     if job.text is None or job.read is None:
-        where = Where(space=job.space)
+        where = Where(space=job.space, bodies=made.bodies)
         picks = Picks(session.look(listed=True), Case(where, Groups(where, [])))
         if not picks.made.bodies or picks.bare():
             raise GmshError("gmsh reads no bodies with faces out of it")
-        made.table, made.faces = picks.table(), picks.pieces()
+        made.table, made.faces, made.names = picks.table(), picks.pieces(), picks.names()
         return made
     asks = job.cad or PICKS.search(job.text)
     if not made.groups and not asks:
@@ -511,9 +523,9 @@ def pick(session: Session, job: Job, case: Case, plan: Plan, made: Prepared) -> 
         if picks.wishes() and (job.cad or job.check):
             made.touch = picks.untold()
         if job.check:
-            made.table, made.faces = picks.table(), picks.pieces()
+            made.table, made.faces, made.names = picks.table(), picks.pieces(), picks.names()
 
-    groups = [(d, name) for _, d, name, _ in picks.wishes()]
+    groups = [(d, name) for _, d, name, _ in picks.wishes() if Group(d, name) not in case.apart()]
     if operations := picks.operations():
         tell()
         before, plan.rename = picks, True
@@ -544,7 +556,7 @@ def pick_from_mesh(gmsh: Any, job: Job, picks_any: bool) -> Prepared:
     session.open([])
     made = Prepared(session.groups())
     assert job.read
-    case = job.read(made.groups, "")
+    case = job.read(made.groups, {})
     picks = Picks(session.look(), case)
     if picks_any:
         if not picks.made.pieces:
@@ -556,7 +568,7 @@ def pick_from_mesh(gmsh: Any, job: Job, picks_any: bool) -> Prepared:
             raise Refusal(f"bodies of it cannot be cut, joined or taken apart: a mesh; allowed: {allowed}")
         picks.check_ties()
     if job.check and picks.made.bodies and not picks.bare():
-        made.table, made.faces = picks.table(), picks.pieces()
+        made.table, made.faces, made.names = picks.table(), picks.pieces(), picks.names()
     if picks_any:
         session.open([])  # the outline is of second order
         session.apply(Plan(groups=[(d, name, picks.of(d, name)) for _, d, name, _ in picks.wishes()]), False)

@@ -6,6 +6,7 @@ they are kept once it has been read.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -53,25 +54,29 @@ def place_of_names(file: Path, space: bool, sets: object, cache: Path) -> Path:
     return cache / f"own-{checksum(file, 'names', space, sets)}.names"
 
 
-def keep_names(file: Path, space: bool, sets: object, cache: Path, groups: list[Group], bodies: str) -> None:
-    """Keeps what a file has, with the numbers of a CAD file's bodies."""
+def keep_names(
+    file: Path, space: bool, sets: object, cache: Path, groups: list[Group], bodies: Mapping[int, str]
+) -> None:
+    """Keeps what a file has: a line with how many bodies a CAD file has, a line for each with its name, the groups."""
     with suppress(OSError):
         cache.mkdir(parents=True, exist_ok=True)
-    lines = [bodies, *(f"{group.dimension} {group.name}" for group in groups)]
+    named = [*bodies.items(), *((group.dimension, group.name) for group in groups)]
+    lines = [str(len(bodies)), *(f"{number} {name}" for number, name in named)]
     write_whole(place_of_names(file, space, sets, cache), "\n".join(lines))
 
 
-def names_of(file: Path, space: bool, sets: object, cache: Path) -> tuple[list[Group] | None, str]:
-    """The groups of a file, None: not known; and the numbers of a CAD file's bodies. sets: the numbers of -set."""
+def names_of(file: Path, space: bool, sets: object, cache: Path) -> tuple[list[Group] | None, dict[int, str]]:
+    """The groups of a file, None: not known; and the names of a CAD file's bodies. sets: the numbers of -set."""
     try:
         if is_text_of_gmsh(file):
-            return of_mesh(file, space) or None, ""
+            return of_mesh(file, space) or None, {}
         if file.suffix.lower() in KEPT and stands_alone(file):
             text = place_of_names(file, space, sets, cache).read_text(encoding="utf-8")
-            bodies, *lines = text.split("\n")
-            parts = (line.partition(" ") for line in lines)
-            groups = [Group(int(dimension), name) for dimension, _, name in parts]
+            count, *lines = text.split("\n")
+            named = [(int(number), name) for number, _, name in (line.partition(" ") for line in lines)]
+            bodies = dict(named[: int(count)])
+            groups = [Group(dimension, name) for dimension, name in named[int(count) :]]
             return groups if groups or bodies else None, bodies  # without both it is refused as a whole
     except (OSError, ValueError):
         pass
-    return None, ""
+    return None, {}

@@ -20,10 +20,11 @@ import numpy as np
 from . import grammar as g
 from .case import Case
 from .geometry import Array, Face, Outline, faces, table, triple
+from .groups import Group
 from .near import PAIRS, Numbers, Shape, Store, first_of_cell
 from .neighbours import Touching, by_face, distances, normals, statements, touching
 from .sides import lies_in
-from .words import Refusal
+from .words import Refusal, quoted
 
 Wish = tuple[int, int, str, Any]  # a group: its line, dimension, name, and what it is picked by
 EXACT = "{:.9g}".format  # gmsh has its places and sizes with nine digits
@@ -53,6 +54,11 @@ class Picks:
         self.parent: dict[int, int] = {}  # behind them: by body its number before
         self.joined: set[frozenset[int]] = set()
         self.cut_faces: dict[int, int] = {}  # by face between pieces of a body: this body
+
+    @cached_property
+    def labels(self) -> dict[int, str]:
+        """By body the name of its part in the file."""
+        return {self.called.get(body, body): name for name, body in self.case.groups.labels.items()}
 
     @cached_property
     def store(self) -> Store:
@@ -99,7 +105,7 @@ class Picks:
     def named(self, body: int) -> str:
         """The name of a body in the case, or nothing."""
         found = [name for (d, name), own in self.members.items() if d == self.dimension and own == [body]]
-        return found[-1] if found else ""
+        return found[-1] if found else self.labels.get(self.parent.get(body, body), "")
 
     # ------------------------------------------------------------ groups
 
@@ -109,12 +115,15 @@ class Picks:
         found: list[Wish] = []
         if case.groups.only_body:
             found.append((0, dimension, case.groups.only_body, g.BodyNumbers(numbers=tuple(self.made.bodies))))
+        for name, body in case.groups.labels.items():
+            if Group(dimension, name) in case.groups.all:
+                found.append((0, dimension, name, g.BodyNumbers(numbers=(body,))))
         for s in case.statements:
             if isinstance(s, g.PickedGroup):
                 found.append((s.line, case.groups.picked[s.name], s.name, s.pick))
             elif isinstance(s, g.Join) and s.how != "part":
                 for a, b in ((s.one, s.other), (s.other, s.one)):
-                    found.append((s.line, dimension - 1, f"{a}-{b}", g.Between(one=a, other=b)))
+                    found.append((s.line, dimension - 1, f"{a.name}-{b.name}", g.Between(one=a, other=b)))
         return found
 
     def choose(self) -> list[int]:
@@ -127,7 +136,7 @@ class Picks:
                 one, other = (self.of(self.dimension, side.name) for side in (pick.one, pick.other))
                 if not self.around(one) or not self.around(other):
                     nothing = "the file does not say which faces are a body's; allowed: with a geometry"
-                    self.no(line, f"{name}: between: {nothing}")
+                    self.no(line, f"{quoted(name)}: between: {nothing}")
                 self.share(one, other, apart)
                 found = [] if apart else self.between(one, other, (pick.one.name, pick.other.name))
                 if apart:
@@ -138,7 +147,7 @@ class Picks:
                 how = HOW[type(pick)] if self.made.space or not isinstance(pick, g.OnCylinder) else "circle"
                 what = "body" if dimension == self.dimension else "face" if self.made.space else "curve"
                 there = f"allowed: one or more, of {self.listed(dimension)}"
-                self.no(line, f"{name}: {how}: no {what} lies there; {there}")
+                self.no(line, f"{quoted(name)}: {how}: no {what} lies there; {there}")
             self.members[dimension, name] = found
         return list(apart)
 
@@ -211,7 +220,11 @@ class Picks:
         # bodies that touch do so where their boxes meet; what is not near there need not be looked at
         widest = 1e-4 * self.diagonal + 1.2 * float(store.bow[a].max() + store.bow[b].max())
         touching = a[store.within(a, b, widest)]
-        if len(touching) and (found := self.facing(touching, b[store.within(b, touching, widest)], True)):
+        found: list[int] = []
+        for face in unique(store.face[touching]):
+            own = touching[store.face[touching] == face]
+            found += self.facing(own, b[store.within(b, own, widest)], True)
+        if found:
             self.lies[names] = True
             return found
         self.lies[names] = False
@@ -256,7 +269,8 @@ class Picks:
             open_ = [f"{f} on {h}" for f, h in pairs if not self.stated(a, b, f, h)]
             if not open_ or a not in used or b not in used:
                 continue
-            names, both = (self.named(a), self.named(b)), all((self.named(a), self.named(b)))
+            names = [quoted(name) for body in (a, b) if (name := self.named(body))]
+            both = len(names) == 2
             found.append(
                 f"{' and '.join(names) if both else f'{many} {a} and {b}'} ({self.many(self.dimension - 1)} "
                 f"{', '.join(open_)}), and no statement says what happens there: "
@@ -271,7 +285,7 @@ class Picks:
 
     def table(self) -> str:
         """What -check 1 prints of bodies and faces."""
-        self.made.names = {body: name for body in self.made.bodies if (name := self.named(body))}
+        self.made.names = {body: quoted(name) for body in self.made.bodies if (name := self.named(body))}
         told = {bodies: all(self.stated(*bodies, *pair) for pair in pairs) for bodies, pairs in self.touching.items()}
         on = by_face(self.touching)
         return table(self.made, self.faces, on) + statements(self.made, self.faces, self.touching, told)
@@ -288,11 +302,17 @@ class Picks:
             lines += [",".join([start, *map(EXACT, row)]) for row in rows]
         return "\n".join(lines) + "\n"
 
+    def names(self) -> str:
+        """The bodies' names for a picture."""
+        rows = [f'{body},"{name}"' for body in self.made.bodies if (name := self.named(body).replace('"', ""))]
+        return "\n".join(["body,name", *rows]) + "\n" if rows else ""
+
     def left(self) -> str:
         """Of CAD: the bodies that no group has."""
         used = {number for (d, _), own in self.members.items() if d == self.dimension for number in own}
         found = unique(self.parent.get(body, body) for body in self.made.bodies if body not in used)
-        return f"{self.many(self.dimension)} {words(found)}" if self.cad and found else ""
+        said = " ".join(f"{n} ({quoted(self.labels[n])})" if n in self.labels else str(n) for n in found)
+        return f"{self.many(self.dimension)} {said}" if self.cad and found else ""
 
     # ------------------------------------------------------------ cuts and joins
 
@@ -339,7 +359,7 @@ class Picks:
             if b not in together[a] or frozenset((a, b)) in (direct or ()):
                 continue
             if (a, b) in self.touching or (b, a) in self.touching:
-                names = [self.named(body) or str(body) for body in (a, b)]
+                names = [quoted(self.named(body) or str(body)) for body in (a, b)]
                 allowed = "join them as part too, or tie in place of part"
                 hang = "touch, and joins with other bodies hang them together"
                 self.no(self.case.of(g.Join)[0].line, f"join: {' and '.join(names)} {hang}; allowed: {allowed}")
@@ -404,7 +424,7 @@ class Picks:
                 self.no(s.line, f"{start} part: {gap}; allowed: bodies that touch, or a contact")
         if overlap or shared - self.joined:
             first = cuts[0] if cuts else joins[0]
-            name = cuts[0].on.name if cuts else joins[0].one.name
+            name = cuts[0].on if cuts else joins[0].one
             why = "bodies that share a face with others cannot be cut or joined so; allowed: in the geometry"
             self.no(first.line, f"{first.word} {name}: {why}")
 
@@ -446,9 +466,9 @@ class Picks:
                     found.append(size)
             elif not on:
                 one = "face" if self.made.space else "curve"
-                nothing = f"the geometry has nothing in the group {s.name}"
+                nothing = f"the geometry has nothing in the group {s.on}"
                 allowed = f"a group with a body, or with a {one} of one"
-                self.no(s.line, f"size {s.name}: {nothing}; allowed: {allowed}")
+                self.no(s.line, f"size {s.on}: {nothing}; allowed: {allowed}")
             else:
                 found.append(self.of_group(on[0], self.of(on[0], s.name), s.value))
         return found
@@ -501,14 +521,23 @@ class Picks:
         return self.store.of(unique(self.around([body for body in self.made.bodies if body in other - own])))
 
 
+def apart(one: Array, other: Array) -> Array:
+    """The distances of places from others, to about 1e-8 of the greatest: as one product of matrices."""
+    square = (one**2).sum(1)[:, None] + (other**2).sum(1) - 2 * one @ other.T
+    found: Array = np.sqrt(np.maximum(square, 0, out=square), out=square)
+    return found
+
+
 def nearest_pieces(store: Store, a: Numbers, b: Numbers) -> tuple[Array, Numbers]:
     """From the middles of pieces a to the flat pieces b: distances, and the nearest pieces."""
     best, there = np.full(len(a), np.inf), np.zeros(len(a), int)
     rows = max(1, PAIRS // len(b))
+    middle = store.centre[b].mean(axis=0)
+    others = store.centre[b] - middle
     for k in range(0, len(a), rows):
         places = store.centre[a[k : k + rows]]
-        off = np.linalg.norm(places[:, None] - store.centre[b], axis=2)
-        row, column = np.nonzero(off - store.reach[b] <= (off + store.bow[b]).min(axis=1)[:, None])
+        off = apart(places - middle, others)
+        row, column = np.nonzero(off - store.reach[b] <= (off + store.bow[b]).min(axis=1)[:, None] + 1e-6 * off.max())
         found = distances(places[row], store.nodes[b[column]])
         order = np.lexsort((found, row))
         _, first = np.unique(row[order], return_index=True)

@@ -2,15 +2,15 @@
 
 case: values.py; mesh.msh, middles, curves, rises, notes, regions: bodies.py; told, a line each: gmsh's version, if it
 meshed the file; the plan of a geometry, for `again`; what makes smaller elements, in words; bodies that are left out;
-how many pairs of bodies touch that no statement tells of, and these; table, faces, for -check 1: what the geometry has,
-for the screen and for a picture.
+how many pairs of bodies touch that no statement tells of, and these; table, faces, bodies, for -check 1: what the
+geometry has, for the screen and for a picture.
 """
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,7 +27,7 @@ from .msh import read_msh
 from .names import is_text_of_gmsh, keep_names
 from .sides import pick_on_mesh
 from .values import table
-from .words import Refusal, split_case, text_of
+from .words import Refusal, quoted, split_case, text_of
 
 FINER = "mesh with smaller elements"
 GROUP = re.compile(r"^[ \t]*group[ \t]", re.M)
@@ -80,7 +80,8 @@ def refuse_shapes(case: Case, deck: bool) -> None:
             raise Refusal(f"{words} part: a mesh cannot be joined; allowed: {allowed}", join.line)
         if deck:
             nothing = "the file does not say which faces are a body's"
-            raise Refusal(f"{join.one}-{join.other}: between: {nothing}; allowed: with a geometry", join.line)
+            group = quoted(f"{join.one.name}-{join.other.name}")
+            raise Refusal(f"{group}: between: {nothing}; allowed: with a geometry", join.line)
 
 
 def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prepared]:
@@ -89,8 +90,8 @@ def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prep
     mesh, made = read_mesh(of, text, named), Prepared([], finer=FINER)
     groups, deck = groups_of(mesh, of.where.space, named), of.file.suffix.lower() == ".inp"
     if deck and of.cache:
-        keep_names(of.file, of.where.space, of.sets, of.cache, groups, "")
-    case = read(groups, "")
+        keep_names(of.file, of.where.space, of.sets, of.cache, groups, {})
+    case = read(groups, {})
     if of.where.again:
         return mesh, case, made
     refuse_shapes(case, deck)
@@ -107,6 +108,12 @@ def read_on_mesh(of: Problem, text: str, read: Reader) -> tuple[Mesh, Case, Prep
     return pick_on_mesh(mesh, case), case, made
 
 
+def write_faces(folder: Path, made: Prepared) -> None:
+    """What -check 1 prints and draws of a geometry."""
+    for name, text in (("table", made.table), ("faces", made.faces), ("bodies", made.names)):
+        write(folder / name, text)
+
+
 def tell_faces(of: Problem) -> None:
     """-check 1 without a case: the table of bodies and faces, or of sets."""
     check_file(of.file, of.sets)
@@ -115,8 +122,7 @@ def tell_faces(of: Problem) -> None:
         return
     refuse_surface(of.file)
     made = prepare(of.file, of.where.space, None, None, of.folder, of.sets, True)
-    write(of.folder / "table", made.table)
-    write(of.folder / "faces", made.faces)
+    write_faces(of.folder, made)
 
 
 def read_problem(of: Problem) -> None:
@@ -124,14 +130,14 @@ def read_problem(of: Problem) -> None:
     text = text_of(of.case)
     made = Prepared([], finer=FINER)
 
-    def read(groups: Sequence[Group], bodies: str) -> Case:
-        of.where.bodies = bodies
+    def read(groups: Sequence[Group], bodies: Mapping[int, str]) -> Case:
+        of.where.bodies = dict(bodies)
         return read_case(text, of.where, groups)
 
     if of.file.suffix.lower() in KINDS:
         made = prepare(of.file, of.where.space, text, read, of.folder, of.sets, of.check, of.cache)
         mesh = read_msh(Path(made.mesh))
-        case = read(groups_of(mesh, of.where.space), "") if made.case is None else made.case
+        case = read(groups_of(mesh, of.where.space), {}) if made.case is None else made.case
     else:
         mesh, case, made = read_on_mesh(of, text, read)
     surface = Path(made.surface or of.surface or os.devnull)
@@ -143,8 +149,7 @@ def read_problem(of: Problem) -> None:
     told = [made.version, made.plan, made.finer, made.left, str(len(made.touch)), *made.touch]
     write(of.folder / "told", "\n".join(told) + "\n")
     if made.table:
-        write(of.folder / "table", made.table)
-        write(of.folder / "faces", made.faces)
+        write_faces(of.folder, made)
 
 
 def run(of: Problem) -> int:

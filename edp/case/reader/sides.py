@@ -19,7 +19,7 @@ from .case import Case
 from .fields import Vector3
 from .mesh import KINDS, Block, Bools, Floats, Ints, Mesh, Side, alone, components, keys_of, sides_of
 from .neighbours import distances
-from .words import Refusal
+from .words import Refusal, quoted
 
 SMOOTH = 30.0  # degrees between neighbours
 NEAR = 1e-6  # of the whole: nodes so near to a plane or a box lie in it
@@ -150,7 +150,7 @@ class Boundary:
 
 
 def no(s: g.PickedGroup, what: str) -> NoReturn:
-    raise Refusal(f"{s.name}: {what}", s.line)
+    raise Refusal(f"{quoted(s.name)}: {what}", s.line)
 
 
 def from_axis(x: Floats, pick: g.OnCylinder) -> Floats:

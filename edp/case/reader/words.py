@@ -31,6 +31,11 @@ class Refusal(Exception):
         return f"-case {case}, {what}"
 
 
+def quoted(name: str) -> str:
+    """A name as a case file takes it: between quotes if it has blanks, or the sign of a comment."""
+    return name if BARE.fullmatch(name) else f'"{name}"'
+
+
 def spells_number(text: str) -> bool:
     """Whether a word is a number: digits, a point, an exponent; no nan, no inf, no 0x10."""
     return NUMBER.fullmatch(text) is not None
@@ -74,7 +79,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
 def meant(word: str, known: Iterable[str]) -> str:
     """A question that begins a refusal: the word that was probably meant."""
     found = nearest(word, known)
-    return f"did you mean {found}? " if found else ""
+    return f"did you mean {quoted(found)}? " if found else ""
 
 
 @dataclass
