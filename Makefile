@@ -14,7 +14,7 @@ export LC_ALL := C
 # What is made: in this folder, or in the cache if there is one (CONTACT_CACHE, or this folder cannot be written); results
 # where make RESULTS=folder says. The runs are told of both by the environment.
 RESULTS ?= $(or $(CONTACT_RESULTS),results)
-CACHE   := $(shell sh edp/case/cache.sh 0 .)
+CACHE   := $(shell sh edp/input/cache.sh 0 .)
 ifneq ($(word 2,$(CACHE)),)
 $(error the cache $(CACHE): make knows no folder with a blank in its name; allowed: CONTACT_CACHE=folder without blanks)
 endif
@@ -24,8 +24,8 @@ BUILD   := $(if $(CACHE),$(CACHE)/build,build)
 PYTHON  := $(VENV)/bin/python
 POST    := $(PYTHON) -m postprocess
 # The plugins, by the names that the modules ask for: of another version's build/ they find none.
-FAST      := $(BUILD)/$(notdir $(wildcard edp/case/without/fast-plugin-*.idp))
-MULTIGRID := $(BUILD)/$(notdir $(wildcard edp/case/without/multigrid-plugin-*.idp))
+FAST      := $(BUILD)/$(notdir $(wildcard edp/input/without/fast-plugin-*.idp))
+MULTIGRID := $(BUILD)/$(notdir $(wildcard edp/input/without/multigrid-plugin-*.idp))
 # A plugin in the cache is named by a .freefem++.pref there: of FreeFEM's lists only HOME's come before this folder's.
 FREEFEM := $(if $(CACHE),env HOME=$(BUILD) )FreeFem++ -nw -v 0
 ifneq ($(RESULTS),results)
@@ -78,7 +78,7 @@ try-fast: | system
 	@! $(SETUP) can_compile || $(MAKE) $(QUIET) $(FAST) >/dev/null 2>&1 || \
 	  echo 'the plugin of make fast could not be built ($(BUILD)/fast.log): runs go on without it'
 # FreeFEM's program is a prerequisite: a plugin is of one version.
-$(FAST): edp/operator/fast.cpp $(wildcard /usr/bin/FreeFem++)
+$(FAST): edp/solver/plugins/fast.cpp $(wildcard /usr/bin/FreeFem++)
 	@$(SETUP) fast $(@:.idp=) $<
 # Debian's PETSc, or the one in $(PETSC), which has include/ and lib/ (named on the command line, or the variables
 # PETSC_DIR/PETSC_ARCH of a PETSc of one's own).
@@ -87,7 +87,7 @@ mpi: | petsc ## build the plugin for -solver multigrid and several processes: ma
 	@$(MAKE) $(QUIET) $(MULTIGRID)
 petsc: | system
 	@$(SETUP) petsc '$(PETSC)'
-$(MULTIGRID): edp/operator/multigrid.cpp $(wildcard edp/operator/multigrid-*.hpp) postprocess/setup.sh
+$(MULTIGRID): edp/solver/plugins/multigrid.cpp $(wildcard edp/solver/plugins/multigrid-*.hpp) postprocess/setup.sh
 	@$(SETUP) multigrid $(@:.idp=) '$(PETSC)' $(filter-out %.sh,$^)
 tools: mpi $(VENV)-peers/run.stamp | system ## install what some tests are skipped without: PETSc, NGSolve, CalculiX, Chromium
 	@$(SETUP) tools
@@ -200,13 +200,13 @@ test-systems: | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README
 	@PYTEST_ARGS='$(PYTEST_ARGS)' TESTS='$(TESTS)' $(SETUP) interpreter tests/systems.py $(SYSTEMS)
 
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
-	@$(PYTHON) -m ruff check postprocess tests edp/case
-	@$(PYTHON) -m ruff format --check postprocess tests edp/case
-	@MYPYPATH=edp/case $(PYTHON) -m mypy --strict -p reader
+	@$(PYTHON) -m ruff check postprocess tests edp/input
+	@$(PYTHON) -m ruff format --check postprocess tests edp/input
+	@MYPYPATH=edp/input $(PYTHON) -m mypy --strict -p reader
 	@$(PYTHON) tests/lint_edp.py edp
 pages: ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
-uses: MODULE ?= problem/problem.idp
-uses: ## print which names MODULE (problem/problem.idp, say) uses of which others, and who uses it
+uses: MODULE ?= solver/problem/problem.idp
+uses: ## print which names MODULE (solver/problem/problem.idp, say) uses of which others, and who uses it
 pages uses: $(VENV)/run.stamp | system
 	@$(PYTHON) tests/pages.py $(if $(filter uses,$@),$(MODULE))
 numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, show them

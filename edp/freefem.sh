@@ -2,14 +2,14 @@
 # Needs: FreeFem++; SCRIPT: a path from the present folder, or from edp/ (scenes/wavy.edp), or a scene's name (wavy); for the
 #        Python commands numpy and matplotlib. The environment's CONTACT_STARTER, if any: how this program was called.
 # Gives: what the script gives; names among the flags are taken from the present folder. Where the package cannot be written, or
-#        is an installed one, results go to results/ in the present folder; see case/cache.sh for what is made and kept.
-# CONTACT_REQUEST: what the script reads beside (case/on-request.sh). Without it the script finds out and starts again.
+#        is an installed one, results go to results/ in the present folder; see input/cache.sh for what is made and kept.
+# CONTACT_REQUEST: what the script reads beside (input/on-request.sh). Without it the script finds out and starts again.
 # Exit code: FreeFem++'s or Python's; 10 without a script, without Python's packages, and below a folder with ; in its name.
 # FreeFEM looks for modules and plugins where the file freefem++.pref of the present folder says: elsewhere the environment says it.
-# It begins in edp/, for it reads includes of its folder first; CONTACT_FOLDER tells case/flags.idp where to go back to.
+# It begins in edp/, for it reads includes of its folder first; CONTACT_FOLDER tells input/flags.idp where to go back to.
 edp=$(cd "${0%/*}" && pwd)
 root=${edp%/edp}
-cache=$(sh "$edp/case/cache.sh" 0 "$root")
+cache=$(sh "$edp/input/cache.sh" 0 "$root")
 test -z "$cache" || export CONTACT_CACHE="$cache"
 
 quoted()
@@ -45,7 +45,7 @@ case $edp in *\;*)
     echo "$edp: FreeFEM's lists of folders have ; between them; allowed: a path without ;"
     exit 10 ;;
 esac
-FF_INCLUDEPATH="$root/build;$edp/case/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
+FF_INCLUDEPATH="$root/build;$edp/input/without;$edp;/usr/include/freefem++/idp${FF_INCLUDEPATH:+;$FF_INCLUDEPATH}"
 export FF_INCLUDEPATH
 test ! -d /usr/lib/freefem++ || FF_LOADPATH="/usr/lib/freefem++${FF_LOADPATH:+;$FF_LOADPATH}"
 export FF_LOADPATH="$root/build${FF_LOADPATH:+;$FF_LOADPATH}"
@@ -73,4 +73,4 @@ test -z "$OMPI_COMM_WORLD_SIZE$PMI_SIZE" || {
 }
 test -n "$CONTACT_REQUEST" || exec $program $window -v 0 "$script" "$@"
 set -- "$script" $program $window -v 0 /dev/fd/3 "$@"
-. "$edp/case/on-request.sh"
+. "$edp/input/on-request.sh"

@@ -245,7 +245,7 @@ def plugin_path(works: bool) -> list:
 def find_gmsh() -> list:
     version = gmsh_version() if shutil.which("gmsh") else ""
     found = f"{version}, {shutil.which('gmsh')}" if version else "not on the PATH, or does not run"
-    code, _ = answer(["sh", str(ROOT / "edp/case/read.sh"), "0", "ready"])
+    code, _ = answer(["sh", str(ROOT / "edp/input/read.sh"), "0", "ready"])
     module = Finding("  its module", code == 0, "for Python, with numpy: reads cases", False, hint("gmsh's module"))
     return [Finding("gmsh", bool(version), found, True, hint("gmsh")), module]
 
@@ -343,7 +343,7 @@ def find_multigrid() -> list:
 
 def own_plugin(name: str, how: str) -> Finding:
     """A plugin that `make` builds: under the name that the scripts ask for, from the present source."""
-    asked = next((ROOT / "edp/case/without").glob(f"{name}-plugin-*.idp"), Path("none"))
+    asked = next((ROOT / "edp/input/without").glob(f"{name}-plugin-*.idp"), Path("none"))
     plugin, source, log = BUILD / asked.name, ROOT / f"edp/operator/{name}.cpp", BUILD / f"{name}.log"
     compiler = os.environ.get("CXX", "g++")
     if not plugin.exists():

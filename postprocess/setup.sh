@@ -72,12 +72,12 @@ system()
 # Cases are read by Python with numpy and gmsh's module: Debian's packages, else the release of the program gmsh from PyPI.
 reader()
 {
-    ready() { sh edp/case/read.sh 0 ready >/dev/null 2>&1; }
+    ready() { sh edp/input/read.sh 0 ready >/dev/null 2>&1; }
     ! ready || return 0
     (debian python3-numpy python3-gmsh) && ready && return 0
     make -s --no-print-directory "$VENV/run.stamp" && "$python" -m pip install -q --no-input --disable-pip-version-check \
         "gmsh==$(gmsh --version 2>&1 | grep -o '[0-9][0-9.]*')" && ready && return 0
-    sh edp/case/read.sh 0 ready
+    sh edp/input/read.sh 0 ready
     exit 1
 }
 

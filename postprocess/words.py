@@ -22,7 +22,7 @@ HISTORY_COLUMNS = (
 
 
 def captions() -> dict[str, str]:
-    """What each figure shows, by its name: the tables of edp/reference/figures.md. Without that page none."""
+    """What each figure shows, by its name: the tables of edp/docs/reference/figures.md. Without that page none."""
     text = FIGURES.read_text(encoding="utf-8") if FIGURES.exists() else ""
     found = re.findall(r"^\| `([\w-]+)` \| (.+) \| `make [\w/. -]+` \|$", text, re.M)
     return {name: content.replace("`", "") + "." for name, content in found}

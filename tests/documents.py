@@ -27,25 +27,25 @@ THEORY = (
 # Chapters of the site by what a reader wants, and what stands in them: a page, or `PAGE#`, the sections of a long page.
 CHAPTERS = {
     "Tutorials": [
-        "edp/tutorial/*.md",
+        "edp/docs/tutorial/*.md",
         "edp/labs/README.md",
         "edp/labs/*/README.md",
         "edp/labs/INSTRUCTOR.md",
         "edp/labs/CRIB.md",
     ],
     "How-to": [
-        *("edp/howto/README.md", "edp/howto/install.md", "edp/howto/own-model.md", "edp/CHOOSING.md", "edp/howto/*.md"),
-        *("edp/TROUBLESHOOTING.md", "template/README.md", "edp/WRITING.md", "edp/WRITING.md#"),
+        *("edp/docs/howto/README.md", "edp/docs/howto/install.md", "edp/docs/howto/own-model.md", "edp/docs/CHOOSING.md", "edp/docs/howto/*.md"),
+        *("edp/docs/TROUBLESHOOTING.md", "template/README.md", "edp/docs/WRITING.md", "edp/docs/WRITING.md#"),
     ],
     "Reference": [
-        *("edp/reference/README.md", "edp/case/README.md", "edp/reference/*.md", "edp/examples/README.md"),
-        *("edp/examples/*/README.md", "edp/scenes/README.md", "edp/scenes/README.md#", "edp/GLOSSARY.md"),
-        "edp/REFERENCES.md",
+        *("edp/docs/reference/README.md", "edp/input/README.md", "edp/docs/reference/*.md", "edp/examples/README.md"),
+        *("edp/examples/*/README.md", "edp/scenes/README.md", "edp/scenes/README.md#", "edp/docs/GLOSSARY.md"),
+        "edp/docs/REFERENCES.md",
     ],
     "Explanation": [
-        *("edp/HOW-IT-WORKS.md", "edp/LIMITS.md", "edp/ERRORS.md", "edp/theory/README.md"),
-        *(f"edp/theory/{name}.md" for name in THEORY),
-        *("edp/PAPER.md", "edp/PAPER.md#"),
+        *("edp/docs/HOW-IT-WORKS.md", "edp/docs/LIMITS.md", "edp/docs/ERRORS.md", "edp/docs/theory/README.md"),
+        *(f"edp/docs/theory/{name}.md" for name in THEORY),
+        *("edp/docs/PAPER.md", "edp/docs/PAPER.md#"),
     ],
     "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/VERIFICATION.md", "tests/COST.md", "tests/COST.md#"],
     "Code": "edp/README.md edp/README.md# CONTRIBUTING.md tests/README.md tests/data/README.md CHANGELOG.md".split(),

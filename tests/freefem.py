@@ -25,7 +25,7 @@ from accounts import shared
 
 ROOT = Path(__file__).resolve().parent.parent
 MULTIGRID, FAST = (  # as built; the numbers in the names are those of what the plugins give the scripts
-    ROOT / "build" / next((ROOT / "edp/case/without").glob(f"{name}-plugin-*.idp")).name
+    ROOT / "build" / next((ROOT / "edp/input/without").glob(f"{name}-plugin-*.idp")).name
     for name in ("multigrid", "fast")
 )
 FREEFEM = ["FreeFem++", "-nw", "-v", "0"]
@@ -295,7 +295,7 @@ def told(stdout):
     return {name: np.array(values, float) for _, name, *values in lines}
 
 
-def scene_text(scene, until='include "solve/solve.idp"'):
+def scene_text(scene, until='include "solver/solve.idp"'):
     """The scene's own lines: bodies, obstacle and load, up to the solution."""
     text = (ROOT / script(scene)).read_text()
     assert text.count(until) == 1

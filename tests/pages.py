@@ -24,9 +24,9 @@ EDP = ROOT / "edp"
 sys.path.append(str(EDP / "case"))  # the reader of cases
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
-EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"
+EVERYWHERE = "input/flags", "input/texts", "input/hooks", "input/scene", "contact/points/points", "fem/elasticity"
 FLOW = EDP / "flow.svg"  # where data goes
-PAGES = [EDP / "README.md", EDP / "case/README.md"]
+PAGES = [EDP / "README.md", EDP / "input/README.md"]
 PAGES += [EDP / f"reference/{name}.md" for name in ("flags", "flags-of-scenes", "output-files")]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
@@ -77,7 +77,7 @@ def reads(script, space=False):
     space = space or "macro threeDimensional" in text
     without = "!" if space else ""
     text = re.sub(rf"^IFMACRO\({without}threeDimensional\)\n.*?^ENDIFMACRO\n", "", text, flags=re.M | re.S)
-    own = re.findall(r"(?:do\(|whenAsked\()(\w+), (?:do, )?what\)", "".join(EACH.findall(text)))
+    own = re.findall(r"(?:do\(|ifRequested\()(\w+), (?:do, )?what\)", "".join(EACH.findall(text)))
     inner = re.findall(r'^include "((?:scenes/)?[\w-]+\.edp)"', text, flags=re.M)
     return set(own).union(*(reads(name, space) for name in inner))
 
@@ -172,7 +172,7 @@ def groups():
     """{words: scenes that have them in common}."""
     texts = {scene: includes(script) for scene, script in scripts().items() if "ipopt" not in scene}
     marks = {"in space": "macro threeDimensional()", "two bodies": "macro deformableMaster()"}
-    marks |= {"block": "blocks/block-flags.idp", "attracting": "do(attraction, what)"}
+    marks |= {"block": "scenes/blocks/block-flags.idp", "attracting": "do(adhesion, what)"}
     found = {words: {scene for scene in texts if mark in texts[scene]} for words, mark in marks.items()}
     found["case"] = {"parts", "parts-3d"}
     found["in the plane"] = set(texts) - found["in space"]
@@ -470,15 +470,15 @@ def written(text):
 BOXES = {
     "mesh": (10, 10, 150, "bodies", "mesh, materials, loads", "Th, material"),
     "K": (220, 10, 190, "discretisation", "stiffness K, load f", "discretise"),
-    "B": (220, 92, 190, "surface, contact", "overlaps B u, weights w", "overlapOf, weight"),
-    "C": (480, 92, 190, "operator", "C q = B K⁻¹ Bᵀ q", "complianceTimes"),
-    "G": (480, 10, 190, "kernel", "C of a half-plane", "kernelTimes"),
-    "law": (10, 214, 150, "laws", "p(s), p′(s), wall at τ", "graphPoint"),
+    "B": (220, 92, 190, "surface, contact", "overlaps B u, weights w", "computeOverlap, weight"),
+    "C": (480, 92, 190, "operator", "C q = B K⁻¹ Bᵀ q", "computeForceOverlap"),
+    "G": (480, 10, 190, "kernel", "C of a half-plane", "applySurrogate"),
+    "law": (10, 214, 150, "laws", "p(s), p′(s), wall at τ", "computeGraphPoint"),
     "tangent": (220, 214, 190, "problem", "s, p, p′, status", "linearise"),
     "linear": (480, 214, 190, "solve", "contact forces q, overlaps", "solveCondensed"),
     "tau": (220, 306, 190, "solve", "next thresholds τ, eq. (6)", "updateThreshold"),
-    "error": (480, 412, 190, "options/estimates", "± of each number", "estimateMesh"),
-    "files": (220, 412, 190, "report", "summary.json, tables", "measureContacts"),
+    "error": (480, 412, 190, "options/estimates", "± of each number", "estimateErrors"),
+    "files": (220, 412, 190, "report", "summary.json, tables", "measureContactSizes"),
 }
 ARROWS = [
     ("mesh", "K", ""),
@@ -529,7 +529,7 @@ def flow():
     tip = '<marker id="tip" orient="auto" markerWidth="8" markerHeight="8" refX="7" refY="4">'
     tip += '<path d="M0 0L8 4L0 8z" style="fill:#1b5e8c;stroke:none"/></marker>'
     loop = '<rect x="205" y="192" width="480" height="182" rx="8" class="loop"/>'
-    loop += '<text x="420" y="352" class="n">threshold loop: solve/extended-newton.idp</text>'
+    loop += '<text x="420" y="352" class="n">threshold loop: solver/newton/extended-newton.idp</text>'
     head = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 800 480" width="800">'
     white = '<rect width="800" height="480" style="fill:#fff;stroke:none"/>'
     return (

@@ -42,7 +42,7 @@ def test_by_a_fixture(two, k):
 
 
 def test_by_a_shell():
-    assert subprocess.run(["sh", "-c", "cat edp/laws/t*"], cwd=ROOT, capture_output=True).stdout == b"2"
+    assert subprocess.run(["sh", "-c", "cat edp/contact/laws/t*"], cwd=ROOT, capture_output=True).stdout == b"2"
 
 
 def test_of_nothing():
@@ -78,16 +78,16 @@ def package(tmp_path):
     for name in OF_PLAIN_PYTHON:
         shutil.copy(ROOT / "tests" / name, folder / "tests" / name)
     shutil.copy(ROOT / "pyproject.toml", folder)
-    shutil.copytree(ROOT / "edp/case/without", folder / "edp/case/without")
+    shutil.copytree(ROOT / "edp/input/without", folder / "edp/input/without")
     shutil.copytree(ROOT / "postprocess", folder / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "edp/laws").mkdir()
+    (folder / "edp/contact/laws").mkdir()
     for mark in ("long", "nightly"):
         (folder / f"tests/{mark}.txt").touch()
     last = FIRST.replace("by_a_helper", "by_the_same_helper")  # which is not imported again
     for name, text in (("test_first", FIRST), ("helper", HELPER), ("test_some", TESTS), ("test_then", last)):
         (folder / f"tests/{name}.py").write_text(text)
     for name, text in (("one", "1"), ("two", "2"), ("helped", "3")):
-        (folder / f"edp/laws/{name}.idp").write_text(text)
+        (folder / f"edp/contact/laws/{name}.idp").write_text(text)
     return folder
 
 

@@ -28,7 +28,7 @@ E, NU, R, GAP = 100, 0.3, 10, 1e-3  # the scene's defaults, GAP the gap at rest
 MODULUS = E / (1 - NU**2)
 SPHERE = "adhesive-sphere"
 LJ = ["-law", "lennard-jones"]
-OPTION = {"options": "macro eachOption(do, what) do(attraction, what) //\n"}
+OPTION = {"options": "macro eachOption(do, what) do(adhesion, what) //\n"}
 
 # sphere on a half-space, by Tabor's number: an independent boundary element code, 0.1 %
 PULL_OFF = {0.05: -1.9883, 0.3: -1.8698, 1: -1.6702, 2: -1.5834}  # over pi w R
@@ -445,12 +445,12 @@ def test_refused(words, said, tmp_path):
 
 def test_fold_leaves_the_dual(tmp_path):
     """What a fold near by adds to the error is found with a dual of its own; the present one is there again."""
-    code = """dualOfForces(dualForces, askedGain);
-    real[int] change = dualDisplacement;
+    code = """setAdjointOfForces(adjointForces, adjointGain);
+    real[int] change = adjointDisplacement;
     real unused = 1;
-    nearFold(unused, unused);
-    change -= dualDisplacement;
-    tell("share", change.linfty / dualDisplacement.linfty);
+    correctNearLimitPoint(unused, unused);
+    change -= adjointDisplacement;
+    tell("share", change.linfty / adjointDisplacement.linfty);
     """
     text = (ROOT / "edp/scenes/adhesive-cylinder.edp").read_text() + code
     found = told(snippet(tmp_path, text, "-vtu", 0, "-out", tmp_path / "out"))

@@ -54,17 +54,17 @@ BODIES = "units mm MPa\nsize contact 0.035\nclamp outside\nforce bore 0 -500\n" 
     f"body {name} E 210e3 nu 0.3\n" for name in ("inner", "outer", *(f"roller{n + 1}" for n in range(ROLLERS)))
 )
 CASE = BODIES + "".join(f"contact r{n + 1} {race}-race\n" for n in range(ROLLERS) for race in ("inner", "outer"))
-ONE_BY_ONE = 'macro beforeSolution() dampedMost = 0; //\ninclude "parts.edp"\n'
+ONE_BY_ONE = 'macro beforeSolution() dampedCyclesMax = 0; //\ninclude "parts.edp"\n'
 # does what holds idle rollers carry nothing, if it carries these shares of all forces?
 SHARES = (0, 1e-8, 1e-4)
 HELD = """
 real[int] nothing(shares.n);
 for (int k = 0; k < shares.n; k++)
 {
-    unknownMotion = 1;
-    real[int] held = unknownHold * unknownMotion;
-    unknownMotion *= shares[k] * max(q.l1, unknownTarget.linfty) / held.linfty;
-    nothing[k] = holdsNothing(q);
+    freeModeAmplitude = 1;
+    real[int] held = modeRegularisation * freeModeAmplitude;
+    freeModeAmplitude *= shares[k] * max(q.l1, freeModeLoad.linfty) / held.linfty;
+    nothing[k] = isRegularisationIdle(q);
 }
 tell("nothing", nothing);
 """
@@ -103,21 +103,21 @@ def test_one_point_opens(before, expect, tmp_path):
 
     From a solution that pulls itself there is no way: both open.
     """
-    text = f"""include "solve/solve.idp"
+    text = f"""include "solver/solve.idp"
 real before = {before};
-keepSolution();
-phatBefore = 1;
+saveSolution();
+phatOld = 1;
 phat = 1;
 shat = 0;
-shatBefore = 0;
+shatOld = 0;
 state = wall;
 int[int] solved = state;
 int one = points / 2, other = one + 1;
-phatBefore[one] = before;
+phatOld[one] = before;
 phat[one] = -1;
 phat[other] = -3;
 state[one] = state[other] = open;
-changeOne(solved);
+activeSetStep(solved);
 real[int] found = [phat[one], phat[other], phat[0], real(state[one] == wall), real(state[other] == open)];
 tell("found", found);
 """

@@ -278,7 +278,7 @@ def copied(folder, mesh, case, space=1, how="solve"):
     if case is not None:
         (folder / "a.case").write_text(case)
     given = [str(os.getpid()), mesh, out, "none" if case is None else folder / "a.case", str(space), how, ""]
-    done = subprocess.run(["sh", "edp/bodies/readable.sh", *given], cwd=ROOT, env={**os.environ, "LC_ALL": "C"})
+    done = subprocess.run(["sh", "edp/input/read-case.sh", *given], cwd=ROOT, env={**os.environ, "LC_ALL": "C"})
     return done.returncode, (out / "why").read_text().strip() if (out / "why").exists() else "", out
 
 
@@ -754,7 +754,7 @@ def named(nodes):
 def refusals(names):
     """What modules of the reader refuse, `…` for values."""
     for name in names:
-        module = ast.parse((ROOT / f"edp/case/reader/{name}.py").read_text())
+        module = ast.parse((ROOT / f"edp/input/reader/{name}.py").read_text())
         known = named(module.body)
         for function in (node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)):
             own = known | named(ast.walk(function))
@@ -766,7 +766,7 @@ def refusals(names):
 
 def test_messages_on_the_page():
     """What the reader refuses about parts from CAD stands on the page of refusals, which has no other."""
-    page = (ROOT / "edp/TROUBLESHOOTING.md").read_text().split("## Refused mesh files")[1]
+    page = (ROOT / "edp/docs/TROUBLESHOOTING.md").read_text().split("## Refused mesh files")[1]
     known = [
         [piece.strip() for piece in pattern.split("…")]
         for line in page.splitlines()
@@ -779,9 +779,9 @@ def test_messages_on_the_page():
 
     assert len(parts) > 15
     assert [text for text in parts if not any(match(text, pieces) for pieces in known)] == []
-    sources = [ast.parse(path.read_text()) for path in (ROOT / "edp/case/reader").glob("*.py")]
+    sources = [ast.parse(path.read_text()) for path in (ROOT / "edp/input/reader").glob("*.py")]
     constants = [node.value for source in sources for node in ast.walk(source) if isinstance(node, ast.Constant)]
     said = [text for text in constants if isinstance(text, str)]
-    said += refusals(path.stem for path in (ROOT / "edp/case/reader").glob("*.py"))
+    said += refusals(path.stem for path in (ROOT / "edp/input/reader").glob("*.py"))
     every = [piece.strip(" :,") for pieces in known for piece in pieces]
     assert [piece for piece in every if not any(piece in text for text in said)] == []

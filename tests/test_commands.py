@@ -15,18 +15,18 @@ from postprocess.__main__ import parser
 RUN_BY = {
     "README.md": "test_readme.py::test_doors",
     "CONTRIBUTING.md": ".ci/run",  # they are what it runs
-    "edp/case/README.md": "test_examples.py::test_page_of_the_case_file",
+    "edp/input/README.md": "test_examples.py::test_page_of_the_case_file",
     "edp/examples/*/README.md": "test_examples.py",  # the case on coarser or finer meshes
-    "edp/howto/*.md": "test_commands.py::test_page",
+    "edp/docs/howto/*.md": "test_commands.py::test_page",
     "edp/labs/*/README.md": "test_labs.py",
     "edp/scenes/README.md": "test_scene_docs.py",
-    "edp/tutorial/*.md": "test_tutorials.py::test_commands",
-    "edp/ERRORS.md": "test_tutorials.py::test_commands",
+    "edp/docs/tutorial/*.md": "test_tutorials.py::test_commands",
+    "edp/docs/ERRORS.md": "test_tutorials.py::test_commands",
     "tests/RESULTS.md": "test_readme.py::test_freefem_commands",
     "tests/VERIFICATION.md": "test_verification.py::test_case",
     "template/README.md": "test_commands.py::test_what_is_begun",
 }
-HOWTO = {path.stem: path for path in sorted((ROOT / "edp/howto").glob("*.md")) if fences(path.read_text(), "sh")}
+HOWTO = {path.stem: path for path in sorted((ROOT / "edp/docs/howto").glob("*.md")) if fences(path.read_text(), "sh")}
 COARSER = {  # each page as it stands, apart from these
     "-h 0.1": "-h 0.5",
     "-100:-2000:20": "-100:-2000:2",

@@ -94,7 +94,7 @@ def test_workflow():
 
 def test_page_of_containers():
     """The page's commands shall build what there is."""
-    page = (ROOT / "edp/howto/install.md").read_text()
+    page = (ROOT / "edp/docs/howto/install.md").read_text()
     (command,) = re.findall(r"^docker build (.*)$", page, re.M)
     words = shlex.split(command)
     assert words[words.index("-f") + 1] == ".binder/Dockerfile" and words[-1] == "."

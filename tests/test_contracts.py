@@ -13,7 +13,7 @@ MODULES = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.idp"))
 ALONE = EDP / "labs/0-algorithm/algorithm1.edp"  # plain FreeFEM: it shares nothing with the modules
 SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp") if path != ALONE)
 TYPES = set("int real string bool complex matrix mesh mesh3 varf fespace func ifstream ofstream ostream".split())
-EVERYWHERE = {"moduleLoaded", "pluginLoaded", "readTwin", "readUnless"}  # every module says that it is there; includes
+EVERYWHERE = {"moduleLoaded", "pluginLoaded", "readForDimension", "readUnless"}  # every module says that it is there; includes
 
 # a macro ends at //, on whatever line; elsewhere // begins a comment
 TEXT = re.compile(r'"(?:\\.|[^"\\])*"|\bmacro\s+(\w+)\s*\(([^)]*)\)(.*?)//|//[^\n]*', re.DOTALL)
@@ -175,7 +175,7 @@ def taken():
 
 
 def paths(text):
-    """The files and folders that a text names: `case/flags.idp`, `meshes/check.awk`, `kernel/`."""
+    """The files and folders that a text names: `input/flags.idp`, `meshes/check.awk`, `kernel/`."""
     return re.findall(r"(?<![\w/<>.-])(?:[a-z][\w-]{2,}/)+(?:[\w-]+\.\w+|(?![\w<*]))", text)
 
 
@@ -186,10 +186,10 @@ def checked(sources):
 
 def test_the_code_is_read():
     """What this test takes for declarations and uses shall be what is meant."""
-    assert {"sRest", "approach", "setUpProblem"} <= read("problem/problem.idp")[0]
-    assert "applyLoad" in read("problem/problem-of-bodies.idp")[0]
-    assert "forceControl" in uses("problem/problem.idp")
-    assert {"graphPoint", "condensed"} <= uses("problem/problem-of-law.idp")
+    assert {"sUndeformed", "approach", "setUpProblem"} <= read("solver/problem/problem.idp")[0]
+    assert "applyLoad" in read("solver/problem/problem-of-bodies.idp")[0]
+    assert "forceControl" in uses("solver/problem/problem.idp")
+    assert {"computeGraphPoint", "condensed"} <= uses("solver/problem/problem-of-law.idp")
     assert len(owners()) > 300
 
 

@@ -54,7 +54,7 @@ def test_case_file_on_the_page(name):
 
 def test_page_of_the_case_file(tmp_path):
     """The commands of the page run as they stand, and the case file on it is the example's."""
-    text = (ROOT / "edp/case/README.md").read_text()
+    text = (ROOT / "edp/input/README.md").read_text()
     (shown,) = fences(text, "text")
     case = (FOLDER / "pin-in-hole/pin-in-hole.case").read_text()
     assert [line.split("#")[0].split() for line in case.splitlines()[1:]] == [
@@ -334,7 +334,7 @@ def test_page(name):
 
 def test_screen_of_the_manual():
     """The greatest pressure on the page shall be the pin's."""
-    text = (ROOT / "edp/howto/accuracy.md").read_text()
+    text = (ROOT / "edp/docs/howto/accuracy.md").read_text()
     (line,) = re.findall(r"^    greatest pressure .*$", text, re.M)
     (command,) = [unit.command for unit in units((FOLDER / "pin-in-hole/README.md").read_text() + "1<!--= 1 -->")]
     assert line in execute([*FREEFEM, *shlex.split(command), "-vtu", "0"])[1]

@@ -54,8 +54,8 @@ def without(package, tmp_path, *missing):
 
 
 INTERFACES = {
-    "fast-plugin-2": "5bd3c518a64ca7ca517ac9767824ccec",
-    "multigrid-plugin-4": "834a23d3e7f86df2ec35d95c9a30d118",
+    "fast-plugin-3": "5bd3c518a64ca7ca517ac9767824ccec",
+    "multigrid-plugin-5": "834a23d3e7f86df2ec35d95c9a30d118",
 }
 
 
@@ -111,7 +111,7 @@ def test_same_in_space(tmp_path):
     """Curved elements, searches along rays and distances shall be the same with the plugin and without, and right."""
     bracket = "edp/examples/ball-on-bracket/ball-on-bracket"
     text = (ROOT / "edp/parts-3d.edp").read_text()
-    parts = (ROOT / "edp/parts.edp").read_text().split('include "solve/solve.idp"')[0]
+    parts = (ROOT / "edp/parts.edp").read_text().split('include "solver/solve.idp"')[0]
     text = text.replace('include "parts.edp"', parts) + data("fast/space.edp")
     sizes = [word for name, size in (("size", 0.8), ("round", 4), ("coarse", 12)) for word in ("-set", name, size)]
     flags = ["-mesh", f"{bracket}.geo", "-case", f"{bracket}.case", *sizes]

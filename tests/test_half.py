@@ -13,11 +13,11 @@ UNFOLDED = {
     "real meshed = mirrorX ? 0.5 * width : width;": "real meshed = 0.5 * width;",
     "(oneSide ? 1 : 0.5) * (contactTo - contactFrom)": "0.5 * (contactTo - contactFrom)",
     "real[int] spots = [contactFrom,": "real[int] spots = [0.,",
-    "setLabels(group(": """Th = Th + movemesh(Th, [-x, y]);
-leftSide = -0.5 * width;
+    "setBoundaryLabels(group(": """Th = Th + movemesh(Th, [-x, y]);
+leftAbscissa = -0.5 * width;
 meshed = width;
 oneSide = false;
-setLabels(group(""",
+setBoundaryLabels(group(""",
     'int leftLabel = group("left");': "int leftLabel = freeLabel;",  # the half's left side is in the middle
 }
 

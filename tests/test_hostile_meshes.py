@@ -320,7 +320,7 @@ def checked(file, folder):
     """What FreeFEM would read of a mesh, and why it would not: (text or None, the reason)."""
     copy = folder / "copy"
     (folder / "two.case").write_text(CASE)
-    command = ["sh", "edp/bodies/readable.sh", os.getpid(), file, copy, folder / "two.case", 0]
+    command = ["sh", "edp/input/read-case.sh", os.getpid(), file, copy, folder / "two.case", 0]
     process, stdout = in_little(folder, list(map(str, command)))
     assert process.returncode in (0, 1, 3) and not stdout
     name = "why" if process.returncode else "mesh.msh"

@@ -2,7 +2,7 @@
 
 A file uses another one if a name stands in it that the other one declares at its top level: a function, a variable or
 a macro. What a macro says counts for the file that declares it. Hooks are left out: macros of options that the core
-executes (case/hooks.idp), and those that a scene fills in or that are asked for by IFMACRO; so are the scenes' scripts.
+executes (input/hooks.idp), and those that a scene fills in or that are asked for by IFMACRO; so are the scenes' scripts.
 """
 
 import re
@@ -50,7 +50,7 @@ def sources():
 def modules():
     """{path: code without comments and macros} of the modules."""
     return {
-        path: re.sub(r"//.*|readTwin\(.*\)|readUnless\(.*\)", "", MACRO.sub(lambda m: "\n" * m[0].count("\n"), text))
+        path: re.sub(r"//.*|readForDimension\(.*\)|readUnless\(.*\)", "", MACRO.sub(lambda m: "\n" * m[0].count("\n"), text))
         for path, text in sources().items()
         if path.endswith(".idp")
     }
@@ -175,10 +175,10 @@ def arrows(hooks=False):
 
 @cache
 def units():
-    """{part for plane or space, read by readTwin or of a module's name: the whole}; the first whole counts."""
+    """{part for plane or space, read by readForDimension or of a module's name: the whole}; the first whole counts."""
     found = dict.fromkeys(COULOMB[1:], COULOMB[0])
     for name, text in sources().items():
-        twins = re.findall(r"^readTwin\((\S+)\)", text, re.M)
+        twins = re.findall(r"^readForDimension\((\S+)\)", text, re.M)
         parts = [f"{twin}-{where}.idp" for twin in twins for where in ("plane", "space")]
         parts += re.findall(r"^readUnless\((\S+-(?:plane|space)\.idp), \w+\)$", text, re.M)
         of_name = re.compile(re.escape(name[:-4]) + r"-(plane|space|of-\w+)\.idp")
@@ -248,9 +248,9 @@ def writers():
 
 def test_what_is_read():
     """Names in macros shall count, and of names that twins share both files; options' hooks only if they shall."""
-    assert "startFull" in arrows()["solve/methods/all.idp"]["solve/full-system.idp"]
-    assert {"kernel/half-plane.idp", "kernel/half-space.idp"} <= set(arrows()["kernel/preconditioner.idp"])
-    of_hook = "options/attraction/attraction.idp", "options/attraction/attracted.idp"
+    assert "startFullSystem" in arrows()["solver/methods/all.idp"]["solver/newton/full-system.idp"]
+    assert {"solver/surrogate/half-plane.idp", "solver/surrogate/half-space.idp"} <= set(arrows()["solver/surrogate/preconditioner.idp"])
+    of_hook = "contact/adhesion/adhesion.idp", "contact/adhesion/adhesive-run.idp"
     assert of_hook[1] in arrows(hooks=True)[of_hook[0]] and of_hook[1] not in arrows()[of_hook[0]]
 
 
@@ -308,7 +308,7 @@ def test_no_name_twice():
     """No file name shall stand twice, but in the registries of laws and methods, and in options."""
     names = {}
     for path in modules():
-        if not path.startswith(("laws/", "solve/methods/", "options/")):
+        if not path.startswith(("laws/", "solver/methods/", "options/")):
             names.setdefault(path.split("/")[-1], []).append(path)
     twice = {name: paths for name, paths in names.items() if len(paths) > 1}
     assert not twice

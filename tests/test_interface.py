@@ -162,7 +162,7 @@ def test_from_any_folder(name, package, tmp_path):
 
 def test_modules_are_the_package_s(package, tmp_path):
     """The starter shall read no module, script or Python module of the present folder in place of the package's."""
-    for name in "case/flags.idp case/scene.idp laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
+    for name in "input/flags.idp input/scene.idp contact/laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
         (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
         (tmp_path / name).write_text('cout << "not the package" << endl; exit(3);\n')
     for name in ("numpy", "argparse", "csv", "matplotlib"):
@@ -195,7 +195,7 @@ def test_module_in_the_present_folder(tmp_path):
     (package / "laws").mkdir()
     (package / "laws/own.idp").write_text("")
     assert run_in(package, script(DISC), *quick, out=tmp_path / "out").code == 0
-    shutil.copytree(package / "edp/laws", package / "case/laws")
+    shutil.copytree(package / "edp/contact/laws", package / "case/laws")
     for flags in (quick, [*quick[:4], "-accuracy", 0.25]):
         said = run_in(package, script(DISC), *flags, out=tmp_path / "never", expect=10).stdout
         assert said.count("\n") == 1 and "case/laws" in said and "in place of the package's laws/" in said
@@ -210,7 +210,7 @@ def test_module_in_the_present_folder(tmp_path):
     for name in ("edp", "meshes"):  # as make new does: own modules are there on purpose
         (here / name).symlink_to(package / name)
     (here / "laws").mkdir()
-    shutil.copy(package / "edp/laws/power.idp", here / "laws")
+    shutil.copy(package / "edp/contact/laws/power.idp", here / "laws")
     run_in(here, "edp/main.edp", *quick, out=tmp_path / "own")
 
 
@@ -407,12 +407,12 @@ def test_every_folder_is_quiet():
 @pytest.mark.parametrize("busy, terminal", [(0, True), (0, False), (10, True)])
 def test_signs_of_life(tmp_path, busy, terminal):
     """A long run says on a terminal what it computes; a short one, or one without a terminal, prints nothing new."""
-    start = 'include "solve/solver.idp"\n'
+    start = 'include "solver/solver.idp"\n'
     text = (ROOT / script(DISC)).read_text()
     assert text.count(start) == 1
     for name in ("edp", "meshes", "freefem++.pref", "build"):
         (tmp_path / name).symlink_to(ROOT / name)
-    (tmp_path / "own.edp").write_text(text.replace(start, f"{start}busyFrom = {busy};\n"))
+    (tmp_path / "own.edp").write_text(text.replace(start, f"{start}progressDelay = {busy};\n"))
     shown, errors = pty.openpty()
     command = [*FREEFEM, "own.edp", "-h", "2", "-vtu", "0", "-out", tmp_path / "out"]
     screen = errors if terminal else subprocess.PIPE
@@ -436,7 +436,7 @@ def test_signs_of_life(tmp_path, busy, terminal):
 
 def test_no_finite_numbers_are_null(tmp_path):
     """summary.json of a run that ends with NaN is JSON: null stands there, and the message says why."""
-    ending = 'include "report/report.idp"'
+    ending = 'include "output/report/report.idp"'
     spoilt = 'converged = false; failure = "no finite solution"; residual = log(-1.); modelError = -log(0.);\n'
     text = (ROOT / script("disc-on-block")).read_text()
     assert text.count(ending) == 1
@@ -447,7 +447,7 @@ def test_no_finite_numbers_are_null(tmp_path):
     done = run_in(tmp_path, "own.edp", *flags, out=tmp_path / "out", expect=20)
     assert (done.residual, done.modelError, done.message) == (None, None, "no finite solution")
     assert done.force > 0 and "NOT CONVERGED: no finite solution" in done.stdout
-    folder, program = tmp_path / "listed", ["sh", ROOT / "edp/case/folder.sh", os.getpid()]
+    folder, program = tmp_path / "listed", ["sh", ROOT / "edp/input/folder.sh", os.getpid()]
     assert execute([*program, "open", folder])[0] == 0
     text = '{"name": "at least, information", "motion": [-nan, 1, -inf],\n"way": nan}\n'
     (folder / ".run/summary.json").write_text(text)

@@ -64,7 +64,7 @@ def test_counts():
     assert result.factorisations == result.backsolves == result.newton
     assert result.history["residual"][-1] == result.residual
     assert "ff-Ipopt" in result.plugins
-    assert "solve/methods/ipopt" in result.modules
+    assert "solver/methods/ipopt" in result.modules
 
 
 @pytest.mark.parametrize("flags", [[], ["-law", "signorini"]])

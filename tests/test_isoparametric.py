@@ -53,7 +53,7 @@ def fields(folder, mesh, case):
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
     space, whole = ((ROOT / name).read_text() for name in ("edp/parts-3d.edp", "edp/parts.edp"))
-    text = re.sub(r'include "parts.*', "", space) + whole.split("lookAtContacts();")[0] + FIELDS
+    text = re.sub(r'include "parts.*', "", space) + whole.split("checkOpposingSurfaces();")[0] + FIELDS
     return told(snippet(folder, text, "-mesh", "a.msh", "-case", "a.case"))
 
 

@@ -39,9 +39,9 @@ def test_products_of_a_case(tmp_path):
     (tmp_path / "turned.geo").write_text(TURNED)
     (tmp_path / "turned.case").write_text(TURNED_CASE)
     text = (ROOT / "edp/parts-3d.edp").read_text()
-    parts = (ROOT / "edp/parts.edp").read_text().split('include "solve/solve.idp"')[0]
+    parts = (ROOT / "edp/parts.edp").read_text().split('include "solver/solve.idp"')[0]
     text = text.replace('include "parts.edp"', parts) + PRODUCTS
-    text += 'for (int n = 3000; n < 5000; n += 1000) tell("offered" + n, levelsOffered(n));\n'
+    text += 'for (int n = 3000; n < 5000; n += 1000) tell("offered" + n, usesGrids(n));\n'
     values = told(snippet(tmp_path, text, "-mesh", "turned.geo", "-case", "turned.case", "-order", 1))
     assert values["offered3000"][0] == 0 < values["offered4000"][0]
     assert values["levels"][0] >= 2
@@ -55,7 +55,7 @@ SYNTHETIC = data("levels/synthetic.edp")
 @pytest.mark.parametrize("side", [45, 90])
 def test_start(side, tmp_path):
     """The start of a stiff law on a half-space without body: found on some points, solved on all; Hertz's force."""
-    scene = scene_text("sphere-on-block").split("flagsDone(")[0]
+    scene = scene_text("sphere-on-block").split("checkCommandLine(")[0]
     values = told(snippet(tmp_path, scene + SYNTHETIC, "-side", side, "-kappa", 1e9, "-u0", 2))
     assert values["stride"][0] > 1
     assert values["residual"][0] < 2e-3
@@ -69,11 +69,11 @@ STIFF = "sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9]
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
-    name = package / "edp" / "options" / "many" / "upright.idp"
+    name = package / "edp" / "options" / "many" / "single-contact-sources.idp"
     text = name.read_text()
-    assert text.count("int manyOnLevels = 1500;") == 1
+    assert text.count("int gridPointsMin = 1500;") == 1
     usual = run(scene, *flags).summary
-    name.write_text(text.replace("int manyOnLevels = 1500;", "int manyOnLevels = 20;"))
+    name.write_text(text.replace("int gridPointsMin = 1500;", "int gridPointsMin = 20;"))
     other = run_in(package, script(scene), *flags, "-estimate", 0, "-vtu", 0, out=tmp_path / "levels").summary
     assert other["force"] == pytest.approx(usual["force"], rel=1e-5) and other["force"] != usual["force"]
     assert other["newton"] <= usual["newton"] + 1
@@ -85,8 +85,8 @@ def test_no_convergence(tmp_path):
     package = tree(tmp_path / "package")
     many = package / "edp" / "options" / "many"
     for name, before, after in (
-        ("upright.idp", "int manyOnLevels = 1500;", "int manyOnLevels = 20;"),
-        ("levels-inverse.idp", "int innerMost = 300;", "int innerMost = 1;"),
+        ("single-contact-sources.idp", "int gridPointsMin = 1500;", "int gridPointsMin = 20;"),
+        ("grid-preconditioner.idp", "int innerIterationsMax = 300;", "int innerIterationsMax = 1;"),
     ):
         text = (many / name).read_text()
         assert text.count(before) == 1
@@ -102,9 +102,9 @@ def test_no_matrix(tmp_path):
     package = tree(tmp_path / "package")
     name = package / "edp" / "kernel" / "preconditioner.idp"
     text = name.read_text()
-    assert text.count("int densePointsMost = 6000;") == 1
+    assert text.count("int densePointsMax = 6000;") == 1
     usual = run("disc-on-block", "-kappa", 1e6).summary
-    name.write_text(text.replace("int densePointsMost = 6000;", "int densePointsMost = 20;"))
+    name.write_text(text.replace("int densePointsMax = 6000;", "int densePointsMax = 20;"))
     flags = ["-kappa", 1e6, "-order", 1, "-estimate", 0, "-vtu", 0]
     other = run_in(package, script("disc-on-block"), *flags, out=tmp_path / "diagonal")
     assert other.summary["force"] == pytest.approx(usual["force"], rel=1e-5)

@@ -272,10 +272,10 @@ def test_stress_and_way_on_a_layer(said):
 def test_open_points_change_nothing(tmp_path):
     """The change by the true distance, of points in contact alone, shall be that of all points."""
     package = tree(tmp_path / "package")
-    path = package / "edp/options/estimates/true-gap.idp"
+    path = package / "edp/error/estimates/sliding-correction.idp"
     text = path.read_text()
-    assert text.count("if (!hereTrue) pairOnly(touching);") == 1
-    path.write_text(text.replace("if (!hereTrue) pairOnly(touching);", ""))
+    assert text.count("if (!referenceTrueDistance) restrictPairing(touching);") == 1
+    path.write_text(text.replace("if (!referenceTrueDistance) restrictPairing(touching);", ""))
     example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders"
     flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-order", 1, "-vtu", 0]
     places = {"alone": ROOT, "all": package}

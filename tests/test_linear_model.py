@@ -100,7 +100,7 @@ lawPressure(taus, pt, dt);
 shats = taus;
 shats *= 3;
 phats = pt;
-graphPoint(shats, phats, ks, taus, sg, pg, dg, stateg);
+computeGraphPoint(shats, phats, ks, taus, sg, pg, dg, stateg);
 tell("tau", taus); tell("pt", pt); tell("dt", dt); tell("s", sg); tell("p", pg); tell("slope", dg);
 real[int] status = [stateg[0]];
 tell("status", status);
@@ -225,7 +225,7 @@ for (int i = 0; i < points; i++)
     {
         unit = 0;
         unit[i] = 1;
-        complianceTimes(unit, column, 0);
+        computeForceOverlap(unit, column, 0);
         real[int] at = [pointX[i], weight[i]];
         tell("point", at);
         tell("column", column);
@@ -238,7 +238,7 @@ tell("x", pointX);
 def cantilever(tmp_path_factory):
     """The beam's two points, their order along it, and flags of overlaps at which hard contact has the forces 0.01."""
     folder = tmp_path_factory.mktemp("beam")
-    script = data("theory/beam.edp").split('include "solve/solve.idp"')[0]
+    script = data("theory/beam.edp").split('include "solver/solve.idp"')[0]
     out = [line.split() for line in snippet(folder, script + COLUMNS).splitlines() if line.startswith("told ")]
     points, columns = (np.array([row[2:] for row in out if row[1] == name], float) for name in ("point", "column"))
     x = np.array(next(row[2:] for row in out if row[1] == "x"), float)

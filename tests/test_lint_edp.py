@@ -4,7 +4,7 @@ import pytest
 from lint_edp import MAX_LINE, check, main
 
 SCRIPT = "// main.edp: the paper's test.\n"
-MODULE = "// contact/points.idp: collocation points.\n"
+MODULE = "// contact/points/points.idp: collocation points.\n"
 
 
 def script(body):

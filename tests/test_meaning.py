@@ -193,7 +193,7 @@ def test_shares(tmp_path):
     """Shares beyond any meaning shall be no numbers."""
     script = tmp_path / "shares.edp"
     script.write_text(
-        'include "case/flags.idp"\nreal none = sqrt(-1.);\ncout << percent(0.274) << "|" << percent(1e300) << "|"'
+        'include "input/flags.idp"\nreal none = sqrt(-1.);\ncout << percent(0.274) << "|" << percent(1e300) << "|"'
         ' << percent(none) << "|" << percent(-1e30) << endl;\n'
     )
     code, said = execute(["FreeFem++", "-nw", "-v", "0", script], ROOT)

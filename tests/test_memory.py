@@ -146,10 +146,10 @@ def test_memory_of_several_processes():
     words = r"([\d.]+) GB for .* ([\d.]+) kB n of P1, ([\d.]+) of\n# P2,.* ([\d.]+) kB n\^\(2/3\) of P1, ([\d.]+) of"
     found = re.search(words, (ROOT / "edp/scenes/slurm.sh").read_text())
     program, *each = (float(word) for word in found.groups())
-    formula = (ROOT / "edp/operator/memory.idp").read_text()
+    formula = (ROOT / "edp/solver/compliance/memory.idp").read_text()
     surfaces, parts = (re.search(rf"(\d+) : (\d+)\) {last}", formula).groups() for last in (r"\* n\^\(2", "/ ranks"))
     assert [1000 * kilobytes for kilobytes in each] == [float(word) for word in (*parts, *surfaces)]
-    constants = re.search(r"real leanShare = ([\d.]+)", formula)
+    constants = re.search(r"real leanFraction = ([\d.]+)", formula)
     table = (ROOT / "tests/COST.md").read_text().split("<!-- table: ranks -->")[1].split("<!-- end -->")[0]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line[:3] == "| P"]
     rows = [row for row in rows if row[2] != "1" and row[3].isdigit()]
@@ -178,7 +178,7 @@ def test_groups_and_a_failed_factorisation(tmp_path):
         path = tmp_path / "fake" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    asked = ["sh", str(ROOT / "edp/operator/memory.sh"), "1"]
+    asked = ["sh", str(ROOT / "edp/solver/compliance/memory.sh"), "1"]
     assert subprocess.check_output([*asked, str(tmp_path / "fake")], text=True) == "2000000000 1e300\n"
     assert subprocess.check_output([*asked, str(tmp_path / "none")], text=True) == "1e300 1e300\n"
     output = snippet(tmp_path, SYSTEM, expect=30)

@@ -1,4 +1,4 @@
-"""solve/model-bound.idp: the error that a wall or a tangent leaves in the force, as a bound; where it ends the loop.
+"""solver/newton/model-bound.idp: the error that a wall or a tangent leaves in the force, as a bound; where it ends the loop.
 
 The reference is the law's own state on the same bodies; the second opinion the condensed twin (condensed.bounds).
 """
@@ -11,7 +11,7 @@ from freefem import cases_of, data, named, run, scene_text, snippet, told
 DISC = "disc-on-block"
 PAPER = ["-method", "paper", "-h", 0.5]
 EXACT = ["-tol", 1e-11, "-eps", 1e-10]
-FLAGS_OF_DRAWING = """include "case/output.idp"
+FLAGS_OF_DRAWING = """include "input/output.idp"
 int seed = countFlag("-seed", 1, "of the problems", 0, 1000);
 int count = countFlag("-count", 9, "problems", 1, 10000);
 """
@@ -25,8 +25,8 @@ BODIES = {
 def drawn(folder, bodies, count, seed=1):
     """(problem, gain, [(kind, law, exact forces, state's s and q, points off the law, the four bounds), ...])."""
     scene, flags = BODIES[bodies]
-    text = data(scene).split('include "solve/solve.idp"')[0] if scene.endswith(".edp") else scene_text(scene)
-    text = "macro methodsOnRequest() 1 //\n" + text.replace('include "case/output.idp"\n', FLAGS_OF_DRAWING)
+    text = data(scene).split('include "solver/solve.idp"')[0] if scene.endswith(".edp") else scene_text(scene)
+    text = "macro methodsOnRequest() 1 //\n" + text.replace('include "input/output.idp"\n', FLAGS_OF_DRAWING)
     words = ["-method", "paper", *flags, "-seed", seed, "-count", count]
     found = told(snippet(folder, text + data("theory/models.edp"), *words))
     C = np.array([found[f"C{i}"] for i in range(len(found["weight"]))])

@@ -12,7 +12,7 @@ LAME = E * NU / ((1 + NU) * (1 - 2 * NU))
 SHEAR = E / (2 * (1 + NU))
 CONFINED = LAME + 2 * SHEAR  # M = E (1 - nu) / ((1 + nu) (1 - 2 nu))
 
-# ---------------------------------------------------------------- case/flags.idp
+# ---------------------------------------------------------------- input/flags.idp
 
 FLAGS = data("modules/flags.edp")
 
@@ -56,9 +56,9 @@ def test_flags_refused(tmp_path, flags, words):
 
 def test_advice_of_another_value(tmp_path):
     """A message advises a flag's value only where the flag is there and has another one, as default or as given."""
-    text = 'include "case/flags.idp"\nstring word = wordFlag("-word", "one", "", "one two");\n'
+    text = 'include "input/flags.idp"\nstring word = wordFlag("-word", "one", "", "one two");\n'
     text += (
-        'cout << "told:" << orUse("-word", "one") << orUse("-word", "two") << orUse("-none", "one") << ":" << endl;\n'
+        'cout << "told:" << flagAdvice("-word", "one") << flagAdvice("-word", "two") << flagAdvice("-none", "one") << ":" << endl;\n'
     )
     assert "told:use -word two, or :" in snippet(tmp_path, text)
     assert "told:use -word one, or :" in snippet(tmp_path, text, "-word", "two")
@@ -76,7 +76,7 @@ def test_help(tmp_path, help_flag):
     assert not told(stdout)
 
 
-# ---------------------------------------------------------------- case/output.idp
+# ---------------------------------------------------------------- input/output.idp
 
 OUTPUT = data("modules/output.edp")
 
@@ -89,12 +89,12 @@ def test_output_cut_off_is_not_published(tmp_path):
     assert files(folder) == being_written(folder) == []
 
 
-# ---------------------------------------------------------------- bodies/gmsh.idp
+# ---------------------------------------------------------------- fem/mesh/gmsh.idp
 
 GMSH = """
-include "case/flags.idp"
-include "case/output.idp"
-include "bodies/gmsh.idp"
+include "input/flags.idp"
+include "input/output.idp"
+include "fem/mesh/gmsh.idp"
 """
 
 
@@ -120,7 +120,7 @@ def test_unknown_group_is_refused(tmp_path):
     assert 'no physical group "contac"' in first
 
 
-# ---------------------------------------------------------------- discretisation/of-element.idp
+# ---------------------------------------------------------------- solver/element-system.idp
 
 # the block [-2, 2] x [0, 2] in squares of side 1, clamped below, sides sliding
 BLOCK = ["-method", "newton", "-width", 4, "-depth", 2, "-h", 1, "-E", E, "-nu", NU]
@@ -166,14 +166,14 @@ tell("top", top); tell("load", bodyLoad.sum);
 
 def test_body_load(tmp_path):
     """A confined column under its own weight g shall sink at its top by g L^2 / (2 M)."""
-    discretise = 'include "discretisation/discretise.idp"'
+    discretise = 'include "solver/discretise.idp"'
     text = scene_text("confined-block")
     assert text.count(discretise) == 1
     values = told(snippet(tmp_path, text.replace(discretise, WEIGHT + discretise) + SINKING, *BLOCK, "-order", 2))
     np.testing.assert_allclose(values["top"], -3 * 2**2 / (2 * CONFINED), rtol=1e-12)
 
 
-# ---------------------------------------------------------------- bodies/half.idp
+# ---------------------------------------------------------------- fem/half-storage.idp
 
 HALVES = data("modules/halves.edp")
 
@@ -184,7 +184,7 @@ def test_half_matrices(tmp_path):
     assert values["stored"] == 0 and max(values["product"], values["sum"], values["solution"]) < 1e-12
 
 
-# ---------------------------------------------------------------- surface/slave.idp
+# ---------------------------------------------------------------- contact/surfaces/vertical-slave.idp
 
 POINTS = data("modules/points.edp")
 # points inside an edge from -1 to 1
@@ -219,7 +219,7 @@ def test_slave_points(tmp_path, order, element, weights):
     np.testing.assert_allclose(values["trace"], 10 * x + 2, atol=1e-13)
 
 
-# ---------------------------------------------------------------- surface/pair-plane.idp
+# ---------------------------------------------------------------- contact/pairing/pair-plane.idp
 
 MASTER = data("modules/master.edp")
 
@@ -281,7 +281,7 @@ def test_partly_covered(tmp_path, share, order, element):
     assert weight @ values["linear"] == pytest.approx(-(2 * end - 1.5 * end**2 + 3.5), abs=1e-9)
 
 
-# ---------------------------------------------------------------- problem/problem.idp
+# ---------------------------------------------------------------- solver/problem/problem.idp
 
 # The solver's overlaps are made wrong by a share of the greatest one, and the displacement by a share of itself.
 SPOILT = data("modules/spoilt.edp")
@@ -303,7 +303,7 @@ def test_overlaps_of_the_displacement(flags, tmp_path):
     }
 
 
-# ---------------------------------------------------------------- solve/full-system.idp
+# ---------------------------------------------------------------- solver/newton/full-system.idp
 
 # A Newton step from u0 solves J (u1 - u0) = -G(u0). G, the imbalance, is written anew here; J by central differences.
 TANGENT = data("modules/tangent.edp")
@@ -317,9 +317,9 @@ TANGENTS += [case for case in OTHERS]
 @pytest.mark.parametrize("scene, order", TANGENTS)
 def test_tangent(tmp_path, scene, order):
     """The linearised system shall be the derivative of the equilibrium residual, by central differences."""
-    solver = (ROOT / "edp/solve/solve.idp").read_text()
-    assert solver.count("printHistoryHead();") == solver.count("openOutput(outFolder, filesKept);") == 1
-    solver = solver.split("printHistoryHead();")[0].replace("openOutput(outFolder, filesKept);", "")
+    solver = (ROOT / "edp/solver/solve.idp").read_text()
+    assert solver.count("printHistoryHead();") == solver.count("openOutputFolder(requestedFolder, preservedFiles);") == 1
+    solver = solver.split("printHistoryHead();")[0].replace("openOutputFolder(requestedFolder, preservedFiles);", "")
     flags = ["-method", "newton", "-order", order, "-h", 1, *(["-Eratio", 50] if scene == "meshed-disc" else [])]
     values = told(snippet(tmp_path, scene_text(scene) + solver + TANGENT, *flags))
     for step in (2, 5):
@@ -338,7 +338,7 @@ def parts_of(folder, state):
     """A rounded punch's files and the script of its parts, up to the solution."""
     (folder / "punch.geo").write_text(data("results/punch.geo"))
     (folder / "punch.case").write_text(f"{state}size contact 3\nsize foundation 20\nsize punch 15\n{BODIES}")
-    return (ROOT / "edp/parts.edp").read_text().split('include "solve/solve.idp"')[0]
+    return (ROOT / "edp/parts.edp").read_text().split('include "solver/solve.idp"')[0]
 
 
 @pytest.mark.parametrize("name", ["disc-on-block", "about an axis", "chords", "chords about an axis"])
@@ -365,10 +365,10 @@ def test_of_some_points(tmp_path, name):
 
 LISTS = """
 macro eachLaw(do) do(signorini) do(power) //
-macro lawFiles() include "laws/signorini.idp"
-include "laws/power.idp" //
+macro lawFiles() include "contact/laws/signorini.idp"
+include "contact/laws/power.idp" //
 macro eachMethod(do) do(newton) //
-macro methodFiles() include "solve/methods/newton.idp" //
+macro methodFiles() include "solver/methods/newton.idp" //
 """
 
 
@@ -377,14 +377,14 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     text = LISTS + (ROOT / "edp/scenes/confined-block.edp").read_text()
     snippet(tmp_path, text, "-h", 5, "-vtu", 0, "-out", tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
-    loaded = {name for name in summary["modules"] if name.startswith(("laws/", "solve/methods", "kernel/"))}
-    assert loaded == {"laws/laws", "laws/one-law", "laws/power", "laws/rising", "laws/signorini"} | {
-        "solve/methods",
-        "solve/methods/newton",
-        "kernel/half-plane",
-        "kernel/level-plane",
-        "kernel/lines-plane",
-        "kernel/no-grids",
+    loaded = {name for name in summary["modules"] if name.startswith(("laws/", "solver/newton/methods", "kernel/"))}
+    assert loaded == {"contact/laws/laws", "contact/laws/one-law", "contact/laws/power", "contact/laws/increasing-laws", "contact/laws/signorini"} | {
+        "solver/newton/methods",
+        "solver/methods/newton",
+        "solver/surrogate/half-plane",
+        "solver/surrogate/horizontal-plane",
+        "solver/surrogate/line-loads-plane",
+        "solver/surrogate/no-grids",
     }
     assert summary["method"] == "newton"
     exact = run("confined-block", "-h", 5, "-method", "newton").summary["force"]
@@ -393,7 +393,7 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     assert refused.startswith("-method xnewton: unknown; allowed: one of: newton;")
 
 
-# ---------------------------------------------------------------- contact/points-of-map.idp
+# ---------------------------------------------------------------- contact/points/points-of-map.idp
 
 ENTRIES = data("modules/entries.edp")
 

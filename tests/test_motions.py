@@ -1,4 +1,4 @@
-"""problem/motions.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
+"""solver/problem/rigid-modes.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
 
 import numpy as np
 import pytest
@@ -38,8 +38,8 @@ class Problem:
 
     def write(self, folder):
         data = dict(
-            pointX=self.x, weight=self.weight, overlapBefore=-self.gap, contactOf=self.contact, K=np.linalg.inv(self.C),
-            field=np.vstack([self.G, np.abs(self.G).max(axis=0) < 1e-6]), motionTarget=self.t, motionStiffness=self.S,
+            pointX=self.x, weight=self.weight, initialOverlap=-self.gap, contactOf=self.contact, K=np.linalg.inv(self.C),
+            field=np.vstack([self.G, np.abs(self.G).max(axis=0) < 1e-6]), modeFullWork=self.t, modeStiffness=self.S,
         )  # fmt: skip
         for name, values in data.items():
             values = np.ravel(values)
@@ -109,7 +109,7 @@ real[int] second = [1, 2, 0.02, 800, -0.003];
 def test_laws_by_contact(tmp_path):
     """Each contact shall follow its own law."""
     problem = Problem(2, sizes=(30, 30, 30), motions=2)
-    laws = LAWS + 'giveLaw(0, "a", "power", first, "");\ngiveLaw(1, "b", "exponential", second, "");\n'
+    laws = LAWS + 'setContactLaw(0, "a", "power", first, "");\ngiveLaw(1, "b", "exponential", second, "");\n'
     values = told(problem.solve(tmp_path, laws=laws))
     assert values["converged"] == 1
     exponential = (lambda s: 0.02 * np.expm1(800 * np.maximum(s, 0)), -0.003)

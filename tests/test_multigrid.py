@@ -150,11 +150,11 @@ func real held()
     return kilobytes;
 }
 real[int] f(ndof), u(ndof), v(ndof);
-contactLoad(q, f);
+computeContactLoad(q, f);
 int before = factorisations;
 elasticSolve(f, u);
 real full = held();
-restBodies();
+releaseSolver();
 real[int] freed = [full - held()];
 elasticSolve(f, v);
 v -= u;
@@ -167,7 +167,7 @@ tell("made", made);
 
 @built
 def test_levels_are_freed_and_made_again(tmp_path):
-    """A run that has ended has no levels; a solve makes them, restBodies() frees them, the next makes the same."""
+    """A run that has ended has no levels; a solve makes them, releaseSolver() frees them, the next makes the same."""
     (tmp_path / "build").symlink_to(MULTIGRID.parent)
     flags = ["-order", 1, "-h", 0.5, "-solver", "multigrid", "-estimate", 0, "-vtu", 0]
     found = told(snippet(tmp_path, RESTED, *flags))

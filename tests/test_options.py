@@ -7,8 +7,8 @@ import pages
 from freefem import ROOT, run, run_in, snippet
 from test_contracts import EDP, MODULES, owners, uses
 
-OFFERED = (EDP / "case/hooks.idp").read_text()
-OFFERS = re.findall(r'^optionOffers\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', OFFERED, flags=re.M)
+OFFERED = (EDP / "input/hooks.idp").read_text()
+OFFERS = re.findall(r'^requireOption\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', OFFERED, flags=re.M)
 ROW = r"^\| `([A-Z]\w*)(?:\(([\w, ]+)\))?` \| (`[^|]*`) \|"  # an event, the names of its host, its files
 EVENTS = re.findall(ROW, (EDP / "WRITING.md").read_text().split("\n## Events\n")[1].split("\n## ")[0], flags=re.M)
 OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
@@ -58,7 +58,7 @@ def test_core_names_no_option():
         for word in uses(name):
             if not own & set(map(option_of, owners()[word])):
                 wrong.append(f"{name}: {word} of {', '.join(owners()[word])}")
-        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "case/hooks.idp" else []
+        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "input/hooks.idp" else []
         wrong += [f"{name}: options/{option}/" for option in texts if option not in own | {option_of(name)}]
     assert not wrong, "\n".join(wrong)
 
@@ -77,7 +77,7 @@ def test_hooks():
     for name in MODULES:
         for hook in re.findall(r"\boptionHook\(([A-Z]\w*)\)", (EDP / name).read_text()):
             found.setdefault(hook, set()).add(f"`{name}`")
-    assert {hook: set(files.split(", ")) for hook, _, files in EVENTS} == found | {"Laws": {"`laws/all.idp`"}}
+    assert {hook: set(files.split(", ")) for hook, _, files in EVENTS} == found | {"Laws": {"`contact/laws/all.idp`"}}
     wrong = []
     for option in OPTIONS:
         text = (EDP / f"options/{option}/{option}.idp").read_text()
@@ -88,7 +88,7 @@ def test_hooks():
 
 def test_not_read(tmp_path):
     """A scene without an option shall load nothing of it, and refuse its words, naming the scenes that read it."""
-    assert not any(module.startswith("options/attraction") for module in run("disc-on-block").modules)
+    assert not any(module.startswith("contact/adhesion") for module in run("disc-on-block").modules)
     table = tmp_path / "falls.csv"
     table.write_text("0,0\n1,-2\n2,1\n3,4\n")
     scenes = dict((name, scenes) for name, _, scenes in OFFERS)["attraction"]

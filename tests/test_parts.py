@@ -128,11 +128,11 @@ def plane(tmp_path):
 
 
 def read(folder, case, mesh="block.msh", space=0):
-    """(exit code, what bodies/readable.sh says) of a case file's text."""
+    """(exit code, what input/read-case.sh says) of a case file's text."""
     (folder / "a.case").write_text(case)
     out = folder / "copy"
     given = [str(os.getpid()), folder / mesh, out, "a.case", str(space), "solve", "", "friction"]
-    done = subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *given], cwd=folder)
+    done = subprocess.run(["sh", ROOT / "edp/input/read-case.sh", *given], cwd=folder)
     why = (out / "why").read_text().strip() if (out / "why").exists() else ""
     table = (out / "case").read_text() if (out / "case").exists() else ""
     subprocess.run(["rm", "-rf", out], check=True)
@@ -275,7 +275,7 @@ def bodies(folder, mesh, case, *flags, space=False):
     """What the bodies alone do under a case's supports and loads, without contact: {name: numbers} and the output."""
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
-    script = (ROOT / "edp/parts.edp").read_text().split('include "options/parts/case-file.idp"')[0]
+    script = (ROOT / "edp/parts.edp").read_text().split('include "input/case/case-file.idp"')[0]
     head = "macro threeDimensional() 1 //\nmacro inSpace(do, what) //\nmacro behindFloating(do, what) //\n"
     head = head + 'string scene = "parts-3d";\n' if space else ""
     stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)

@@ -84,7 +84,7 @@ def test_order_of_caches(places):
     package, home, by_user = places
 
     def cache(root, **env):
-        return by_user("sh", package / "edp/case/cache.sh", 0, root, **env)
+        return by_user("sh", package / "edp/input/cache.sh", 0, root, **env)
 
     (home / "meshes").mkdir()
     (home / "meshes").chmod(0o777)
@@ -120,8 +120,8 @@ def test_cache_of_two_packages(tmp_path):
         geo.write_text(f"{text}Point(1) = {{0, 0, 0}};\nPoint(2) = {{1, 0, 0}};\n{LINE}")
         for path in geo.parent.glob("*.geo"):
             os.utime(path, (0, 0))  # older than the mesh
-        execute(["sh", package / "edp/case/cache.sh", 0, package], env=env)
-        words = ["sh", package / "edp/bodies/mesh.sh", os.getpid(), mesh, geo, "", "-1", "-v", 1, "-format", "msh22"]
+        execute(["sh", package / "edp/input/cache.sh", 0, package], env=env)
+        words = ["sh", package / "edp/input/make-mesh.sh", os.getpid(), mesh, geo, "", "-1", "-v", 1, "-format", "msh22"]
         code, said = execute(words, env=env)
         assert code == 0, said
         made.append(mesh.stat().st_mtime_ns)
@@ -139,7 +139,7 @@ def test_what_a_run_is_made_of(tmp_path):
         "part.geo": 'Include "below/b.geo"; // 5" pipe\nField[1].FileName = "grid.dat"; // merge of both\n',
         "below/b.geo": 'Include "../part.geo";\nMerge StrCat(A, "s.step");\nPhysical Line("include") = {1};\n',
         "part.case": 'obstacle x plane 0 0 0 1 law table "my law.csv" d0 -1\ncontact a b law table law.csv d0 -1\r\n',
-        "own.edp": 'include "case/flags.idp"\n include "law.idp"\n',
+        "own.edp": 'include "input/flags.idp"\n include "law.idp"\n',
         **dict.fromkeys(["grid.dat", "below/s.step", "part.geo.opt", "my law.csv", "law.csv", "law.idp"], "1\n"),
     }
     (here / "below").mkdir()
@@ -147,14 +147,14 @@ def test_what_a_run_is_made_of(tmp_path):
         (here / name).write_text(text)
 
     def identity():
-        words = ["sh", "edp/report/identity.sh", 0, "", "part.geo", "part.case", "own.edp"]
+        words = ["sh", "edp/output/report/run-checksum.sh", 0, "", "part.geo", "part.case", "own.edp"]
         code, said = execute(words, here, BARE)
         assert code == 0 and said.count("\n") == 1, said
         return said
 
     found = [identity()]
     assert identity() == found[0]
-    for name in [*texts, "edp/case/counts.idp", "edp/VERSION", "meshes/block.geo"]:
+    for name in [*texts, "edp/input/cost-counters.idp", "edp/VERSION", "meshes/block.geo"]:
         with (here / name).open("a") as file:
             file.write("\n")
         found.append(identity())

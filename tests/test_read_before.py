@@ -21,7 +21,7 @@ def read(folder, cache, how="solve"):
     out = folder / "read"
     given = [str(os.getpid()), folder / "a.geo", out, folder / "a.case", "1", how, ""]
     environment = {**os.environ, "LC_ALL": "C", "CONTACT_CACHE": str(cache)}
-    command = ["sh", "edp/bodies/readable.sh", *given]
+    command = ["sh", "edp/input/read-case.sh", *given]
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, (out / "why").read_text()
     texts = {name: (out / name).read_text(errors="replace") for name in KEPT}
@@ -158,7 +158,7 @@ def test_refused_before_the_mesh(tmp_path):
 
     def ask(text):
         case.write_text(text)
-        code = subprocess.run(["sh", "edp/case/read.sh", *given], cwd=ROOT, env=environment).returncode
+        code = subprocess.run(["sh", "edp/input/read.sh", *given], cwd=ROOT, env=environment).returncode
         return code, answer.read_text()
 
     wrong = CASE + "clamp nothing\n"

@@ -372,7 +372,7 @@ def test_child_dies_with_its_parent(tmp_path):
     """Also of a parent that is killed."""
     text = f"""
 import os, sys, time, types
-sys.path.insert(0, {str(ROOT / "edp/case")!r})
+sys.path.insert(0, {str(ROOT / "edp/input")!r})
 option = types.SimpleNamespace(setNumber=lambda *_: None)
 sys.modules["gmsh"] = types.SimpleNamespace(initialize=lambda *_, **__: None, option=option)
 from reader.gmsh_process import in_child
@@ -412,11 +412,11 @@ def test_which_python(tmp_path, codes, variables, tried, code):
     """The first that has both modules; its exit code is that of the program."""
     for name, each in codes.items():
         python(tmp_path / name, each)
-    (tmp_path / "edp/case").mkdir(parents=True)
-    shutil.copy(ROOT / "edp/case/read.sh", tmp_path / "edp/case")
+    (tmp_path / "edp/input").mkdir(parents=True)
+    shutil.copy(ROOT / "edp/input/read.sh", tmp_path / "edp/input")
     environment = {"PATH": f"{tmp_path}/bin:/usr/bin:/bin"}
     environment |= {name: str(tmp_path / path) for name, path in variables.items()}
-    command = ["sh", tmp_path / "edp/case/read.sh", "1", "ready"]
+    command = ["sh", tmp_path / "edp/input/read.sh", "1", "ready"]
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     found = [str(Path(line).resolve()) for line in done.stdout.splitlines()]
     assert (found, done.returncode) == ([str(tmp_path / name) for name in tried], code)
@@ -424,11 +424,11 @@ def test_which_python(tmp_path, codes, variables, tried, code):
 
 def test_no_python(tmp_path):
     """Where none has both, one line says how to get them; a Python without numpy says so by its code."""
-    script = tmp_path / "edp/case/read.sh"
+    script = tmp_path / "edp/input/read.sh"
     script.parent.mkdir(parents=True)
-    script.write_text((ROOT / "edp/case/read.sh").read_text().replace(" python3 /usr/bin/python3;", ";"))
+    script.write_text((ROOT / "edp/input/read.sh").read_text().replace(" python3 /usr/bin/python3;", ";"))
     done = subprocess.run(["sh", script, "1", "ready"], env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True)
     assert done.returncode == 12 and done.stdout.count("\n") == 1
     assert "allowed: Debian's packages python3-numpy and python3-gmsh" in done.stdout
-    command = [sys.executable, "-I", "-S", ROOT / "edp/case/read.py", "ready"]
+    command = [sys.executable, "-I", "-S", ROOT / "edp/input/read.py", "ready"]
     assert subprocess.run(command, capture_output=True).returncode == 12

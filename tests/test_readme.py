@@ -29,9 +29,9 @@ README = re.sub("<!-- .*? -->\n|<!--= .*? -->", "", (ROOT / "README.md").read_te
 MANUAL = "\n".join(
     path.read_text()
     for path in (
-        *sorted(ROOT.glob("edp/reference/*.md")),
-        *sorted(ROOT.glob("edp/howto/*.md")),
-        ROOT / "edp/WRITING.md",
+        *sorted(ROOT.glob("edp/docs/reference/*.md")),
+        *sorted(ROOT.glob("edp/docs/howto/*.md")),
+        ROOT / "edp/docs/WRITING.md",
     )
 )
 SCENE_TABLE, METHOD_TABLE, CHOOSING = (
@@ -397,8 +397,8 @@ def test_option_example(tmp_path):
     option, offer = fences(section(MANUAL, "Adding an option"), "freefem")
     (package / "edp/options/centre").mkdir()
     (package / "edp/options/centre/centre.idp").write_text(option)
-    listed = package / "edp/case/hooks.idp"
-    listed.write_text(listed.read_text().replace('optionOffers("meshes"', offer + 'optionOffers("meshes"'))
+    listed = package / "edp/input/hooks.idp"
+    listed.write_text(listed.read_text().replace('requireOption("meshes"', offer + 'requireOption("meshes"'))
     punch = package / "edp/scenes/flat-punch.edp"
     punch.write_text(punch.read_text().replace("do(pictures, what)", "do(pictures, what) do(centre, what)"))
     result = run_in(package, script("flat-punch"), "-h", 2, "-vtu", 0, out=tmp_path / "out")
@@ -495,7 +495,7 @@ def test_sources_that_pages_name():
 
 def test_every_claim_of_the_paper_is_on_its_page():
     """The page of claims shall show the whole table of PAPER.md, without its marks."""
-    there = (ROOT / "edp/PAPER.md").read_text().partition("\n## Every")[2].partition("###")[0]
+    there = (ROOT / "edp/docs/PAPER.md").read_text().partition("\n## Every")[2].partition("###")[0]
     sentences = [line.split(" | ")[1] for line in there.splitlines() if line.startswith("| ")][1:]
     page = paper.every_claim()
     assert page.count("<tr>") == len(sentences) + 1 > 35

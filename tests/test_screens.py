@@ -19,11 +19,11 @@ PIN = EXAMPLES / "pin-in-hole/pin-in-hole"
 
 
 def screen(folder, summary, rows="", plot="", contact=""):
-    """What edp/report/screen.sh prints of a summary."""
+    """What edp/output/report/screen.sh prints of a summary."""
     folder.mkdir(exist_ok=True)
     (folder / "summary.json").write_text(json.dumps(summary, indent=1).replace("\n  ", " "))
     (folder / "contact.csv").write_text(contact)
-    return execute(["sh", ROOT / "edp/report/screen.sh", "1", f"{folder}/", rows, plot])[1]
+    return execute(["sh", ROOT / "edp/output/report/screen.sh", "1", f"{folder}/", rows, plot])[1]
 
 
 SUMMARY = {
@@ -199,7 +199,7 @@ def test_accuracy_not_reached():
     )
 
 
-# ---------------------------------------------------------------- edp/report/screen.awk
+# ---------------------------------------------------------------- edp/output/report/screen.awk
 
 
 def test_numbers(tmp_path):
@@ -367,7 +367,7 @@ def test_gmsh_at_work(tmp_path):
         env = {**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}", "SECONDS_OF_GMSH": str(seconds)}
         words = [
             "sh",
-            ROOT / "edp/bodies/mesh.sh",
+            ROOT / "edp/input/make-mesh.sh",
             str(os.getpid()),
             tmp_path / "a.msh",
             tmp_path / "a.geo",
@@ -396,7 +396,7 @@ def test_refused_before_it_is_meshed(scene, flags, tmp_path):
 def test_expected_elements(scene, flags, tmp_path):
     """The elements expected of a mesh are those that gmsh makes, to a third."""
     text = (ROOT / script(scene)).read_text()
-    line = 'include "solve/solve.idp"'
+    line = 'include "solver/solve.idp"'
     assert line in text
     (tmp_path / "own.edp").write_text(
         text.replace(line, 'cout << "told " << gmshExpected << " " << Th.nt << endl; exit(0);\n' + line)

@@ -13,7 +13,7 @@ from test_surfaces import ring
 RINGS = "body outer E 1000 nu 0.3\nbody inner E 1000 nu 0.3\n"
 SHARP = """
 real[int] corner(Th.nbe);
-for (int e = 0; e < Th.nbe; e++) corner[e] = sideSharp[e] > 0;
+for (int e = 0; e < Th.nbe; e++) corner[e] = sideCorner[e] > 0;
 tell("corners", corner.sum);
 tell("curved", curvedElements);
 """
@@ -23,7 +23,7 @@ def sharp(folder, mesh, case, name="a.msh"):
     """Corners of the whole boundary, elements that follow it."""
     (folder / name).write_text(mesh)
     (folder / "a.case").write_text(case)
-    text = (ROOT / "edp/parts.edp").read_text().split("lookAtContacts();")[0] + SHARP
+    text = (ROOT / "edp/parts.edp").read_text().split("checkOpposingSurfaces();")[0] + SHARP
     return told(snippet(folder, text, "-mesh", name, "-case", "a.case"))
 
 

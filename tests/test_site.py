@@ -14,12 +14,12 @@ MATHML = "{http://www.w3.org/1998/Math/MathML}"
 pytestmark = pytest.mark.filterwarnings("ignore:.*Check CHANGES for Sphinx")
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
 PAGES = {
-    "README.md": "# Contact\n\n[law](edp/PAPER.md#the-law), ![a picture](postprocess/a.png), [code](edp/main.edp)\n",
-    "edp/PAPER.md": "# Theory\n\n[The law](#the-law) · [Work](#work)\n\n## The law\n\nBelow the wall\n\n"
+    "README.md": "# Contact\n\n[law](edp/docs/PAPER.md#the-law), ![a picture](postprocess/a.png), [code](edp/main.edp)\n",
+    "edp/docs/PAPER.md": "# Theory\n\n[The law](#the-law) · [Work](#work)\n\n## The law\n\nBelow the wall\n\n"
     "    p = κ s^m/2\n\n"
     "## Work\n\nas [above](#the-law), 1e-3:\n\n| a |\n|---|\n| 1e-3 |\n\n    leg 4\n",
 }
-CHAPTERS = {"Theory": ["edp/PAPER.md", "edp/PAPER.md#"]}
+CHAPTERS = {"Theory": ["edp/docs/PAPER.md", "edp/docs/PAPER.md#"]}
 
 
 def written(*lines):
@@ -109,8 +109,8 @@ def test_small_site(tmp_path):
 
 def test_a_link_that_leads_nowhere(tmp_path):
     """A link to no page, section or file shall end the build, naming the page and the link."""
-    (tmp_path / "README.md").write_text("# Contact\n\n[law](edp/PAPER.md#the-law)\n")
-    with pytest.raises(SystemExit, match=r"README.md: edp/PAPER.md#the-law: there is no such page, section or file"):
+    (tmp_path / "README.md").write_text("# Contact\n\n[law](edp/docs/PAPER.md#the-law)\n")
+    with pytest.raises(SystemExit, match=r"README.md: edp/docs/PAPER.md#the-law: there is no such page, section or file"):
         documents.Site(tmp_path, tmp_path / "out", {}).write()
 
 

@@ -59,7 +59,7 @@ def sides(folder, geo, case):
     (folder / "a.geo").write_text(geo)
     (folder / "a.case").write_text(case)
     words = [str(os.getpid()), folder / "a.geo", folder / "read", folder / "a.case", "0", "solve", ""]
-    done = subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], env={**os.environ, "LC_ALL": "C"})
+    done = subprocess.run(["sh", ROOT / "edp/input/read-case.sh", *words], env={**os.environ, "LC_ALL": "C"})
     assert done.returncode == 0, (folder / "read/why").read_text()
     rows = [row.split() for row in (folder / "read/mesh.msh").read_text().splitlines()]
     subprocess.run(["rm", "-r", folder / "read"], check=True)
@@ -432,6 +432,6 @@ def test_meshed_again(tmp_path, gamma, times):
     (tmp_path / "a.geo").write_text("")
     words = [str(os.getpid()), tmp_path / "made/a.msh", tmp_path / "a.geo", "-", "-2"]
     env = environment(PATH=f"{tmp_path / 'bin'}:{os.environ['PATH']}")
-    assert subprocess.run(["sh", ROOT / "edp/bodies/mesh.sh", *map(str, words)], env=env).returncode == 0
+    assert subprocess.run(["sh", ROOT / "edp/input/make-mesh.sh", *map(str, words)], env=env).returncode == 0
     calls = (tmp_path / "log").read_text().splitlines()
     assert len(calls) == times and ("RandomFactor 1e-11" in calls[-1]) == (times == 2)

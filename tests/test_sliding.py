@@ -125,11 +125,11 @@ Physical Curve("base") = {{1}}; Physical Curve("middle") = {{3}}; Physical Surfa
 @pytest.mark.parametrize("scene, ratio", [("disc-on-block", 0.25), ("sphere-on-plane", 0.5)])
 def test_stiffness_goes_with_the_weight(tmp_path, scene, ratio):
     """A point with a quarter of its weight: twice its stiffness in space, four times in the plane."""
-    text = """include "solve/solve.idp"
+    text = """include "solver/solve.idp"
 real[int] whole = bodyStiffness;
 weight *= 0.25;
-stiffenByWeights();
-stiffenByWeights();
+rescaleBodyStiffness();
+rescaleBodyStiffness();
 cout << "ratio " << whole[points / 2] / bodyStiffness[points / 2] << endl;
 """
     printed = snippet(tmp_path, scene_text(scene) + text, "-h", 0.5, "-vtu", 0)

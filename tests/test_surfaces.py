@@ -37,7 +37,7 @@ def pairs(folder, mesh, case, *flags, more="", order=2):
     """The contact points of a case: {name: numbers}; the gap is positive where there is one."""
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
-    text = (ROOT / "edp/parts.edp").read_text().split("lookAtContacts();")[0] + POINTS + more
+    text = (ROOT / "edp/parts.edp").read_text().split("checkOpposingSurfaces();")[0] + POINTS + more
     values = told(snippet(folder, text, "-mesh", "a.msh", "-case", "a.case", "-order", order, *flags))
     return {**values, "gap": -values["gap"]}
 

@@ -208,17 +208,17 @@ def test_mean_of_neighbours(tmp_path):
 
 def general(text):
     """The scene two-spheres with a statement of contact instead of its formula for the gap."""
-    start, end = text.index("macro separation"), text.index("macro atRim")
+    start, end = text.index("macro separation"), text.index("macro isAtContactBoundary")
     text = text[:start] + text[end:]
     added = 'addContact("balls", "", slaveLabel, masterLabel, -1, false, localCompliance);'
-    statement = added + '\ninclude "discretisation/discretise.idp"'
-    return text.replace('include "discretisation/discretise.idp"', statement)
+    statement = added + '\ninclude "solver/discretise.idp"'
+    return text.replace('include "solver/discretise.idp"', statement)
 
 
 @pytest.mark.parametrize("surface, points", [("smooth", "segment"), ("smooth", "nodal"), ("facets", "nodal")])
 def test_gap_of_spheres(tmp_path, surface, points):
     """The gap between meshed spheres along normals: with smooth surfaces to 1 % of what facets are off."""
-    code = 'tell("x", pointX);\ntell("y", pointY);\ntell("z", pointZ);\ntell("before", overlapBefore);\n'
+    code = 'tell("x", pointX);\ntell("y", pointY);\ntell("z", pointZ);\ntell("before", initialOverlap);\n'
     flags = ["-order", 2, "-h", 0.3, "-layers", 1, "-surface", surface, "-points", points]
     values = told(snippet(tmp_path, general(scene_text("two-spheres")) + code, *flags))
     normal = np.column_stack([values[name] for name in "xyz"])

@@ -65,7 +65,7 @@ def ended(process):
 def started(pid):
     """What the package's shell programs call the time when a process began; nothing for one that has ended."""
     done = subprocess.run(
-        ["sh", "-c", f". edp/case/process.sh; started {pid}"], cwd=ROOT, capture_output=True, text=True
+        ["sh", "-c", f". edp/input/process.sh; started {pid}"], cwd=ROOT, capture_output=True, text=True
     )
     return done.stdout.strip()
 
@@ -213,7 +213,7 @@ def test_lock(tmp_path, owner, free):
     who = {"pid": os.getpid(), "began": started(os.getpid()), "host": platform.node(), "dead": dead.pid}
     text = owner.format(**who)
     (tmp_path / ".run" / ".lock-7").write_text(f"{text}\n" if text else "")
-    code, _ = execute(["sh", "edp/case/folder.sh", os.getppid(), "open", tmp_path])
+    code, _ = execute(["sh", "edp/input/folder.sh", os.getppid(), "open", tmp_path])
     assert code == (0 if free else 6 if "elsewhere" in owner else 5)
     assert sorted(os.listdir(tmp_path / ".run")) == ([".lock-8", ".written"] if free else [".lock-7"])
     if code == 6:
@@ -230,7 +230,7 @@ def test_publishing_of_a_killed_run(tmp_path):
     (tmp_path / ".run" / ".ends").write_text("".join(f"{name} 4\n" for name in names))
     (tmp_path / ".run" / ".written").touch()
     (tmp_path / ".run" / ".lock-1").write_text("1 0 killed\n")
-    publishing = subprocess.Popen(["sh", "edp/case/folder.sh", "1", "publish", tmp_path], cwd=ROOT)
+    publishing = subprocess.Popen(["sh", "edp/input/folder.sh", "1", "publish", tmp_path], cwd=ROOT)
     (tmp_path / ".run" / ".lock-2").write_text("done\n")
     (tmp_path / ".run" / ".lock-1").unlink()  # as the next run does
     (tmp_path / ".run" / "contact.csv").write_text("new")
@@ -289,7 +289,7 @@ def test_file_of_another_origin(tmp_path, name):
         (out / name).write_text("mine")
     before = listing(tmp_path)
     for task in ("check", "open"):
-        code, line = execute(["sh", "edp/case/folder.sh", os.getpid(), task, out])
+        code, line = execute(["sh", "edp/input/folder.sh", os.getpid(), task, out])
         assert code == 8 and line == f"-out {out}: {name} there {FOREIGN}"
     if name == "summary.json":
         done = run_in(ROOT, BLOCK, *TINY, "-maxNewton", 1, out=out, expect=10)
@@ -323,7 +323,7 @@ def test_own_folder_of_another_origin(tmp_path, kind):
         (out / ".run" / ".written").symlink_to(target / "mine")
     before = listing(tmp_path)
     for task in ("check", "open"):
-        code, line = execute(["sh", "edp/case/folder.sh", os.getpid(), task, out])
+        code, line = execute(["sh", "edp/input/folder.sh", os.getpid(), task, out])
         assert code == 8 and line == f"-out {out}: .run there {FOREIGN}"
     assert listing(tmp_path) == before and (target / "mine").read_text() == "mine"
 
@@ -338,9 +338,9 @@ def test_name_of_a_case(tmp_path):
         "a.b/pin": "pin",
         "..": "case",
     }
-    text = 'string scene = "parts";\ninclude "case/flags.idp"\n'
-    text += 'include "case/output.idp"\ninclude "options/parts/case-flags.idp"\n'
-    text += "".join(f'cout << "name " << nameOfFile("{name}") << endl;\n' for name in names)
+    text = 'string scene = "parts";\ninclude "input/flags.idp"\n'
+    text += 'include "input/output.idp"\ninclude "input/case/case-flags.idp"\n'
+    text += "".join(f'cout << "name " << baseName("{name}") << endl;\n' for name in names)
     lines = snippet(tmp_path, text).splitlines()
     assert [line[5:] for line in lines if line.startswith("name ")] == list(names.values())
 

@@ -1,4 +1,4 @@
-"""The chapters of edp/theory/ against runs, and against the compliance of real scenes, formed column by column."""
+"""The chapters of edp/docs/theory/ against runs, and against the compliance of real scenes, formed column by column."""
 
 import math
 import re
@@ -9,7 +9,7 @@ import pytest
 from accounts import shared
 from freefem import ROOT, cases_of, data, run, scene_text, snippet, told
 
-CHAPTERS = {path.name: path.read_text() for path in sorted((ROOT / "edp/theory").glob("*.md"))}
+CHAPTERS = {path.name: path.read_text() for path in sorted((ROOT / "edp/docs/theory").glob("*.md"))}
 MODELS = ROOT / "tests/test_theory_models.py"  # of the chapters on sequences of models
 DISC, SPHERE = "disc-on-block", "sphere-on-block"
 COMPLIANCE = data("theory/compliance.edp")

@@ -1,4 +1,4 @@
-"""The theory of sequences of models (edp/theory/), second part: how they end, and remarks of the chapters on them.
+"""The theory of sequences of models (edp/docs/theory/), second part: how they end, and remarks of the chapters on them.
 
 Problems are drawn by a seed, of 2 to 6 points, overlaps and pressures of order 1; states of models are exact.
 """

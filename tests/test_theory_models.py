@@ -1,4 +1,4 @@
-"""The theory of sequences of models (edp/theory/), against the condensed twin on problems that a seed draws.
+"""The theory of sequences of models (edp/docs/theory/), against the condensed twin on problems that a seed draws.
 
 A drawn problem has 2 to 8 points: bodies without any sign, M-matrices, half-planes, separate springs, beams of Hermite
 elements; laws of any stiffness, tables with flat pieces among them. States of models are exact (condensed.least), so

@@ -1,4 +1,4 @@
-"""edp/TROUBLESHOOTING.md against the sources: every warning, refusal and failure is there, and no other."""
+"""edp/docs/TROUBLESHOOTING.md against the sources: every warning, refusal and failure is there, and no other."""
 
 import dataclasses
 import re
@@ -12,11 +12,11 @@ from reader import Group, Refusal, Where, read_case
 from reader.modules import Run, modules, needs
 from test_reader import GOOD, STEEL
 
-PAGE = (ROOT / "edp/TROUBLESHOOTING.md").read_text()
+PAGE = (ROOT / "edp/docs/TROUBLESHOOTING.md").read_text()
 KINDS = {  # heading of the page: the functions whose argument is the text
-    "Warnings": r"warn|warnFirst",
+    "Warnings": r"warn|prependWarning",
     "Refused flags and files": r"refuse",
-    "Refused case files": r"case/reader",
+    "Refused case files": r"input/reader",
     "Runs without convergence": r"stopped",
 }
 LINES = "\n".join(f"line l{k} 0 0 1 1" for k in range(1000))
@@ -35,7 +35,7 @@ def argument(text, start):
 
 def words(expression):
     """The texts of an expression, `…` for the values: of "-h " + h + ": too small" it is -h …: too small."""
-    expression = re.sub(r'asGiven\("[^"]*"\)', "value", expression)
+    expression = re.sub(r'flagTextOf\("[^"]*"\)', "value", expression)
     said = ""
     for part in re.split(f"({LITERAL.pattern})", expression):
         said += (
@@ -92,8 +92,8 @@ def refusals():
 
 def messages(functions):
     """[(file, text)] of every call of the functions; of a variable the texts that its file assigns to it."""
-    if functions == "case/reader":
-        return [("case/reader", text) for text in refusals()]
+    if functions == "input/reader":
+        return [("input/reader", text) for text in refusals()]
     found = []
     for path in sorted(path for kind in ("idp", "edp", "awk") for path in ROOT.glob(f"edp/**/*.{kind}")):
         text = re.sub(r"^\s*(?://|#).*", "", path.read_text(), flags=re.M)
@@ -104,7 +104,7 @@ def messages(functions):
                 given = re.findall(rf"\b{expression} \+?= ([^;]*);", text)
             found += [(path.relative_to(ROOT / "edp").as_posix(), words(each)) for each in given]
     if functions == "refuse":  # a program writes those of words that are no flags
-        program = "case/unknown-flag.awk"
+        program = "input/unknown-flag.awk"
         lines = re.findall(r'\btext = (".*)', (ROOT / "edp" / program).read_text())
         found += [(program, "…" + words(line)) for line in lines]
     return [(file, text) for file, text in found if re.search(r"[a-z]{3}.* ", text.replace("…", ""))]  # not bare values
@@ -140,17 +140,17 @@ def test_the_page_has_no_other(heading):
 
 # advice behind a condition that rules the value out: another inner method, a law's own tangent, a method of its own
 CONDITIONED = {
-    "solve/progress.idp: -method xnewton",
-    "solve/methods/ipopt.idp: -method xnewton",
-    "solve/exact-distance.idp: -distance linear",
+    "solver/newton/convergence.idp: -method xnewton",
+    "solver/methods/ipopt.idp: -method xnewton",
+    "solver/steps/finite-sliding.idp: -distance linear",
 }
-CONDITIONED |= {"options/floating/rounds.idp: -distance linear"}
+CONDITIONED |= {"solver/rigid-modes/drifting-bodies.idp: -distance linear"}
 
 
 def test_no_advice_to_do_what_is_done():
-    """What a message advises is not what a run has without flags: orUse or a condition leaves that out."""
+    """What a message advises is not what a run has without flags: flagAdvice or a condition leaves that out."""
     modules = [(path, path.read_text()) for path in sorted(ROOT.glob("edp/**/*.idp"))]
-    usual = dict(re.findall(r'wordFlag\("(-\w+)", (?:firstOffered\()?"(\w+)"', "\n".join(text for _, text in modules)))
+    usual = dict(re.findall(r'wordFlag\("(-\w+)", (?:preferredWord\()?"(\w+)"', "\n".join(text for _, text in modules)))
     assert {"-preconditioner": "kernel", "-method": "xnewton", "-distance": "linear"}.items() <= usual.items()
     advised = {
         f"{path.relative_to(ROOT / 'edp').as_posix()}: {flag} {value}"
@@ -163,6 +163,6 @@ def test_no_advice_to_do_what_is_done():
 
 def test_words():
     """Texts are read as a run prints them, whatever stands between."""
-    assert words('"-h " + asGiven("-h") + ": " + (h > 1 ? "too large" : "too small")') == "-h …: …too large…too small"
+    assert words('"-h " + flagTextOf("-h") + ": " + (h > 1 ? "too large" : "too small")') == "-h …: …too large…too small"
     assert argument('refuse("a) (" + f(2)); x', 7) == '"a) (" + f(2)'
     assert matches("-h …: larger than …", "-h 3: larger than the block; allowed: at most 2")

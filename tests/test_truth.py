@@ -799,9 +799,9 @@ def test_forces_by_stresses(tmp_path, order, geometry):
         real[int] u(ndof), byStresses(ndof);
         for (int i = 0; i < ndof; i++) u[i] = sin(37. * i * i);
         real[int] byMatrix = elasticStiffness * u, size = abs(byMatrix);
-        stressForces(u, byStresses);
+        computeStressForces(u, byStresses);
         byMatrix -= byStresses;
-        real[int] off = [byMatrix.linfty, size.linfty, stressCurved.n];
+        real[int] off = [byMatrix.linfty, size.linfty, curvedElementList.n];
         tell("off", off);
     """
     off = told(

@@ -299,7 +299,7 @@ ROUNDS = data("turning/rounds.edp")
 
 
 @pytest.mark.parametrize(
-    "module, call", [("turning/in-frames", "followBodies(1)"), ("friction/rounds", "followPlaces(1, 0)")]
+    "module, call", [("turning/in-frames", "iterateRotations(1)"), ("friction/rounds", "iterateGeometry(1, 0)")]
 )
 def test_forces_that_go_to_and_fro_turn_no_bodies(tmp_path, module, call):
     """After rounds that end nowhere a load step ends: bodies would turn to and fro, too. Otherwise they turn until they

@@ -181,7 +181,7 @@ def test_texts_in_json(tmp_path):
     """A text with quotes, backslashes, line ends and every letter shall come back from JSON as it was."""
     out = snippet(
         tmp_path,
-        'include "case/flags.idp"\nstring t = "a \\"b\\" \\\\ c\\td\\ne abcdefghijklmnopqrstuvwxyz";\n'
+        'include "input/flags.idp"\nstring t = "a \\"b\\" \\\\ c\\td\\ne abcdefghijklmnopqrstuvwxyz";\n'
         'cout << "[\\"" + jsonText(t) + "\\"]" << endl;',
     )
     assert json.loads(out) == ['a "b" \\ c\td\ne abcdefghijklmnopqrstuvwxyz']

@@ -309,7 +309,7 @@ def test_partial_slip(tmp_path):
 def test_fretting_steps(tmp_path):
     """The slip zone loses its pressure; the steps' error holds the difference; too long a step stops the run."""
     mesh, cycles = FRETTED.format(size=0.16), 4000
-    page = (ROOT / "edp/howto/wear.md").read_text()
+    page = (ROOT / "edp/docs/howto/wear.md").read_text()
     assert "".join((FRETTING + CYCLE).format(cycles, 8).splitlines(True)[2:]) in page
     few, many = (part(tmp_path / f"{n}", mesh, FRETTING.format(cycles, n) + CYCLE) for n in (4, 8))
     assert abs(worn(few)["depth"]["value"] - worn(many)["depth"]["value"]) < worn(few)["depth"]["error"]

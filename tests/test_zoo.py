@@ -1,6 +1,6 @@
 """Geometries and meshes of any kind: each is taken as it is, or refused in one line; groups and sizes of a case.
 
-The reader, edp/bodies/readable.sh, is asked by itself where that tells all; a few are solved.
+The reader, edp/input/read-case.sh, is asked by itself where that tells all; a few are solved.
 """
 
 import os
@@ -67,7 +67,7 @@ def readable(folder, mesh, case, space=1, sets=""):
     out = folder / "read"
     environment = {**os.environ, "LC_ALL": "C"}
     given = [str(os.getpid()), mesh, out, folder / "a.case", str(space), "solve", sets, "friction wear plastic"]
-    command = ["sh", "edp/bodies/readable.sh", *given]
+    command = ["sh", "edp/input/read-case.sh", *given]
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     why = (out / "why").read_text().strip() if (out / "why").exists() else ""
     assert done.returncode in (0, 4) or why.count("\n") == 0
@@ -384,7 +384,7 @@ def count(folder, mesh, case, space=0):
     (folder / "a.case").write_text(case)
     out = folder / "read"
     words = [str(os.getpid()), mesh, out, folder / "a.case", str(space), "solve", ""]
-    done = subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], timeout=60, capture_output=True, text=True)
+    done = subprocess.run(["sh", ROOT / "edp/input/read-case.sh", *words], timeout=60, capture_output=True, text=True)
     assert done.returncode == 0, (done.stdout, (out / "why").read_text())
     rows = [row.split() for row in (out / "mesh.msh").read_text().splitlines()]
     subprocess.run(["rm", "-r", out], check=True)
@@ -421,7 +421,7 @@ def test_sizes_beside_own(tmp_path, field, name):
     case = f"size {name} 0.2\nbody block E 1 nu 0\nclamp base\nobstacle top circle 10 5 5 move 0 -1\n"
     (tmp_path / "a.case").write_text(case)
     words = [str(os.getpid()), tmp_path / "a.geo", tmp_path / "read", tmp_path / "a.case", "0", "solve", ""]
-    subprocess.run(["sh", ROOT / "edp/bodies/readable.sh", *words], timeout=60, check=True)
+    subprocess.run(["sh", ROOT / "edp/input/read-case.sh", *words], timeout=60, check=True)
     rows = [row.split() for row in (tmp_path / "read/mesh.msh").read_text().splitlines()]
     first = rows.index(["$Nodes"]) + 2
     at = 1e-6 * np.array([row[1:3] for row in rows[first : first + int(rows[first - 1][0])]], float)
@@ -512,7 +512,7 @@ def test_gmsh_is_ended(tmp_path, first, end):
     (tmp_path / "a.case").write_text("size top 1\nbody block E 1 nu 0\nobstacle top circle 10 5 5\n")
     run = subprocess.Popen(["sleep", "60"])
     words = [str(run.pid), tmp_path / "a.geo", tmp_path / "read", tmp_path / "a.case", "0", "solve", ""]
-    reader = subprocess.Popen(["sh", ROOT / "edp/bodies/readable.sh", *words])
+    reader = subprocess.Popen(["sh", ROOT / "edp/input/read-case.sh", *words])
     try:
         if end == "killed":
             wait_for(lambda: len(reading(tmp_path)) == 2)

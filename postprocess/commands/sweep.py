@@ -157,7 +157,7 @@ def same(folder: Path, what: dict) -> None:
 
 def identity(*files: Path | str) -> str:
     """The checksums of these files, of all that they read, and of the package."""
-    words = ["sh", ROOT / "edp/report/identity.sh", "0", ROOT, *files]
+    words = ["sh", ROOT / "edp/output/report/run-checksum.sh", "0", ROOT, *files]
     return subprocess.run([*map(str, words)], stdout=subprocess.PIPE, text=True, check=True).stdout
 
 

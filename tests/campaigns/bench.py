@@ -271,9 +271,9 @@ def large_files(root: Path) -> dict[str, str]:
     after = """{
     int before = iterations;
     real[int] nodal(ndof);
-    contactLoad(q, nodal);
-    multigridTo(nodal, 0.1 * tol, false);
-    ofstream one(outFolder + "/one-solve");
+    computeContactLoad(q, nodal);
+    solveMultigrid(nodal, 0.1 * tol, false);
+    ofstream one(requestedFolder + "/one-solve");
     one << iterations - before;
 }
 """

@@ -40,7 +40,7 @@ exec {program} "$@"
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 # What begins a line and is no statement, or one that a mark cannot stand before.
 CONTINUED = r"else\b|catch\b|[-+*/?:&|<>=.)\x22{}]|IFMACRO|ENDIFMACRO|include|load|func"
-READERS = "readTwin|readUnless|optionHook|everyOption|eachOption|withOptions|optionLaws"
+READERS = "readForDimension|readUnless|optionHook|forEachOption|eachOption|withOptions|optionLaws"
 NONE = re.compile(rf"({CONTINUED}|{READERS}|macro|\w+#)")
 NONE_IN_MACRO = re.compile(rf"({CONTINUED}|varf)")
 CALLED_MACRO = re.compile(r"\w+(\([^;]*\))?\s*$")
@@ -85,7 +85,7 @@ def mark_statements(text: str, file: str, found: list[Statement]) -> str:
         if code and not re.match("IFMACRO|ENDIFMACRO", code):
             depth += sum(code.count(c) for c in "([") - sum(code.count(c) for c in ")]")
             alone = re.match(r"\w+(\([^;=?]*\))?\s*$", code) and depth == 0
-            if re.match(r"include\b|load\b|readTwin", code) or (alone and not re.match(r"(else|if|for|while)\b", code)):
+            if re.match(r"include\b|load\b|readForDimension", code) or (alone and not re.match(r"(else|if|for|while)\b", code)):
                 before = ";"
             else:
                 before = code[-1]

@@ -20,11 +20,11 @@ for page in edp/examples/*/README.md; do
     small "$RESULTS"/parts*/"${folder##*/}/$picture" --width 560 --out "$folder/$picture"
 done
 
-for page in edp/tutorial/*.md; do commands "$page" | sh; done
-small "$RESULTS/disc-on-block/xnewton/state.png" --width 720 --out edp/tutorial/disc-on-block.png
-small "$RESULTS/parts/foot/state.png" --width 720 --out edp/tutorial/foot.png
-small "$RESULTS/fretting/xnewton/hysteresis.png" --width 720 --out edp/tutorial/hysteresis.png
-small "$RESULTS/parts-3d/wheel-on-rail/check/faces.png" --width 640 --out edp/tutorial/faces.png
+for page in edp/docs/tutorial/*.md; do commands "$page" | sh; done
+small "$RESULTS/disc-on-block/xnewton/state.png" --width 720 --out edp/docs/tutorial/disc-on-block.png
+small "$RESULTS/parts/foot/state.png" --width 720 --out edp/docs/tutorial/foot.png
+small "$RESULTS/fretting/xnewton/hysteresis.png" --width 720 --out edp/docs/tutorial/hysteresis.png
+small "$RESULTS/parts-3d/wheel-on-rail/check/faces.png" --width 640 --out edp/docs/tutorial/faces.png
 
 for lab in edp/labs/*/; do
     name=$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' "$lab/README.md")

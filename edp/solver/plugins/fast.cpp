@@ -1,0 +1,232 @@
+// solver/plugins/fast.cpp: FreeFEM's stiffness assembled row by row, entries sorted by counting, searches: built by `make fast`
+// Another list of functions at the end, or another meaning: raise the number in the names of input/without/ and their includes.
+// Needs: FreeFEM's headers; the FreeFEM that they are of: another one is told 0, and goes its own way.
+// Gives: assembleOrdered(K, elementNode, nodeDof, nodeAt, moduli, power, shapes): the lower triangle of linear elasticity's K, known
+//        as half, for straight simplices in the plane or in space: tables as fem/elements/element.idp has them; moduli (elements x 2):
+//        lambda and mu; functions: shapes/6 times monomials of these powers (functions x 3); sortMatrixRows(K): K in CHOLMOD's order;
+//        addMatrixEntries(K, rows, columns, values): adds these to entries of an ordered K; findOpposingTriangles(...): searchTree of
+//        contact/surfaces/triangle-tree.idp, by the same sums; squaredDistancesFrom(...): squaredFrom of solver/rigid-modes/chord-influence-space.idp.
+// FreeFEM adds each entry to a hash table, and sorts by heap what it then factorises. Here a row is added up where it stands.
+// CHOLMOD copies between its supernodes by four OpenMP threads, whose waking costs more than they save: here it uses one.
+#include "ff++.hpp"
+#include "AFunction_ext.hpp"
+#include "strversionnumber.hpp"
+#include <algorithm>
+#define FOR(i, n) for (int i = 0; i < n; ++i)
+typedef HashMatrix<int, double> Hashed;
+typedef Matrice_Creuse<double> Matrix;
+typedef KNM<long> Whole;
+typedef KNM<double> Real;
+typedef std::vector<double> Reals;
+typedef std::vector<int> Ints;
+typedef KN<long> List;
+typedef KN<double> Row;
+
+extern "C" {
+void omp_set_max_active_levels(int) __attribute__((weak));
+int openblas_get_parallel(void) __attribute__((weak));
+}
+
+static bool alike() { return std::abs(VersionNumber() - atof(FREEFEM_VERSION)) < 1e-6; }
+
+// R[((d k + l) n + i) n + j]: on the reference element the integral of d_k of function i times d_l of function j
+static Reals products(Whole &power, Real &shapes, int n, int d)
+{
+    std::vector<long double> R(d * d * n * n, 0.);           // sums of large numbers
+    FOR(k, d) FOR(l, d) FOR(a, n) FOR(b, n) {
+        int p[3], sum = d;                                   // of x^i y^j z^k: i! j! k! / (i + j + k + d)!
+        long double w = double(power(a, k)) * double(power(b, l));
+        if (w == 0) continue;
+        FOR(c, d) p[c] = power(a, c) + power(b, c) - (c == k) - (c == l);
+        FOR(c, d) { w *= tgamma(p[c] + 1.); sum += p[c]; }
+        w /= 36 * tgamma(sum + 1.);
+        FOR(i, n) FOR(j, n) R[((d * k + l) * n + i) * n + j] += w * shapes(i, a) * shapes(j, b);
+    }
+    return Reals(R.begin(), R.end());
+}
+
+long assembledInOrder(Matrix *const &pK, Whole *const &pNode, Whole *const &pDof, Real *const &pAt, Real *const &pModuli,
+                      Whole *const &pPower, Real *const &pShapes)
+{
+    if (!alike()) return 0;
+    Real &at = *pAt, &moduli = *pModuli;
+    const int n = pNode->N(), elements = pNode->M(), nodes = pDof->N(), d = pDof->M(), rows = nodes * d;
+    const Reals R = products(*pPower, *pShapes, n, d);
+    Ints node(n * elements), dof(rows), first(nodes + 1, 0), around(n * elements), mark(nodes, -1), start(rows + 1, 0), I, J;
+    FOR(e, elements) FOR(a, n) node[n * e + a] = (*pNode)(a, e);
+    FOR(i, nodes) FOR(p, d) dof[d * i + p] = (*pDof)(i, p);
+    Reals to(elements * d * d), volume(elements), value, sum; // d r_k / d x_p, the determinant
+    FOR(e, elements) {
+        double W[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, C[3][3];
+        FOR(p, d) FOR(k, d) W[p][k] = at(node[n * e + k + 1], p) - at(node[n * e], p);
+        FOR(p, 3) FOR(k, 3) {
+            int a = (p + 1) % 3, b = (p + 2) % 3, i = (k + 1) % 3, j = (k + 2) % 3;
+            C[k][p] = W[a][i] * W[b][j] - W[a][j] * W[b][i];
+        }
+        double V = W[0][0] * C[0][0] + W[0][1] * C[1][0] + W[0][2] * C[2][0];
+        FOR(k, d) FOR(p, d) to[(e * d + k) * d + p] = C[k][p] / V;
+        volume[e] = std::abs(V);
+    }
+    for (int k : node) ++first[k + 1];
+    FOR(i, nodes) first[i + 1] += first[i];
+    Ints next(first);
+    FOR(k, n * elements) around[next[node[k]]++] = k;
+    std::vector<std::pair<int, int>> column;                 // a dof; d times its place among the neighbours, and its component
+    FOR(pass, 2) {                                           // first how many entries a row has, then which
+        FOR(i, nodes) {
+            const int *own = &dof[d * i], last = *std::max_element(own, own + d);
+            int near = 0;
+            column.clear();
+            for (int k = first[i]; k < first[i + 1]; ++k) FOR(b, n) {
+                int j = node[around[k] / n * n + b], *of = &dof[d * j];
+                if (mark[j] >= 0 || *std::min_element(of, of + d) > last) continue;
+                mark[j] = near++;
+                FOR(q, d) column.push_back({of[q], d * mark[j] + q});
+            }
+            if (pass == 0) for (auto &c : column) FOR(p, d) start[own[p] + 1] += c.first <= own[p];
+            else {
+                std::sort(column.begin(), column.end());
+                sum.assign(d * d * near, 0.);
+                for (int k = first[i]; k < first[i + 1]; ++k) FOR(b, n) {
+                    const int e = around[k] / n, a = around[k] % n, j = mark[node[n * e + b]];
+                    if (j < 0) continue;
+                    const double *T = &to[e * d * d], lambda = moduli(e, 0) * volume[e], mu = moduli(e, 1) * volume[e];
+                    double G[3][3] = {{0}}, H[3][3] = {{0}}, trace = 0, *S = &sum[d * d * j];
+                    FOR(u, d) FOR(v, d) FOR(q, d) H[u][q] += R[((d * u + v) * n + a) * n + b] * T[v * d + q];
+                    FOR(p, d) FOR(q, d) FOR(u, d) G[p][q] += T[u * d + p] * H[u][q];
+                    FOR(p, d) trace += mu * G[p][p];
+                    FOR(p, d) FOR(q, d) S[d * p + q] += lambda * G[p][q] + mu * G[q][p] + (p == q) * trace;
+                }
+                FOR(p, d) for (auto &c : column) if (c.first <= own[p]) {
+                    int z = start[own[p]]++;
+                    I[z] = own[p];
+                    J[z] = c.first;
+                    value[z] = sum[d * d * (c.second / d) + d * p + c.second % d];
+                }
+            }
+            for (int k = first[i]; k < first[i + 1]; ++k) FOR(b, n) mark[node[around[k] / n * n + b]] = -1;
+        }
+        FOR(r, rows * (pass == 0)) start[r + 1] += start[r];
+        I.resize(start[rows]), J.resize(start[rows]), value.resize(start[rows]);
+    }
+    Hashed *K = new Hashed(rows, rows, 0, 1);
+    K->set(rows, rows, 1, value.size(), I.data(), J.data(), value.data(), 0, 0);
+    K->state = Hashed::sorted_ij;
+    pK->A.master(K);
+    return 1;
+}
+
+long sortedRows(Matrix *const &pK)
+{
+    Hashed *K = pK->pHM();
+    if (!alike() || !K || K->state == Hashed::sorted_ij) return 0;
+    FOR(way, 2) {                                            // by columns, then by rows
+        Ints i(K->i, K->i + K->nnz), j(K->j, K->j + K->nnz), place((way ? K->n : K->m) + 1, 0);
+        Reals value(K->aij, K->aij + K->nnz);
+        for (int r : way ? i : j) ++place[r + 1];
+        for (size_t r = 1; r < place.size(); ++r) place[r] += place[r - 1];
+        for (size_t k = 0; k < i.size(); ++k) {
+            int z = place[way ? i[k] : j[k]]++;
+            K->i[z] = i[k], K->j[z] = j[k], K->aij[z] = value[k];
+        }
+    }
+    K->ReHash();
+    K->state = Hashed::sorted_ij;
+    return 1;
+}
+
+// all as contact/surfaces/triangle-tree.idp has them; the last two are what is found
+long facingTriangles(List *const &pFace, Real *const &pBall, Real *const &pNormal, Real *const &pAt, Real *const &pAlong,
+                     Row *const &pLimits, List *const &pFor, List *const &pFound)
+{
+    List &face = *pFace;
+    Real &ball = *pBall, &normal = *pNormal, &at = *pAt, &along = *pAlong;
+    Row &limits = *pLimits;
+    const double back = limits[0], ahead = limits[1], cosine = limits[2];
+    const int balls = ball.M();
+    if (!alike()) return 0;
+    Ints first(1, 0), place, triangle, todo, level;          // each level's first ball; balls that are to be looked at, the next one last
+    for (int count = face.N(); count > 1; count = (count + 1) / 2) first.push_back(first.back() + count);
+    first.push_back(balls);
+    FOR(p, at.M()) {
+        todo.assign(1, balls - 1);
+        level.assign(1, first.size() - 2);
+        while (!todo.empty()) {
+            const int b = todo.back(), l = level.back();
+            todo.pop_back(), level.pop_back();
+            const double r = ball(3, b), v = at(3, p) + r;
+            double away = 0, s = 0;
+            FOR(c, 3) {
+                const double t = ball(c, b) - at(c, p);
+                s += along(c, p) * t;
+                away += t * t;
+            }
+            away -= s * s;
+            away -= 1.000001 * (v * v);
+            if (!(away <= 0 && ahead + r - s >= 0 && back + r + s >= 0)) continue;
+            if (l > 0) {
+                const int child = first[l - 1] + 2 * (b - first[l]);
+                if (child + 1 < first[l]) todo.push_back(child + 1), level.push_back(l - 1);
+                todo.push_back(child), level.push_back(l - 1);
+                continue;
+            }
+            double facing = 0;
+            FOR(c, 3) facing -= along(c, p) * normal(c, int(face[b]));
+            if (facing > cosine) place.push_back(p), triangle.push_back(face[b]);
+        }
+    }
+    pFor->resize(place.size()), pFound->resize(place.size());
+    FOR(k, int(place.size())) (*pFor)[k] = place[k], (*pFound)[k] = triangle[k];
+    return 1;
+}
+
+// of half a matrix in order, with places for all of these entries
+long entriesAdded(Matrix *const &pK, List *const &pRow, List *const &pColumn, Row *const &pValue)
+{
+    Hashed *K = pK->pHM();
+    List &row = *pRow, &column = *pColumn;
+    if (!alike() || !K || K->state != Hashed::sorted_ij || !K->half) return 0;
+    const int n = row.N();
+    Ints start(K->n + 1, 0), place(n);
+    FOR(k, int(K->nnz)) ++start[K->i[k] + 1];
+    FOR(r, K->n) start[r + 1] += start[r];
+    FOR(k, n) {
+        const int *last = K->j + start[row[k] + 1], *at = std::lower_bound(K->j + start[row[k]], K->j + start[row[k] + 1], int(column[k]));
+        if (at == last || *at != column[k]) return 0;
+        place[k] = at - K->j;
+    }
+    FOR(k, n) K->aij[place[k]] += (*pValue)[k];
+    return 1;
+}
+
+// points of other contacts than that of point i: 1000 times as far as the farthest, and a length more
+long squaresFrom(List *const &pI, Row *const &pX, Row *const &pY, Row *const &pZ, List *const &pContact, long const &i,
+                 double const &length, Row *const &pAway)
+{
+    List &I = *pI, &contact = *pContact;
+    Row &X = *pX, &Y = *pY, &Z = *pZ, &away = *pAway;
+    const int n = I.N();
+    double most = 0;
+    if (!alike()) return 0;
+    FOR(k, n) {
+        const double x = X[I[k]] - X[i], y = Y[I[k]] - Y[i], z = Z[I[k]] - Z[i];
+        away[k] = sqrt(x * x + y * y + z * z);
+        most = std::max(most, away[k]);
+    }
+    const double far = 1e3 * (most + length);
+    FOR(k, n) if (contact[I[k]] != contact[i]) away[k] = far;
+    FOR(k, n) away[k] *= away[k];
+    return 1;
+}
+
+static void Load_Init()
+{
+    // OpenBLAS by OpenMP would wait for threads that are not there
+    if (omp_set_max_active_levels && openblas_get_parallel && openblas_get_parallel() != 2) omp_set_max_active_levels(0);
+    Global.Add("assembleOrdered", "(", new OneOperator7_<long, Matrix *, Whole *, Whole *, Real *, Real *, Whole *, Real *>(assembledInOrder));
+    Global.Add("addMatrixEntries", "(", new OneOperator4_<long, Matrix *, List *, List *, Row *>(entriesAdded));
+    Global.Add("findOpposingTriangles", "(", new OneOperator8_<long, List *, Real *, Real *, Real *, Real *, Row *, List *, List *>(facingTriangles));
+    Global.Add("squaredDistancesFrom", "(", new OneOperator8_<long, List *, Row *, Row *, Row *, List *, long, double, Row *>(squaresFrom));
+    Global.Add("sortMatrixRows", "(", new OneOperator1_<long, Matrix *>(sortedRows));
+}
+LOADFUNC(Load_Init)
