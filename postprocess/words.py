@@ -14,7 +14,7 @@ LABS = "labs/"
 NONE = "–"  # no number
 NEWTONS = (["mm", "MPa"], ["m", "Pa"])  # units of length and pressure whose product is a newton
 UNNAMED = (style.Units.length, style.Units.stress)  # of a command line without --units
-FIGURES = ROOT / "edp" / "reference" / "figures.md"
+FIGURES = ROOT / "edp" / "docs" / "reference" / "figures.md"
 
 HISTORY_COLUMNS = (
     "Newton step,adaptation,residual,in contact,status changes,at the wall,greatest overlap,force,back-substitutions"

@@ -16,7 +16,7 @@ from pathlib import Path
 from postprocess import equations
 
 ROOT = Path(__file__).resolve().parent.parent
-CUT = [f"edp/{name}.md" for name in "WRITING PAPER README scenes/README".split()]
+CUT = [f"edp/{name}.md" for name in "docs/WRITING docs/PAPER scenes/README".split()]
 CUT += ["tests/RESULTS.md", "tests/COST.md"]
 THEORY = (
     "discretisation nonmatching curved-surfaces condensation proximal-newton half-plane-model conditioning thresholds "
@@ -34,7 +34,13 @@ CHAPTERS = {
         "edp/labs/CRIB.md",
     ],
     "How-to": [
-        *("edp/docs/howto/README.md", "edp/docs/howto/install.md", "edp/docs/howto/own-model.md", "edp/docs/CHOOSING.md", "edp/docs/howto/*.md"),
+        *(
+            "edp/docs/howto/README.md",
+            "edp/docs/howto/install.md",
+            "edp/docs/howto/own-model.md",
+            "edp/docs/CHOOSING.md",
+            "edp/docs/howto/*.md",
+        ),
         *("edp/docs/TROUBLESHOOTING.md", "template/README.md", "edp/docs/WRITING.md", "edp/docs/WRITING.md#"),
     ],
     "Reference": [
@@ -48,7 +54,7 @@ CHAPTERS = {
         *("edp/docs/PAPER.md", "edp/docs/PAPER.md#"),
     ],
     "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/VERIFICATION.md", "tests/COST.md", "tests/COST.md#"],
-    "Code": "edp/README.md edp/README.md# CONTRIBUTING.md tests/README.md tests/data/README.md CHANGELOG.md".split(),
+    "Code": "edp/README.md edp/docs/modules.md CONTRIBUTING.md tests/README.md tests/data/README.md CHANGELOG.md".split(),
 }
 ANSWERS = ["edp/labs/*/ANSWERS.md"]  # only with --answers, reached by links
 SLANTED = re.compile(r"(`[^`]*`)|(?<![\w*])\*([^*\s][^*]*)\*(?!\w)")  # code, or slanted words

@@ -21,13 +21,16 @@ import test_contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
-sys.path.append(str(EDP / "case"))  # the reader of cases
+sys.path.append(str(EDP / "input"))  # the reader of cases
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
+OPTION_FILES = dict(
+    re.findall(r'^macro (\w+)File\(\) include "([\w/-]+\.idp)"', (EDP / "input/hooks.idp").read_text(), re.M)
+)
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "input/flags", "input/texts", "input/hooks", "input/scene", "contact/points/points", "fem/elasticity"
-FLOW = EDP / "flow.svg"  # where data goes
-PAGES = [EDP / "README.md", EDP / "input/README.md"]
-PAGES += [EDP / f"reference/{name}.md" for name in ("flags", "flags-of-scenes", "output-files")]
+FLOW = EDP / "docs/flow.svg"  # where data goes
+PAGES = [EDP / "docs/modules.md", EDP / "input/README.md"]
+PAGES += [EDP / f"docs/reference/{name}.md" for name in ("flags", "flags-of-scenes", "output-files")]
 BLOCK = re.compile(r"(<!-- (\w+): make pages -->\n).*?(<!-- end -->)", re.S)
 
 
@@ -38,6 +41,13 @@ def sources(suffix):
     return sorted(
         set(names) - set(EXAMPLES), key=lambda name: (order.get(name.split("/")[0], -1), name.count("/"), name)
     )
+
+
+def option_of(name):
+    """The option whose folder holds a file of edp/, of two the inner one; "" for the core."""
+    holders = {file.rsplit("/", 1)[0] + "/": option for option, file in OPTION_FILES.items()}
+    inside = [folder for folder in holders if name.startswith(folder)]
+    return holders[max(inside, key=len)] if inside else ""
 
 
 def table(kind, names):
@@ -92,26 +102,31 @@ def scripts():
 
 def options():
     """A row an option: what the first line of its first file says, and who reads it."""
-    rows = ["| option | what it does | read by |", "|---|---|---|"]
+    rows = ["| option | file | what it does | read by |", "|---|---|---|---|"]
     every = {scene: reads(script) for scene, script in scripts().items()}
-    for folder in sorted(path for path in (EDP / "options").iterdir() if path.is_dir()):
-        name = folder.name
-        first = (folder / f"{name}.idp").read_text().split("\n")[0].split(": ", 1)[1]
+    for name, file in sorted(OPTION_FILES.items()):
+        first = (EDP / file).read_text().split("\n")[0].split(": ", 1)[1]
         by = [f"`{scene}`" for scene in every if name in every[scene]]
-        rows.append(f"| `{name}` | {first} | {', '.join(by) if len(by) < len(every) else 'all'} |")
+        rows.append(f"| `{name}` | `{file}` | {first} | {', '.join(by) if len(by) < len(every) else 'all'} |")
     return "\n".join(rows) + "\n"
 
 
 # ---------------------------------------------------------------- flags
 
 BODIES, SCHEME = "bodies and load", "method, discretisation, results"
-SECTIONS = {"scenes": BODIES, "blocks": BODIES, "surface": BODIES, "laws": "law"}
-SECTIONS |= dict.fromkeys(("case", "solve", "operator"), SCHEME)
+SECTIONS = {
+    "scenes": BODIES,
+    "contact/laws": "law",
+    "contact": BODIES,
+    "fem": BODIES,
+    "input": SCHEME,
+    "solver": SCHEME,
+}
 TOPICS = {  # headings of the page
     BODIES: "Bodies, mesh and load of the scenes",
     "law": "Contact law",
     SCHEME: "Method, elements and results",
-    "option `attraction`": "Adhesion",
+    "option `adhesion`": "Adhesion",
     "option `estimates`": "Error estimates",
     "option `friction`": "Friction of the scenes",
     "option `meshes`": "New meshes",
@@ -217,15 +232,18 @@ def declared():
     found = {}
     for path in sorted(path for kind in ("idp", "edp") for path in EDP.rglob(f"*.{kind}") if "labs" not in path.parts):
         for flag in FLAG.findall(path.read_text()):
-            found.setdefault(flag, []).append(path.relative_to(EDP).parts)
+            found.setdefault(flag, []).append(path.relative_to(EDP).as_posix())
     return found
 
 
 def section_of(flag):
     """Where the flag is declared, in words."""
     places = declared()[flag]
-    found = [SECTIONS.get(parts[0], BODIES) for parts in places if parts[0] != "options"]
-    return BODIES if BODIES in found else found[0] if found else f"option `{places[0][1]}`"
+    core = [place for place in places if not option_of(place)]
+    found = [
+        next((SECTIONS[folder] for folder in SECTIONS if place.startswith(folder + "/")), BODIES) for place in core
+    ]
+    return BODIES if BODIES in found else found[0] if found else f"option `{option_of(places[0])}`"
 
 
 def owners():
@@ -468,17 +486,17 @@ def written(text):
 
 # where, size, folder, what it makes, the name in its code; a name that is not there is an error
 BOXES = {
-    "mesh": (10, 10, 150, "bodies", "mesh, materials, loads", "Th, material"),
-    "K": (220, 10, 190, "discretisation", "stiffness K, load f", "discretise"),
-    "B": (220, 92, 190, "surface, contact", "overlaps B u, weights w", "computeOverlap, weight"),
-    "C": (480, 92, 190, "operator", "C q = B K⁻¹ Bᵀ q", "computeForceOverlap"),
-    "G": (480, 10, 190, "kernel", "C of a half-plane", "applySurrogate"),
-    "law": (10, 214, 150, "laws", "p(s), p′(s), wall at τ", "computeGraphPoint"),
-    "tangent": (220, 214, 190, "problem", "s, p, p′, status", "linearise"),
-    "linear": (480, 214, 190, "solve", "contact forces q, overlaps", "solveCondensed"),
-    "tau": (220, 306, 190, "solve", "next thresholds τ, eq. (6)", "updateThreshold"),
-    "error": (480, 412, 190, "options/estimates", "± of each number", "estimateErrors"),
-    "files": (220, 412, 190, "report", "summary.json, tables", "measureContactSizes"),
+    "mesh": (10, 10, 150, "fem/mesh, fem", "mesh, materials, loads", "Th, setMaterial"),
+    "K": (220, 10, 190, "solver", "stiffness K, load f", "discretise"),
+    "B": (220, 92, 190, "contact/pairing, contact/points", "overlaps B u, weights w", "computeOverlap, weight"),
+    "C": (480, 92, 190, "solver/compliance", "C q = B K⁻¹ Bᵀ q", "computeForceOverlap"),
+    "G": (480, 10, 190, "solver/surrogate", "C of a half-plane", "applySurrogate"),
+    "law": (10, 214, 150, "contact/laws", "p(s), p′(s), wall at τ", "computeGraphPoint"),
+    "tangent": (220, 214, 190, "solver/problem", "s, p, p′, status", "linearise"),
+    "linear": (480, 214, 190, "solver/newton", "contact forces q, overlaps", "solveCondensed"),
+    "tau": (220, 306, 190, "solver/newton", "next thresholds τ, eq. (6)", "updateThreshold"),
+    "error": (480, 412, 190, "error/estimates", "± of each number", "estimateErrors"),
+    "files": (220, 412, 190, "output/report", "summary.json, tables", "measureContactSizes"),
 }
 ARROWS = [
     ("mesh", "K", ""),

@@ -1,6 +1,6 @@
 """The heads of the modules, and the comments at the names that other files use of them.
 
-Who uses what, which is read here, `make pages` writes into edp/README.md, and `make uses MODULE=...` prints.
+Who uses what, which is read here, `make pages` writes into edp/docs/modules.md, and `make uses MODULE=...` prints.
 """
 
 import re
@@ -13,7 +13,12 @@ MODULES = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.idp"))
 ALONE = EDP / "labs/0-algorithm/algorithm1.edp"  # plain FreeFEM: it shares nothing with the modules
 SCRIPTS = sorted(str(path.relative_to(EDP)) for path in EDP.rglob("*.edp") if path != ALONE)
 TYPES = set("int real string bool complex matrix mesh mesh3 varf fespace func ifstream ofstream ostream".split())
-EVERYWHERE = {"moduleLoaded", "pluginLoaded", "readForDimension", "readUnless"}  # every module says that it is there; includes
+EVERYWHERE = {
+    "moduleLoaded",
+    "pluginLoaded",
+    "readForDimension",
+    "readUnless",
+}  # every module says that it is there; includes
 
 # a macro ends at //, on whatever line; elsewhere // begins a comment
 TEXT = re.compile(r'"(?:\\.|[^"\\])*"|\bmacro\s+(\w+)\s*\(([^)]*)\)(.*?)//|//[^\n]*', re.DOTALL)
@@ -251,10 +256,11 @@ def test_paths():
 
 def test_glossary():
     """Names of the code in the glossary shall be there, and each term shall stand in it once."""
-    rows = [row.split(" | ") for row in (EDP / "GLOSSARY.md").read_text().splitlines() if row.startswith("| ")]
+    rows = [row.split(" | ") for row in (EDP / "docs/GLOSSARY.md").read_text().splitlines() if row.startswith("| ")]
     terms = [row[0].removeprefix("| ") for row in rows if row[0] != "| term"]
     assert len(set(terms)) == len(terms) > 50
     names = {name for row in rows for name in re.findall(r"`([a-zA-Z]\w*)`", row[1])}
     summary, laws_and_words = {"backsolves", "estimates"}, {"signorini", "leg", "tie"}
-    options = {path.name for path in (EDP / "options").iterdir()}
+    hooks = (EDP / "input/hooks.idp").read_text()
+    options = set(re.findall(r"^macro (\w+)File\(\)", hooks, re.M))
     assert names - set(owners()) - summary - laws_and_words - options == set()

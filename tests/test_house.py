@@ -12,7 +12,7 @@ from functools import cache
 import executed
 import pytest
 from freefem import ROOT, execute
-from pages import FOLDERS
+from pages import FOLDERS, OPTION_FILES, option_of
 
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
@@ -26,13 +26,15 @@ LIMITS = {  # what is there at present: to be lowered with the code, never raise
     "IFMACRO": 196,
     "lines of .edp and .idp": 44584,
 }
-COULOMB = [f"options/friction/coulomb-{part}.idp" for part in ("graph", "system", "solve", "newton")]  # one module
+COULOMB = [f"contact/friction/coulomb-{part}.idp" for part in ("graph", "system", "solve", "newton")]  # one module
 TYPE = r"(?:real|int|bool|string|mesh3?|meshS|meshL|matrix|fespace|complex)(?:\[[a-z, ]*\])*"
 MACRO = re.compile(r"^[ \t]*macro (\w+)(?:\(([^)\n]*)\))?([\s\S]*?)//.*$", re.M)
 
 
 def rank(path):
-    return ORDER.index(path.split("/")[0])
+    """The place of a file's folder in the flow of data; options may use whatever their scenes read."""
+    folder = path.split("/")[0]
+    return len(ORDER) if option_of(path) or folder == "scenes" else ORDER.index(folder)
 
 
 # ---------------------------------------------------------------- reading
@@ -50,7 +52,9 @@ def sources():
 def modules():
     """{path: code without comments and macros} of the modules."""
     return {
-        path: re.sub(r"//.*|readForDimension\(.*\)|readUnless\(.*\)", "", MACRO.sub(lambda m: "\n" * m[0].count("\n"), text))
+        path: re.sub(
+            r"//.*|readForDimension\(.*\)|readUnless\(.*\)", "", MACRO.sub(lambda m: "\n" * m[0].count("\n"), text)
+        )
         for path, text in sources().items()
         if path.endswith(".idp")
     }
@@ -117,7 +121,7 @@ def optional():
 def of_options():
     """The macros of options that the core executes at its hooks."""
     hooks = {"Laws"} | {name for text in sources().values() for name in re.findall(r"optionHook\((\w+)\)", text)}
-    return {path.name + hook for path in (EDP / "options").iterdir() for hook in hooks}
+    return {option + hook for option in OPTION_FILES for hook in hooks}
 
 
 @cache
@@ -134,7 +138,8 @@ def local(path):
 
 
 def words(text):
-    return set(re.findall(r"(?<![\w.])[A-Za-z]\w*", text))
+    """The names in a text; those in paths of files are none."""
+    return set(re.findall(r"(?<![\w.])[A-Za-z]\w*", re.sub(r"[\w-]+(?:/[\w-]+)+\.idp", "", text)))
 
 
 def used(path, hooks=False):
@@ -249,7 +254,9 @@ def writers():
 def test_what_is_read():
     """Names in macros shall count, and of names that twins share both files; options' hooks only if they shall."""
     assert "startFullSystem" in arrows()["solver/methods/all.idp"]["solver/newton/full-system.idp"]
-    assert {"solver/surrogate/half-plane.idp", "solver/surrogate/half-space.idp"} <= set(arrows()["solver/surrogate/preconditioner.idp"])
+    assert {"solver/surrogate/half-plane.idp", "solver/surrogate/half-space.idp"} <= set(
+        arrows()["solver/surrogate/preconditioner.idp"]
+    )
     of_hook = "contact/adhesion/adhesion.idp", "contact/adhesion/adhesive-run.idp"
     assert of_hook[1] in arrows(hooks=True)[of_hook[0]] and of_hook[1] not in arrows()[of_hook[0]]
 
@@ -274,8 +281,12 @@ def test_no_cycle():
 @cache
 def kind(path):
     """One of the modules that stand in a module's place, twins or with three names and more in common."""
-    others = {other for other in modules() if len(declared(path) & declared(other)) > 2}
-    return min(re.sub("-(plane|space)", "", other) for other in {path, *others})
+    alike, todo = {path}, [path]
+    while todo:
+        names = declared(todo.pop())
+        todo += (near := {other for other in modules() if len(names & declared(other)) > 2} - alike)
+        alike |= near
+    return min(re.sub("-(plane|space)", "", other) for other in alike)
 
 
 def test_limits():
@@ -301,14 +312,14 @@ def test_limits():
 
 
 def test_every_folder_has_its_place():
-    assert {path.split("/")[0] for path in modules()} == set(ORDER)
+    assert {path.split("/")[0] for path in modules()} == {*ORDER, "scenes"}
 
 
 def test_no_name_twice():
     """No file name shall stand twice, but in the registries of laws and methods, and in options."""
     names = {}
     for path in modules():
-        if not path.startswith(("laws/", "solver/methods/", "options/")):
+        if not path.startswith(("contact/laws/", "solver/methods/")) and not option_of(path):
             names.setdefault(path.split("/")[-1], []).append(path)
     twice = {name: paths for name, paths in names.items() if len(paths) > 1}
     assert not twice

@@ -162,7 +162,9 @@ def test_from_any_folder(name, package, tmp_path):
 
 def test_modules_are_the_package_s(package, tmp_path):
     """The starter shall read no module, script or Python module of the present folder in place of the package's."""
-    for name in "input/flags.idp input/scene.idp contact/laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
+    for (
+        name
+    ) in "input/flags.idp input/scene.idp contact/laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
         (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
         (tmp_path / name).write_text('cout << "not the package" << endl; exit(3);\n')
     for name in ("numpy", "argparse", "csv", "matplotlib"):

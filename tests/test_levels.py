@@ -69,7 +69,7 @@ STIFF = "sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9]
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
-    name = package / "edp" / "options" / "many" / "single-contact-sources.idp"
+    name = package / "edp/solver/hierarchical/single-contact-sources.idp"
     text = name.read_text()
     assert text.count("int gridPointsMin = 1500;") == 1
     usual = run(scene, *flags).summary
@@ -83,7 +83,7 @@ def test_runs(scene, flags, tmp_path):
 def test_no_convergence(tmp_path):
     """Where products over grids do not solve the model a matrix shall take their place, said once: no run hangs."""
     package = tree(tmp_path / "package")
-    many = package / "edp" / "options" / "many"
+    many = package / "edp/solver/hierarchical"
     for name, before, after in (
         ("single-contact-sources.idp", "int gridPointsMin = 1500;", "int gridPointsMin = 20;"),
         ("grid-preconditioner.idp", "int innerIterationsMax = 300;", "int innerIterationsMax = 1;"),

@@ -57,9 +57,7 @@ def test_flags_refused(tmp_path, flags, words):
 def test_advice_of_another_value(tmp_path):
     """A message advises a flag's value only where the flag is there and has another one, as default or as given."""
     text = 'include "input/flags.idp"\nstring word = wordFlag("-word", "one", "", "one two");\n'
-    text += (
-        'cout << "told:" << flagAdvice("-word", "one") << flagAdvice("-word", "two") << flagAdvice("-none", "one") << ":" << endl;\n'
-    )
+    text += 'cout << "told:" << flagAdvice("-word", "one") << flagAdvice("-word", "two") << flagAdvice("-none", "one") << ":" << endl;\n'
     assert "told:use -word two, or :" in snippet(tmp_path, text)
     assert "told:use -word one, or :" in snippet(tmp_path, text, "-word", "two")
 
@@ -318,7 +316,9 @@ TANGENTS += [case for case in OTHERS]
 def test_tangent(tmp_path, scene, order):
     """The linearised system shall be the derivative of the equilibrium residual, by central differences."""
     solver = (ROOT / "edp/solver/solve.idp").read_text()
-    assert solver.count("printHistoryHead();") == solver.count("openOutputFolder(requestedFolder, preservedFiles);") == 1
+    assert (
+        solver.count("printHistoryHead();") == solver.count("openOutputFolder(requestedFolder, preservedFiles);") == 1
+    )
     solver = solver.split("printHistoryHead();")[0].replace("openOutputFolder(requestedFolder, preservedFiles);", "")
     flags = ["-method", "newton", "-order", order, "-h", 1, *(["-Eratio", 50] if scene == "meshed-disc" else [])]
     values = told(snippet(tmp_path, scene_text(scene) + solver + TANGENT, *flags))
@@ -378,7 +378,13 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     snippet(tmp_path, text, "-h", 5, "-vtu", 0, "-out", tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     loaded = {name for name in summary["modules"] if name.startswith(("laws/", "solver/newton/methods", "kernel/"))}
-    assert loaded == {"contact/laws/laws", "contact/laws/one-law", "contact/laws/power", "contact/laws/increasing-laws", "contact/laws/signorini"} | {
+    assert loaded == {
+        "contact/laws/laws",
+        "contact/laws/one-law",
+        "contact/laws/power",
+        "contact/laws/increasing-laws",
+        "contact/laws/signorini",
+    } | {
         "solver/newton/methods",
         "solver/methods/newton",
         "solver/surrogate/half-plane",

@@ -1,4 +1,4 @@
-"""edp/options/: what a scene reads on request, what the others say of it, and that the core names none of it."""
+"""Options: what a scene reads on request, what the others say of it, and that the core names none of it."""
 
 import re
 from functools import cache
@@ -10,14 +10,12 @@ from test_contracts import EDP, MODULES, owners, uses
 OFFERED = (EDP / "input/hooks.idp").read_text()
 OFFERS = re.findall(r'^requireOption\("(\w+)", "([^"]*)",\s*"([^"]*)"\);', OFFERED, flags=re.M)
 ROW = r"^\| `([A-Z]\w*)(?:\(([\w, ]+)\))?` \| (`[^|]*`) \|"  # an event, the names of its host, its files
-EVENTS = re.findall(ROW, (EDP / "WRITING.md").read_text().split("\n## Events\n")[1].split("\n## ")[0], flags=re.M)
-OPTIONS = sorted(path.name for path in (EDP / "options").iterdir() if path.is_dir())
+EVENTS = re.findall(ROW, (EDP / "docs/WRITING.md").read_text().split("\n## Events\n")[1].split("\n## ")[0], flags=re.M)
+OPTIONS = sorted(pages.OPTION_FILES)
 SCRIPTS = pages.scripts()
 
 
-def option_of(name):
-    """The option that a module belongs to; the list of them belongs to the core."""
-    return name.split("/")[1] if re.match(r"options/\w+/", name) else ""
+option_of = pages.option_of
 
 
 def flags_of(name):
@@ -38,7 +36,7 @@ def test_list():
     assert entries.keys() <= set(OPTIONS)
     for name, scenes in entries.items():
         found = {scene for scene, path in SCRIPTS.items() if name in pages.reads(path)}
-        if name == "half":  # main.edp reads it for scenes with friction too, which refuse it
+        if name == "symmetry":  # main.edp reads it for scenes with friction too, which refuse it
             found = {scene for scene in found if "friction" not in pages.reads(SCRIPTS[scene])}
         assert set(scenes.split(", ")) == found or scenes == f"scenes that read the option {name}"
     elsewhere = {
@@ -58,8 +56,10 @@ def test_core_names_no_option():
         for word in uses(name):
             if not own & set(map(option_of, owners()[word])):
                 wrong.append(f"{name}: {word} of {', '.join(owners()[word])}")
-        texts = re.findall(r"\boptions/(\w+)/", (EDP / name).read_text()) if name != "input/hooks.idp" else []
-        wrong += [f"{name}: options/{option}/" for option in texts if option not in own | {option_of(name)}]
+        texts = (
+            re.findall(r"\b[\w-]+(?:/[\w-]+)+(?:\.idp)?", (EDP / name).read_text()) if name != "input/hooks.idp" else []
+        )
+        wrong += [f"{name}: {text}" for text in texts if option_of(text) not in own | {option_of(name)}]
     assert not wrong, "\n".join(wrong)
 
 
@@ -80,7 +80,7 @@ def test_hooks():
     assert {hook: set(files.split(", ")) for hook, _, files in EVENTS} == found | {"Laws": {"`contact/laws/all.idp`"}}
     wrong = []
     for option in OPTIONS:
-        text = (EDP / f"options/{option}/{option}.idp").read_text()
+        text = (EDP / pages.OPTION_FILES[option]).read_text()
         own = set(re.findall(rf"^macro {option}([A-Z]\w*)\(", text, flags=re.M))
         wrong += [f"{option}{hook}: there is no such hook" for hook in sorted(own - set(found) - {"Laws"})]
     assert not wrong, "\n".join(wrong)
@@ -91,7 +91,7 @@ def test_not_read(tmp_path):
     assert not any(module.startswith("contact/adhesion") for module in run("disc-on-block").modules)
     table = tmp_path / "falls.csv"
     table.write_text("0,0\n1,-2\n2,1\n3,4\n")
-    scenes = dict((name, scenes) for name, _, scenes in OFFERS)["attraction"]
+    scenes = dict((name, scenes) for name, _, scenes in OFFERS)["adhesion"]
     for flags, said in (
         (["-path", "0 1"], "-path 0 1"),
         (["-law", "lennard-jones"], "-law lennard-jones"),
@@ -135,7 +135,7 @@ def test_hooks_only_listen():
     does replaces the module (readUnless)."""
     every = {hook for name in MODULES for hook in re.findall(r"\boptionHook\(([A-Z]\w*)\)", (EDP / name).read_text())}
     wrong = [f"{len(every)} hooks, at most {MOST}"] if len(every) > MOST else []
-    files = {option: [n for n in MODULES if n.startswith(f"options/{option}/")] for option in OPTIONS}
+    files = {option: [n for n in MODULES if option_of(n) == option] for option in OPTIONS}
     texts = {option: "\n".join((EDP / name).read_text() for name in files[option]) for option in OPTIONS}
     for hook in sorted(every - NAMED):
         declared = r"\b(?:int|real|bool|string|matrix|ofstream|ifstream)(?:\[[\w,]+\])?\s*&?\s*(\w+)"

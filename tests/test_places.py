@@ -121,7 +121,19 @@ def test_cache_of_two_packages(tmp_path):
         for path in geo.parent.glob("*.geo"):
             os.utime(path, (0, 0))  # older than the mesh
         execute(["sh", package / "edp/input/cache.sh", 0, package], env=env)
-        words = ["sh", package / "edp/input/make-mesh.sh", os.getpid(), mesh, geo, "", "-1", "-v", 1, "-format", "msh22"]
+        words = [
+            "sh",
+            package / "edp/input/make-mesh.sh",
+            os.getpid(),
+            mesh,
+            geo,
+            "",
+            "-1",
+            "-v",
+            1,
+            "-format",
+            "msh22",
+        ]
         code, said = execute(words, env=env)
         assert code == 0, said
         made.append(mesh.stat().st_mtime_ns)

@@ -35,11 +35,11 @@ MANUAL = "\n".join(
     )
 )
 SCENE_TABLE, METHOD_TABLE, CHOOSING = (
-    re.sub("<!-- .*? -->\n", "", (ROOT / "edp" / f"{name}.md").read_text())
+    re.sub("<!-- .*? -->\n", "", (ROOT / "edp/docs" / f"{name}.md").read_text())
     for name in ("reference/scenes", "reference/methods", "CHOOSING")
 )
 RESULTS = "\n".join((ROOT / "tests" / f"{name}.md").read_text() for name in ("RESULTS", "COST"))
-PAPER = (ROOT / "edp" / "PAPER.md").read_text()
+PAPER = (ROOT / "edp/docs/PAPER.md").read_text()
 PAGES = sorted(str(path.relative_to(ROOT)) for path in in_markdown(ROOT))
 DONE = ["-o", ".venv/run.stamp", "-o", ".venv/dev.stamp", "-o", "system", "-o", "python"]  # set-up counts as done
 # what stands for a table's values in the commands
@@ -369,8 +369,8 @@ def layer_of_springs(package, out, *flags):
 def grown(tmp_path_factory):
     """A copy of the package with the law and the method that the README adds."""
     folder = tree(tmp_path_factory.mktemp("readme-added") / "package")
-    added(folder, "laws/NAME.idp", *fences(section(MANUAL, "Adding a law"), "freefem"), LAW)
-    added(folder, "solve/methods/NAME.idp", *fences(section(MANUAL, "Adding a method"), "freefem"), METHOD)
+    added(folder, "contact/laws/NAME.idp", *fences(section(MANUAL, "Adding a law"), "freefem"), LAW)
+    added(folder, "solver/methods/NAME.idp", *fences(section(MANUAL, "Adding a method"), "freefem"), METHOD)
     return folder
 
 
@@ -395,8 +395,8 @@ def test_option_example(tmp_path):
     """The option that WRITING.md adds shall work where it is read, and be refused elsewhere, naming the scene."""
     package = tree(tmp_path / "package")
     option, offer = fences(section(MANUAL, "Adding an option"), "freefem")
-    (package / "edp/options/centre").mkdir()
-    (package / "edp/options/centre/centre.idp").write_text(option)
+    (package / "edp/output/centre").mkdir()
+    (package / "edp/output/centre/centre.idp").write_text(option)
     listed = package / "edp/input/hooks.idp"
     listed.write_text(listed.read_text().replace('requireOption("meshes"', offer + 'requireOption("meshes"'))
     punch = package / "edp/scenes/flat-punch.edp"

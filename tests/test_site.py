@@ -110,7 +110,9 @@ def test_small_site(tmp_path):
 def test_a_link_that_leads_nowhere(tmp_path):
     """A link to no page, section or file shall end the build, naming the page and the link."""
     (tmp_path / "README.md").write_text("# Contact\n\n[law](edp/docs/PAPER.md#the-law)\n")
-    with pytest.raises(SystemExit, match=r"README.md: edp/docs/PAPER.md#the-law: there is no such page, section or file"):
+    with pytest.raises(
+        SystemExit, match=r"README.md: edp/docs/PAPER.md#the-law: there is no such page, section or file"
+    ):
         documents.Site(tmp_path, tmp_path / "out", {}).write()
 
 

@@ -163,6 +163,8 @@ def test_no_advice_to_do_what_is_done():
 
 def test_words():
     """Texts are read as a run prints them, whatever stands between."""
-    assert words('"-h " + flagTextOf("-h") + ": " + (h > 1 ? "too large" : "too small")') == "-h …: …too large…too small"
+    assert (
+        words('"-h " + flagTextOf("-h") + ": " + (h > 1 ? "too large" : "too small")') == "-h …: …too large…too small"
+    )
     assert argument('refuse("a) (" + f(2)); x', 7) == '"a) (" + f(2)'
     assert matches("-h …: larger than …", "-h 3: larger than the block; allowed: at most 2")

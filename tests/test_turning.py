@@ -299,13 +299,17 @@ ROUNDS = data("turning/rounds.edp")
 
 
 @pytest.mark.parametrize(
-    "module, call", [("turning/in-frames", "iterateRotations(1)"), ("friction/rounds", "iterateGeometry(1, 0)")]
+    "module, call",
+    [
+        ("solver/large-rotation/rotation-steps", "iterateRotations(1)"),
+        ("contact/friction/geometry-updates", "iterateGeometry(1, 0)"),
+    ],
 )
 def test_forces_that_go_to_and_fro_turn_no_bodies(tmp_path, module, call):
     """After rounds that end nowhere a load step ends: bodies would turn to and fro, too. Otherwise they turn until they
     rest, and a body that does not is told to be held."""
     start = f"func int {call.split('(')[0]}(int step"
-    bodies = (ROOT / f"edp/options/{module}.idp").read_text().split(start)
+    bodies = (ROOT / f"edp/{module}.idp").read_text().split(start)
     follow = [start + text[: text.index("\n}\n") + 3] for text in bodies[1:] if text.split("\n")[1].startswith("//")]
     tries = [("rests", 2, 99), ("swings", 99, 1), ("later", 99, 3), ("turns", 99, 99)]
     text = "".join(f'tried({turning}, {swings});\n{call};\ntellTried("{name}");\n' for name, turning, swings in tries)

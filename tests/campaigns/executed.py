@@ -85,7 +85,9 @@ def mark_statements(text: str, file: str, found: list[Statement]) -> str:
         if code and not re.match("IFMACRO|ENDIFMACRO", code):
             depth += sum(code.count(c) for c in "([") - sum(code.count(c) for c in ")]")
             alone = re.match(r"\w+(\([^;=?]*\))?\s*$", code) and depth == 0
-            if re.match(r"include\b|load\b|readForDimension", code) or (alone and not re.match(r"(else|if|for|while)\b", code)):
+            if re.match(r"include\b|load\b|readForDimension", code) or (
+                alone and not re.match(r"(else|if|for|while)\b", code)
+            ):
                 before = ";"
             else:
                 before = code[-1]
