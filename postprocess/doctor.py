@@ -344,7 +344,7 @@ def find_multigrid() -> list:
 def own_plugin(name: str, how: str) -> Finding:
     """A plugin that `make` builds: under the name that the scripts ask for, from the present source."""
     asked = next((ROOT / "edp/input/without").glob(f"{name}-plugin-*.idp"), Path("none"))
-    plugin, source, log = BUILD / asked.name, ROOT / f"edp/operator/{name}.cpp", BUILD / f"{name}.log"
+    plugin, source, log = BUILD / asked.name, ROOT / f"edp/solver/plugins/{name}.cpp", BUILD / f"{name}.log"
     compiler = os.environ.get("CXX", "g++")
     if not plugin.exists():
         words = "not built; runs go on without it"

@@ -262,10 +262,10 @@ SHORT, LONG = (0.62, 1), (0.35, 0.56, 0.74, 0.8)
 def test_partly_covered(tmp_path, share, order, element):
     """Whatever part the master covers, no weight shall be negative, and together they give the integrals."""
     text = high(order) + scene_text("patch-test")
-    whole = "upperElements, [width * (x - 0.5), depth + apart + height * y"
+    whole = "upperElements, [width * (x - 0.5), depth + joinDistance + height * y"
     assert text.count(whole) == 1
     text = text.replace(
-        whole, f"upperElements, [width * ({share} * x - 0.5), depth + apart + height * y"
+        whole, f"upperElements, [width * ({share} * x - 0.5), depth + joinDistance + height * y"
     ) + COVERED.replace("ELEMENT", element)
     values = told(snippet(tmp_path, text, "-method", "newton", "-order", order, "-width", 2, "-lower", 4, "-upper", 3))
     weight, paired = values["weight"], values["paired"] == 1

@@ -658,12 +658,12 @@ MODULES = [
     ("# pressure, symmetry, rotate", set()),
     ("pressure left 1", {"loads"}),
     ("symmetry left", {"mirrors"}),
-    ("rotate left 0 0 1", {"largeMotions", "moments", "turning"}),
+    ("rotate left 0 0 1", {"largeMotions", "moments", "largeRotation"}),
     ("rotate left 0 0 1\nleg 2", {"friction", "moments", "series", "largeMotions"}),
     ("force left 0 1", set()),
-    ("force left 0 1 free", {"forces"}),
-    ("moment left 1", {"forces", "moments"}),
-    ("spring left 1 1", {"forces"}),
+    ("force left 0 1 free", {"springsAndMoments"}),
+    ("moment left 1", {"springsAndMoments", "moments"}),
+    ("spring left 1 1", {"springsAndMoments"}),
     ("about p 0 0", {"moments"}),
     ("leg 2", {"friction", "moments", "series"}),
     ("tie left right", {"friction", "moments", "series"}),
@@ -672,9 +672,9 @@ MODULES = [
     ("contact left right law barrier p0 1 d0 -1", {"laws"}),
     ("stresses", {"stresses"}),
     ("line l 0 0 1 1", {"stresses"}),
-    ("expand block 1 1", {"strains", "turning", "largeMotions"}),
-    ("conduct block 1\nfilm left 1 1", {"strains", "heat", "turning", "largeMotions"}),
-    ("conduct block 1 expand 1\nfilm left 1 1", {"strains", "heat", "turning", "largeMotions", "stresses"}),
+    ("expand block 1 1", {"initialStrain", "largeRotation", "largeMotions"}),
+    ("conduct block 1\nfilm left 1 1", {"initialStrain", "heat", "largeRotation", "largeMotions"}),
+    ("conduct block 1 expand 1\nfilm left 1 1", {"initialStrain", "heat", "largeRotation", "largeMotions", "stresses"}),
     ("plastic block 1 1", {"plastic", "friction", "moments", "stresses"}),
     ("contact left right wear 1 slide 1\ncycles 5", {"wear"}),
 ]
@@ -686,11 +686,11 @@ def test_modules(lines, names):
 
 
 def test_modules_of_flags():
-    assert asked("", exact=True) == {"largeMotions", "turning"}
-    assert asked("", history=True) == {"series", "largeMotions", "turning"}
+    assert asked("", exact=True) == {"largeMotions", "largeRotation"}
+    assert asked("", history=True) == {"series", "largeMotions", "largeRotation"}
     assert asked("leg 2", history=True) == {"friction", "moments", "series"}
     assert asked("leg 2", check=True) == {"friction", "moments", "check"}
-    assert asked("", axis=True) == {"axis"} and asked("", axis=True, space=True) == set()
+    assert asked("", axis=True) == {"axisStresses"} and asked("", axis=True, space=True) == set()
     assert asked("pressure left 1\nstresses", own=False) == {"loads"}
     assert asked("", "state axisymmetric\n") == {"mirrors"}
 

@@ -42,9 +42,9 @@ def included(name, space=None):
         )
     other = "!threeDimensional" if space else "threeDimensional"
     text = re.sub(rf"^ *IFMACRO\({other}\)\n.*?^ *ENDIFMACRO\n", "", text, flags=re.M | re.S)
-    inner = re.findall(r'^include "(main\.edp|scenes/\S+|blocks/\S+)"', text, re.M)
+    inner = re.findall(r'^include "(main\.edp|scenes/\S+)"', text, re.M)
     twin = "space" if space else "plane"
-    inner += [f"{name}-{twin}.idp" for name in re.findall(r"^readForDimension\((blocks/\S+)\)", text, re.M)]
+    inner += [f"{name}-{twin}.idp" for name in re.findall(r"^readForDimension\((scenes/blocks/\S+)\)", text, re.M)]
     return text + "".join(included(file, space) for file in inner)
 
 

@@ -16,7 +16,7 @@ if test "$4" = keep; then
     exit
 fi
 read=${TMPDIR:-/tmp}/faces-$1-$(date +%s)
-sh "$here/readable.sh" "$1" "$2" "$read" none "$4" check "$5"
+sh "$here/read-case.sh" "$1" "$2" "$read" none "$4" check "$5"
 code=$?
 if test $code = 5; then
     echo "out of disk: ${read%/*} is full, or ulimit -f too small; allowed: room there, or another folder, named by the variable TMPDIR"

@@ -1,4 +1,4 @@
-# watch-gmsh.sh: gmsh, watched while it works. Read by the package's other shell programs, after input/process.sh: . .../watched.sh
+# watch-gmsh.sh: gmsh, watched while it works. Read by the package's other shell programs, after input/process.sh: . .../watch-gmsh.sh
 # Needs: run, the number of the run's process.
 # Gives: watched LOG WHAT OPTIONS-OF-GMSH...: gmsh's messages in LOG, when it has ended. It is ended by its first error, after which it
 #        may go on for ever, and by the end of its run, however that ends: then the shell that asked ends with code 130 as well. After
