@@ -109,7 +109,7 @@ real[int] second = [1, 2, 0.02, 800, -0.003];
 def test_laws_by_contact(tmp_path):
     """Each contact shall follow its own law."""
     problem = Problem(2, sizes=(30, 30, 30), motions=2)
-    laws = LAWS + 'setContactLaw(0, "a", "power", first, "");\ngiveLaw(1, "b", "exponential", second, "");\n'
+    laws = LAWS + 'setContactLaw(0, "a", "power", first, "");\nsetContactLaw(1, "b", "exponential", second, "");\n'
     values = told(problem.solve(tmp_path, laws=laws))
     assert values["converged"] == 1
     exponential = (lambda s: 0.02 * np.expm1(800 * np.maximum(s, 0)), -0.003)

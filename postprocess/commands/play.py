@@ -64,7 +64,7 @@ def influence(h: float) -> dict[str, list[float]]:
     text = kit.read(kit.LABS / kit.PAGE)
     meshes = kit.LABS.parent.parent / "meshes"
     text = text[: text.index("int newton = 0")] + WRITES
-    text = text.replace('here + "/../../../meshes/"', json.dumps(f"{meshes}/"))
+    text = text.replace('labFolder + "/../../../meshes/"', json.dumps(f"{meshes}/"))
     text = text.replace("-setnumber corners 0.000125", f"-setnumber h {h / 40!r} -setnumber corners {h / 4000!r}")
     text = text.replace('cache + "/algorithm1.msh"', '"algorithm1.msh"')
     with tempfile.TemporaryDirectory() as name:
