@@ -129,13 +129,13 @@ def test_not_alone(tmp_path):
 def test_names_of_a_mesh(tmp_path):
     """The groups of a mesh are known without numpy, those of a geometry that was never opened are not."""
     (tmp_path / "a.geo").write_text(BOXES)
-    assert names_of(tmp_path / "a.geo", True, [], tmp_path) == (None, "")
+    assert names_of(tmp_path / "a.geo", True, [], tmp_path) == (None, {})
     names = '1 7 "curve"\n2 3 "two words"\n3 1 "a"'
     mesh = tmp_path / "a.msh"
     mesh.write_text(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n{names}\n$EndPhysicalNames\n")
-    assert names_of(mesh, True, [], tmp_path) == ([Group(1, "curve"), Group(2, "two words"), Group(3, "a")], "")
+    assert names_of(mesh, True, [], tmp_path) == ([Group(1, "curve"), Group(2, "two words"), Group(3, "a")], {})
     mesh.write_text(mesh.read_text().replace("3 1", "2 1"))
-    assert names_of(mesh, True, [], tmp_path) == (None, "")  # a plane mesh: refused as a whole
+    assert names_of(mesh, True, [], tmp_path) == (None, {})  # a plane mesh: refused as a whole
 
 
 def test_names_of_a_deck(tmp_path):
@@ -143,9 +143,9 @@ def test_names_of_a_deck(tmp_path):
     (tmp_path / "a.inp").write_text(INP)
     (tmp_path / "a.case").write_text(PLANE.replace("bottom", "botom"))
     problem = Problem(tmp_path / "a.inp", str(tmp_path / "a.case"), tmp_path, Where(), [], cache=tmp_path)
-    assert names_of(problem.file, False, [], tmp_path) == (None, "")
+    assert names_of(problem.file, False, [], tmp_path) == (None, {})
     assert run(problem) == 3
-    assert names_of(problem.file, False, [], tmp_path) == ([Group(1, "top"), Group(1, "bottom"), Group(2, "block")], "")
+    assert names_of(problem.file, False, [], tmp_path) == ([Group(1, "top"), Group(1, "bottom"), Group(2, "block")], {})
 
 
 def test_refused_before_the_mesh(tmp_path):
