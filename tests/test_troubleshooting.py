@@ -68,8 +68,8 @@ def refusals():
     cases += [(text, {}) for text in (f"{legs}leg 1\npressure right 3", f"{worn}leg 2", both, dense, moved, cut)]
     cases += [(f"{legs}leg 1\nforce left 0 0 rigid", {}), (GOOD + "about p 0 0\n" * 1 + "stresses\n" + LINES, {})]
     cases += [(f"thickness 1\n{STEEL}", {"space": True}), (f"{STEEL}plastic block 1 1", {"space": True})]
-    cases += [(f"{pair}clamp base", {"bodies": "7 8"}), ("body pin E 1 nu 0\nclamp base", {"bodies": "7"})]
-    cases += [(f"{pair}group a-b near 0 0\njoin a b tie", {"bodies": "7 8"})]
+    cases += [(f"{pair}clamp base", {"bodies": {7: "", 8: ""}}), ("body pin E 1 nu 0\nclamp base", {"bodies": {7: ""}})]
+    cases += [(f"{pair}group a-b near 0 0\njoin a b tie", {"bodies": {7: "", 8: ""}})]
     for case, where in cases:
         alone = not where.get("bodies")
         groups = (
