@@ -944,7 +944,7 @@ def test_a_force_across_the_second_of_parallel_symmetries(go, names):
 
 
 def test_a_sector_that_no_symmetry_holds(go):
-    """The parts of a press fit push each other away until they touch without a force, or by rounding not: said, no number."""
+    """The parts of a press fit push each other away until they touch without a force or, by rounding, not at all."""
     case = "body hub E 2e5 nu 0.3\nbody ring E 1e5 nu 0.2\ncontact shaft bore interference 1e-2\n"
     told = go(data("truth/turned-rings.geo"), case)
     assert told.summary["contacts"][0]["normalForce"] == 0
