@@ -36,7 +36,8 @@ def test_fronts_in_parts(monkeypatch):
     seen = rng.normal(size=(60, 3, 3))
     seen[:5, 2] = seen[:5, 1]
     seen[5:9] += [50, 0, 0]
-    whole = raster.fronts(seen, np.array([-3.0, -3.0]), 0.1, (60, 60))
+    with np.errstate(all="raise"):
+        whole = raster.fronts(seen, np.array([-3.0, -3.0]), 0.1, (60, 60))
     monkeypatch.setattr(raster, "CHUNK", 500)
     assert (raster.fronts(seen, np.array([-3.0, -3.0]), 0.1, (60, 60)) == whole).all()
     assert whole.max() > 50 and not np.isin(whole, range(9)).any()
@@ -52,6 +53,8 @@ def test_rooms():
     number[2:9, 14:27] = 7
     rooms = raster.rooms(number)
     assert rooms[4] == (5, 5, 4) and rooms[7] == (5, 20, 3)
+    above = np.repeat([[0], [1]], 9, axis=0).repeat(9, axis=1)  # one above the other
+    assert raster.rooms(above) == {0: (4, 4, 3), 1: (12, 4, 3)}
 
 
 def test_edges():
@@ -102,6 +105,10 @@ def test_labels_beside():
         own = [at[texts[k]] for k in range(column, 12, 2)]
         assert len({place[0] < 100 for place in own}) == 1
         assert [place[1] for place in own] == sorted(place[1] for place in own)
+    with style.look():
+        figure, axes = points(200, 90)
+        labels.beside(axes, [(100 + k, 1 + 0.1 * k) for k in range(12)], texts, (200, 90))
+        assert faults(figure) == []
 
 
 def test_arranged():
@@ -152,6 +159,11 @@ def test_picture_of_an_assembly(checked, capsys, monkeypatch):
     called = [assembly.called(kind, next(kinds[kind])).strip('"') for kind in assembly.NAMES]
     names = [f"{number} {name}" for number, name in enumerate(called, 1)]
     assert sorted(names) == sorted(word.strip("()").replace("\n", " ") for word in words if " " in word)
+    for axes in figure.axes[:2]:  # names beside the bodies
+        left, right, _, _ = axes.images[0].get_extent()
+        for text in axes.texts:
+            low, high = labels.box_of(np.array(text.get_position()), text.get_text())
+            assert high[0] < left or low[0] > right
     titles = [text.get_text().replace("\n", " ") for text in figure.texts]
     assert titles == [f"volume {number}: {name}" for number, name in enumerate(called, 1)]
     # each face once, on the side that shows it; what no side shows is in brackets: nothing here

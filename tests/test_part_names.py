@@ -119,6 +119,7 @@ def test_one_material():
 @pytest.mark.parametrize("line, said", [
     ("body nuts E 1 nu 0", 'nuts: no body of the geometry has this name; did you mean nut? '
                            'allowed: plate "hex nut" nut, or a line group nuts surfaces N ..., of 1 2 3 4'),
+    ("clamp nut", "nut: no physical curve of the mesh; allowed: top"),
     ("weight hexnut 0 1", 'hexnut: no body of the geometry has this name; did you mean "hex nut"? allowed: '),
     ('weight "a b" 0 1', '"a b": no body of the geometry has this name; allowed: plate "hex nut" nut, or a line group '
                          '"a b" surfaces N ..., of 1 2 3 4'),
@@ -159,6 +160,14 @@ def test_names_of_picks():
     again = picks("group mine volumes 2\nbody mine E 1 nu 0\n" + text, labels={1: "low", 2: "the high"})
     assert again.choose() == [] and again.named(2) == "mine" and again.named(1) == "low"
     assert again.left() == "" and "join low mine tie" in again.table()
+
+
+def test_names_of_bodies_apart():
+    """A body that was taken apart has another number, and its name."""
+    text = "body low E 1 nu 0\ngroup up faces 12\nobstacle up plane 0 0 9 0 0 -1\n"
+    found = picks(text, labels={1: "low", 2: "high"})
+    found.called = {2: 7}
+    assert found.named(7) == "high" and found.named(1) == "low" and found.named(2) == ""
 
 
 # ---------------------------------------------------------------- files

@@ -15,7 +15,8 @@ from reader import Refusal, Where, mesher, read_case
 from reader.geometry import Outline
 from reader.gmsh_process import GmshError
 from reader.near import PARTS, Shape, Store, first_of_cell
-from reader.picks import Picks
+from reader.neighbours import distances
+from reader.picks import Picks, apart, nearest_pieces
 from test_reader_geometry import AT, TURN, box, closed, curve, solid
 from test_sizes import LOWER, SEARCHED, SHAPES, UPPER, bent, middles_over
 
@@ -527,6 +528,19 @@ def test_left_behind(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == [f"{name}{os.getpid()}"]
     assert mesher.write_whole(tmp_path / "a", "text") and (tmp_path / "a").read_text() == "text"
     assert not mesher.write_whole(tmp_path / "none/a", "text")
+
+
+def test_nearest_of_small_pieces():
+    """Of small pieces far from the origin the nearest one, as each is compared with each."""
+    rng = np.random.default_rng(5)
+    small = 0.01 * rng.normal(size=(90, 3, 3)) + rng.uniform(100, 104, (90, 1, 3))
+    store = Store({1: np.concatenate([small, (small + np.roll(small, -1, 1)) / 2], axis=1)})
+    a, b = store.of([1])[:30], store.of([1])[30:]
+    off, there = nearest_pieces(store, a, b)
+    every = np.array([[float(distances(store.centre[k], store.nodes[[j]])[0]) for j in b] for k in a])
+    assert off == pytest.approx(every.min(axis=1)) and (there == b[every.argmin(axis=1)]).all()
+    away = apart(store.centre[a], store.centre[b])
+    assert away == pytest.approx(np.linalg.norm(store.centre[a][:, None] - store.centre[b], axis=2), abs=1e-5)
 
 
 # ---------------------------------------------------------------- with gmsh's module
