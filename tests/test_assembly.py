@@ -53,8 +53,8 @@ def test_rooms():
     number[2:9, 14:27] = 7
     rooms = raster.rooms(number)
     assert rooms[4] == (5, 5, 4) and rooms[7] == (5, 20, 3)
-    above = np.repeat([[0], [1]], 9, axis=0).repeat(9, axis=1)  # one above the other
-    assert raster.rooms(above) == {0: (4, 4, 3), 1: (12, 4, 3)}
+    above = np.repeat([[0], [1]], 9, axis=0).repeat(13, axis=1)  # one above the other
+    assert raster.rooms(above) == {0: (4, 6, 3), 1: (12, 6, 3)}
 
 
 def test_edges():
