@@ -210,8 +210,8 @@ uses: ## print which names MODULE (solver/problem/problem.idp, say) uses of whic
 pages uses: $(VENV)/run.stamp | system
 	@$(PYTHON) tests/pages.py $(if $(filter uses,$@),$(MODULE))
 numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, show them
-	@PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/page_numbers.py
-	@PYTHONPATH=.:tests $(PYTHON) tests/screens.py
+	@for made in page_numbers screens campaigns/newton_step; do \
+	  PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/$$made.py || exit 1; done
 clean: ## remove results and generated meshes
 	rm -rf results meshes/generated $(patsubst %/.shared,%,$(wildcard $(CACHE:%=%/meshes/.shared)))
 distclean: clean ## remove the virtual environment and caches as well

@@ -214,7 +214,11 @@ def test_what_no_group_has_is_left_out(tmp_path):
         ("volumes 1", "volumes 3", "line 1: 3: no such number of volumes; allowed: 1 2"),
         ("volumes 1", "volume 1", "line 1: volume: unknown; did you mean volumes? allowed: group NAME faces N ..."),
         ("volumes 1", "volumes one", "line 1: one: not the number of one of the volumes; allowed: those that -check 1"),
-        ("group lower volumes 1\n", "", "line 2: lower: no body of the geometry has this name; allowed: upper, or a line"),
+        (
+            "group lower volumes 1\n",
+            "",
+            "line 2: lower: no body of the geometry has this name; allowed: upper, or a line",
+        ),
         ("0 0 0  0 0 1", "0 0 9  0 0 1", "line 5: base: plane: no face lies there; allowed: one or more, of 1 2 3"),
         ("0 0 0  0 0 1", "0 0 0  0 0 0", "line 5: the normal is 0 in every direction"),
         ("near 2 2 3", "near 2 2", "line 2: the place is missing after 2"),
