@@ -54,7 +54,10 @@ CHAPTERS = {
         *("edp/docs/PAPER.md", "edp/docs/PAPER.md#"),
     ],
     "Results": ["tests/RESULTS.md", "tests/RESULTS.md#", "tests/VERIFICATION.md", "tests/COST.md", "tests/COST.md#"],
-    "Code": "edp/README.md edp/docs/newton-step.md edp/docs/modules.md CONTRIBUTING.md tests/README.md tests/data/README.md CHANGELOG.md".split(),
+    "Code": [
+        *("edp/README.md", "edp/docs/newton-step.md", "edp/docs/modules.md", "CONTRIBUTING.md"),
+        *("tests/README.md", "tests/data/README.md", "CHANGELOG.md"),
+    ],
 }
 ANSWERS = ["edp/labs/*/ANSWERS.md"]  # only with --answers, reached by links
 SLANTED = re.compile(r"(`[^`]*`)|(?<![\w*])\*([^*\s][^*]*)\*(?!\w)")  # code, or slanted words

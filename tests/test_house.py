@@ -2,7 +2,7 @@
 
 A file uses another one if a name stands in it that the other one declares at its top level: a function, a variable or
 a macro. What a macro says counts for the file that declares it. Hooks are left out: macros of options that the core
-executes (input/hooks.idp), and those that a scene fills in or that are asked for by IFMACRO; so are the scenes' scripts.
+executes (input/hooks.idp), and those that a scene fills in or IFMACRO asks for; so are the scenes' scripts.
 """
 
 import re

@@ -193,7 +193,8 @@ def test_shares(tmp_path):
     """Shares beyond any meaning shall be no numbers."""
     script = tmp_path / "shares.edp"
     script.write_text(
-        'include "input/flags.idp"\nreal none = sqrt(-1.);\ncout << percentText(0.274) << "|" << percentText(1e300) << "|"'
+        'include "input/flags.idp"\nreal none = sqrt(-1.);\n'
+        'cout << percentText(0.274) << "|" << percentText(1e300) << "|"'
         ' << percentText(none) << "|" << percentText(-1e30) << endl;\n'
     )
     code, said = execute(["FreeFem++", "-nw", "-v", "0", script], ROOT)

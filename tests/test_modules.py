@@ -57,7 +57,8 @@ def test_flags_refused(tmp_path, flags, words):
 def test_advice_of_another_value(tmp_path):
     """A message advises a flag's value only where the flag is there and has another one, as default or as given."""
     text = 'include "input/flags.idp"\nstring word = wordFlag("-word", "one", "", "one two");\n'
-    text += 'cout << "told:" << flagAdvice("-word", "one") << flagAdvice("-word", "two") << flagAdvice("-none", "one") << ":" << endl;\n'
+    said = (f'flagAdvice("-{flag}", "{word}")' for flag, word in (("word", "one"), ("word", "two"), ("none", "one")))
+    text += f'cout << "told:" << {" << ".join(said)} << ":" << endl;\n'
     assert "told:use -word two, or :" in snippet(tmp_path, text)
     assert "told:use -word one, or :" in snippet(tmp_path, text, "-word", "two")
 

@@ -1,4 +1,4 @@
-"""solver/problem/rigid-modes.idp, laws by contact: a contact problem of random matrices, against its conditions written anew."""
+"""solver/problem/rigid-modes.idp, laws by contact: a problem of random matrices, against its conditions written anew."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,8 @@ class Problem:
 
     def write(self, folder):
         data = dict(
-            pointX=self.x, weight=self.weight, initialOverlap=-self.gap, contactOf=self.contact, K=np.linalg.inv(self.C),
+            pointX=self.x, weight=self.weight, initialOverlap=-self.gap, contactOf=self.contact,
+            K=np.linalg.inv(self.C),
             field=np.vstack([self.G, np.abs(self.G).max(axis=0) < 1e-6]), modeFullWork=self.t, modeStiffness=self.S,
         )  # fmt: skip
         for name, values in data.items():

@@ -10,7 +10,8 @@ def test_page():
 
 def test_description():
     """The first sentence shall be read from below a function's lines, or from behind it."""
-    text = "func real a(real x)\n// How far it is; more.\n// And more.\n{ return x; }\nfunc int b(int k, int l,\n    int m)\n"
+    text = "func real a(real x)\n// How far it is; more.\n// And more.\n{ return x; }\n"
+    text += "func int b(int k, int l,\n    int m)\n"
     text += "// The second. Then.\n{ ; }\nfunc int c() { ; }    // Behind it.\nfunc int d()\n{ ; }\n"
     found = [newton_step.description(text, name) for name in "abcd"]
     assert found == ["How far it is", "The second.", "Behind it.", ""]

@@ -14,7 +14,8 @@ MATHML = "{http://www.w3.org/1998/Math/MathML}"
 pytestmark = pytest.mark.filterwarnings("ignore:.*Check CHANGES for Sphinx")
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
 PAGES = {
-    "README.md": "# Contact\n\n[law](edp/docs/PAPER.md#the-law), ![a picture](postprocess/a.png), [code](edp/main.edp)\n",
+    "README.md": "# Contact\n\n[law](edp/docs/PAPER.md#the-law), ![a picture](postprocess/a.png), "
+    "[code](edp/main.edp)\n",
     "edp/docs/PAPER.md": "# Theory\n\n[The law](#the-law) · [Work](#work)\n\n## The law\n\nBelow the wall\n\n"
     "    p = κ s^m/2\n\n"
     "## Work\n\nas [above](#the-law), 1e-3:\n\n| a |\n|---|\n| 1e-3 |\n\n    leg 4\n",

@@ -202,7 +202,7 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
 
 
 def every_claim() -> Markup:
-    """The table of edp/docs/PAPER.md in which each sentence of the paper stands that claims, asks or proposes something."""
+    """The table of edp/docs/PAPER.md with each sentence of the paper that claims, asks or proposes something."""
     text = (Path(__file__).parents[2] / "edp/docs/PAPER.md").read_text(encoding="utf-8")
     lines = re.findall(r"^\| .*\|$", text.partition("## Every claim")[2].partition("###")[0], re.M)
     words = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", line.replace("`", "")) for line in lines]

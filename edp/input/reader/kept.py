@@ -28,7 +28,7 @@ def module_version() -> str:
 
 
 def words_that_read() -> str:
-    """The words of a .geo file that read other files, as input/included-files.sh has them: the only place that names them."""
+    """The words of a .geo file that read other files, as input/included-files.sh has them: no other place does."""
     found = re.search(r"geo \| opt\) words='(.*)'", (Path(__file__).parents[2] / "input/included-files.sh").read_text())
     assert found
     return found[1]
