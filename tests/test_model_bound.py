@@ -1,4 +1,4 @@
-"""solver/newton/model-bound.idp: the error that a wall or a tangent leaves in the force, as a bound; the loop's end by it.
+"""solver/newton/model-bound.idp: the error that a wall or a tangent leaves in the force, as a bound.
 
 The reference is the law's own state on the same bodies; the second opinion the condensed twin (condensed.bounds).
 """

@@ -1,4 +1,4 @@
-"""solver/problem/rigid-modes.idp, laws by contact: a problem of random matrices, against its conditions written anew."""
+"""solver/problem/rigid-modes.idp, laws by contact: a problem of random matrices, against its conditions."""
 
 import numpy as np
 import pytest

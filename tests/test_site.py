@@ -103,7 +103,7 @@ def test_small_site(tmp_path):
         path.write_bytes((ROOT / "edp/labs/1-law/figure.png").read_bytes() if name.endswith("png") else b"// code\n")
     site = tmp_path / "site"
     assert documents.build(site, tmp_path / "root", CHAPTERS) == 0
-    assert "1e-\u20603" in (site / "edp/PAPER-work.html").read_text()
+    assert "1e-\u20603" in (site / "edp/docs/PAPER-work.html").read_text()
     with Browser(tmp_path / "profile") as browser:
         assert found(browser, site, "wall") == ["The law"]
 
@@ -117,9 +117,7 @@ def test_a_link_that_leads_nowhere(tmp_path):
         documents.Site(tmp_path, tmp_path / "out", {}).write()
 
 
-SHOWN = (
-    "index search edp/labs/3-threshold/README edp/howto/install edp/theory/friction edp/GLOSSARY tests/RESULTS".split()
-)
+SHOWN = "index search edp/labs/3-threshold/README edp/docs/howto/install edp/docs/theory/friction edp/docs/GLOSSARY tests/RESULTS".split()
 
 
 def test_site(tmp_path):
@@ -131,7 +129,7 @@ def test_site(tmp_path):
     with Browser(tmp_path / "profile") as browser:
         for name in SHOWN:
             assert access.wrong(browser, tmp_path / f"site/{name}.html") == [], name
-        for name in ("index", "edp/howto/install"):
+        for name in ("index", "edp/docs/howto/install"):
             page = browser.open(tmp_path / f"site/{name}.html", 1200, 800)
             assert access.walked(page) == ([], []), name
             assert page.evaluate("controls.length") > 50

@@ -1,6 +1,6 @@
 """The page "One Newton step, file by file": `python tests/campaigns/newton_step.py` writes edp/docs/newton-step.md.
 
-A copy of the scripts in which each function writes down its name solves the paper's test; the calls of a Newton step and
+A copy of the scripts in which each function writes down its name solves the paper's test; a Newton step's calls and
 the path of one contact pressure, from the mesh to its ±, are read off and put into the page's tables.
 """
 
