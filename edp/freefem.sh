@@ -55,7 +55,7 @@ test -z "$CONTACT_STARTER" || starter=$(quoted "$CONTACT_STARTER")
 test -e "$root/.venv/bin/python" || export CONTACT_POSTPROCESS="${CONTACT_POSTPROCESS:-$starter postprocess}"
 test ! -e "$cache/build/.freefem++.pref" || export HOME="$cache/build"      # names the plugin there: see the Makefile
 here=$PWD
-uses='^[^/]*include *"((case|scenes|labs|blocks)/|(main|parts|parts-3d)\.edp)'
+uses='^[^/]*include *"((input|scenes|labs)/|(main|parts|parts-3d)\.edp)'
 unset CONTACT_FOLDER
 if ! test "$root" -ef . && grep -qE "$uses" "$script"; then
     case $script in /*) ;; *) script=$here/$script;; esac

@@ -81,7 +81,7 @@ Th = side + movemesh(side, [x, -y, z], orientation = -1);
 def test_quarter_is_a_quarter_of_its_images(tmp_path):
     """A loaded quarter, and the block on the quarter's mesh and its mirror images, shall have one solution."""
     package = tree(tmp_path / "package")
-    block = package / "edp" / "blocks" / "block-space.idp"
+    block = package / "edp/scenes/blocks" / "block-space.idp"
     assert block.read_text().count(MESH) == 1
     block.write_text(block.read_text().replace(MESH, UNFOLDED))
     flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-tol", 1e-10, "-bodyForce", 0.1, "-traction", -1]

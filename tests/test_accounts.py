@@ -23,12 +23,12 @@ from freefem import ROOT
 
 @shared
 def text():
-    return subprocess.run(["cat", ROOT / "edp/laws/one.idp"], capture_output=True, text=True).stdout
+    return subprocess.run(["cat", ROOT / "edp/contact/laws/one.idp"], capture_output=True, text=True).stdout
 
 
 @pytest.fixture(scope="module")
 def two():
-    return (ROOT / "edp/laws/two.idp").read_text()
+    return (ROOT / "edp/contact/laws/two.idp").read_text()
 
 
 @pytest.mark.parametrize("k", [1, 2])
@@ -54,7 +54,7 @@ def test_unwatched():
 
 
 def test_no_room():
-    subprocess.run(["sh", "-c", "ulimit -f 0; cat edp/laws/two.idp"], cwd=ROOT, capture_output=True)
+    subprocess.run(["sh", "-c", "ulimit -f 0; cat edp/contact/laws/two.idp"], cwd=ROOT, capture_output=True)
 """
 FIRST = """
 from helper import THREE
@@ -66,7 +66,7 @@ def test_by_a_helper():
 HELPER = """
 from freefem import ROOT
 
-THREE = (ROOT / "edp/laws/helped.idp").read_text()
+THREE = (ROOT / "edp/contact/laws/helped.idp").read_text()
 """
 
 
@@ -80,7 +80,7 @@ def package(tmp_path):
     shutil.copy(ROOT / "pyproject.toml", folder)
     shutil.copytree(ROOT / "edp/input/without", folder / "edp/input/without")
     shutil.copytree(ROOT / "postprocess", folder / "postprocess", ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "edp/contact/laws").mkdir()
+    (folder / "edp/contact/laws").mkdir(parents=True)
     for mark in ("long", "nightly"):
         (folder / f"tests/{mark}.txt").touch()
     last = FIRST.replace("by_a_helper", "by_the_same_helper")  # which is not imported again
@@ -106,12 +106,12 @@ def test_what_has_not_changed(package):
     assert set(every.values()) == {"PASSED"} and len(every) == 10, done.stdout
     again, done = ran(package)
     assert again == {} and done.returncode == 0 and "10 tests passed before" in done.stdout, done.stdout
-    (package / "edp/laws/one.idp").write_text("1 ")
+    (package / "edp/contact/laws/one.idp").write_text("1 ")
     again, _ = ran(package)
     escaped = {"unwatched": "PASSED", "no_room": "PASSED"}
     assert again == escaped | {"by_a_cached_call[1]": "FAILED", "by_a_cached_call[2]": "FAILED"}
-    (package / "edp/laws/one.idp").write_text("1")
-    (package / "edp/laws/two.idp").write_text("3")
+    (package / "edp/contact/laws/one.idp").write_text("1")
+    (package / "edp/contact/laws/two.idp").write_text("3")
     again, _ = ran(package)
     assert set(again) == set(every) - {"of_nothing", "by_a_helper", "by_the_same_helper"}
     assert [name for name, end in again.items() if end == "FAILED"] == [
@@ -119,12 +119,12 @@ def test_what_has_not_changed(package):
         "by_a_fixture[2]",
         "by_a_shell",
     ]
-    (package / "edp/laws/two.idp").write_text("2")
+    (package / "edp/contact/laws/two.idp").write_text("2")
     ran(package)
-    (package / "edp/laws/helped.idp").write_text("4")
+    (package / "edp/contact/laws/helped.idp").write_text("4")
     again, _ = ran(package)
     assert again == escaped | {"by_a_helper": "FAILED", "by_the_same_helper": "FAILED"}
-    (package / "edp/laws/helped.idp").write_text("3")
+    (package / "edp/contact/laws/helped.idp").write_text("3")
     ran(package)
     with (package / "tests/data/tell.edp").open("a") as file:  # which freefem.py reads when it is imported
         file.write("\n")

@@ -23,7 +23,9 @@ ROUNDING = 1e-8  # of what is no difference of large numbers
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
-    return tree(tmp_path_factory.mktemp("fast") / "package")
+    package = tree(tmp_path_factory.mktemp("fast") / "package")
+    (package / "postprocess").symlink_to(ROOT / "postprocess")
+    return package
 
 
 def make(package, *words, **env):

@@ -9,14 +9,14 @@ from postprocess import vtu
 
 # the whole block of a copy of the package gets the half's mesh and its mirror image
 UNFOLDED = {
-    "bool oneSide = axisymmetric || mirrorX;": "bool oneSide = true;",
-    "real meshed = mirrorX ? 0.5 * width : width;": "real meshed = 0.5 * width;",
-    "(oneSide ? 1 : 0.5) * (contactTo - contactFrom)": "0.5 * (contactTo - contactFrom)",
-    "real[int] spots = [contactFrom,": "real[int] spots = [0.,",
+    "bool startsAtSymmetry = axisymmetric || mirrorX;": "bool startsAtSymmetry = true;",
+    "real meshedWidth = mirrorX ? 0.5 * width : width;": "real meshedWidth = 0.5 * width;",
+    "(startsAtSymmetry ? 1 : 0.5) * (contactTo - contactFrom)": "0.5 * (contactTo - contactFrom)",
+    "real[int] contactAbscissae = [contactFrom,": "real[int] contactAbscissae = [0.,",
     "setBoundaryLabels(group(": """Th = Th + movemesh(Th, [-x, y]);
 leftAbscissa = -0.5 * width;
-meshed = width;
-oneSide = false;
+meshedWidth = width;
+startsAtSymmetry = false;
 setBoundaryLabels(group(""",
     'int leftLabel = group("left");': "int leftLabel = freeLabel;",  # the half's left side is in the middle
 }
@@ -25,7 +25,7 @@ setBoundaryLabels(group(""",
 @pytest.fixture(scope="module")
 def unfolded(tmp_path_factory):
     package = tree(tmp_path_factory.mktemp("unfolded") / "package")
-    block = package / "edp" / "blocks" / "block-plane.idp"
+    block = package / "edp/scenes/blocks" / "block-plane.idp"
     text = block.read_text()
     for old, new in UNFOLDED.items():
         assert text.count(old) == 1, old

@@ -162,9 +162,8 @@ def test_from_any_folder(name, package, tmp_path):
 
 def test_modules_are_the_package_s(package, tmp_path):
     """The starter shall read no module, script or Python module of the present folder in place of the package's."""
-    for (
-        name
-    ) in "input/flags.idp input/scene.idp contact/laws/power.idp case/laws/power.idp main.edp scenes/wavy.edp".split():
+    modules = "input/flags.idp input/scene.idp contact/laws/power.idp input/contact/laws/power.idp"
+    for name in f"{modules} main.edp scenes/wavy.edp".split():
         (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
         (tmp_path / name).write_text('cout << "not the package" << endl; exit(3);\n')
     for name in ("numpy", "argparse", "csv", "matplotlib"):
@@ -194,14 +193,14 @@ def test_module_in_the_present_folder(tmp_path):
     """Without the starter a file that FreeFEM would read in a module's place is refused; one of another name is not."""
     package = tree(tmp_path / "package")
     quick = ["-h", 5, "-order", 1, "-estimate", 0, "-vtu", 0]
-    (package / "laws").mkdir()
-    (package / "laws/own.idp").write_text("")
+    (package / "contact/laws").mkdir(parents=True)
+    (package / "contact/laws/own.idp").write_text("")
     assert run_in(package, script(DISC), *quick, out=tmp_path / "out").code == 0
-    shutil.copytree(package / "edp/contact/laws", package / "case/laws")
+    shutil.copytree(package / "edp/contact/laws", package / "input/contact/laws")
     for flags in (quick, [*quick[:4], "-accuracy", 0.25]):
         said = run_in(package, script(DISC), *flags, out=tmp_path / "never", expect=10).stdout
-        assert said.count("\n") == 1 and "case/laws" in said and "in place of the package's laws/" in said
-    shutil.rmtree(package / "case")
+        assert said.count("\n") == 1 and "input/contact/laws" in said and "in place of the package's contact/laws/" in said
+    shutil.rmtree(package / "input")
     here = tmp_path / "here"
     here.mkdir()
     shutil.copy(package / "freefem++.pref", here)
@@ -211,8 +210,8 @@ def test_module_in_the_present_folder(tmp_path):
     shutil.rmtree(here / "edp")
     for name in ("edp", "meshes"):  # as make new does: own modules are there on purpose
         (here / name).symlink_to(package / name)
-    (here / "laws").mkdir()
-    shutil.copy(package / "edp/contact/laws/power.idp", here / "laws")
+    (here / "contact/laws").mkdir(parents=True)
+    shutil.copy(package / "edp/contact/laws/power.idp", here / "contact/laws")
     run_in(here, "edp/main.edp", *quick, out=tmp_path / "own")
 
 

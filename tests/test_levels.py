@@ -100,7 +100,7 @@ def test_no_convergence(tmp_path):
 def test_no_matrix(tmp_path):
     """Without the hierarchy, and with too many points for a matrix, the diagonal shall take its place, and be named."""
     package = tree(tmp_path / "package")
-    name = package / "edp" / "kernel" / "preconditioner.idp"
+    name = package / "edp/solver/surrogate" / "preconditioner.idp"
     text = name.read_text()
     assert text.count("int densePointsMax = 6000;") == 1
     usual = run("disc-on-block", "-kappa", 1e6).summary

@@ -191,7 +191,7 @@ def test_lean_levels(free, options, code, told, lean, tmp_path):
     """Two ranks: levels take less memory where the usual way does not fit, and the run says so; an option decides."""
     package = tree(tmp_path / "package")
     (package / "build").symlink_to(ROOT / "build")
-    (package / "edp" / "operator" / "memory.sh").write_text(f"echo {free} 1e300\n")
+    (package / "edp/solver/compliance" / "memory.sh").write_text(f"echo {free} 1e300\n")
     flags = ["-order", 1, "-h", 1.2, "-layers", 2, "-vtu", 0, "-estimate", 0, "-tol", 1e-9, "-out", tmp_path / "out"]
     start = ["sh", "-c", 'ulimit -v 50000000 && exec "$@"', "sh", *MPIEXEC, 2, "sh", "edp/freefem.sh"]
     set_by = environment(**AS_ROOT, PETSC_OPTIONS=f"{options} -info {tmp_path}/info:mat")

@@ -493,7 +493,7 @@ def test_series_counts_go_on(tmp_path, method):
 def test_series_of_another_problem(tmp_path):
     """Where flags, the files they name, or the sources have changed, a series shall be begun anew, and this be said."""
     package = tree(tmp_path / "package")
-    out, file, power = tmp_path / "out", tmp_path / "given", package / "edp" / "laws" / "power.idp"
+    out, file, power = tmp_path / "out", tmp_path / "given", package / "edp/contact/laws" / "power.idp"
     given = "".join(f"{s / 10},{(s / 10) ** 2}\n" for s in range(6))
     flags = ["-h", 2, "-order", 1, "-law", "table", "-table", file]
     source = power.read_text()

@@ -17,7 +17,7 @@ KINDS = {  # heading of the page: the functions whose argument is the text
     "Warnings": r"warn|prependWarning",
     "Refused flags and files": r"refuse",
     "Refused case files": r"input/reader",
-    "Runs without convergence": r"stopped",
+    "Runs without convergence": r"fail",
 }
 LINES = "\n".join(f"line l{k} 0 0 1 1" for k in range(1000))
 LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"')
