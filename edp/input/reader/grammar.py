@@ -79,14 +79,14 @@ class State(Statement, word="state", example="state axisymmetric"):
     once = "state"
     usage = "state strain, stress or axisymmetric"
     name: str = choice("a word", "STATE", "strain", "stress", "axisymmetric")
-    refused = ((in_space, "state: only in the plane; allowed in space: nothing of the kind"),)
+    refused = ((in_space, "state: only in the plane, with edp/parts.edp; allowed in space: nothing of the kind"),)
 
 
 class Thickness(Statement, word="thickness", example="thickness 12"):
     does = "in the plane"
     once = "thickness"
     value: float = number("the thickness", "NUMBER", above=0, unit="length")
-    refused = ((in_space, "thickness: only in the plane; allowed in space: nothing of the kind"),)
+    refused = ((in_space, "thickness: only in the plane, with edp/parts.edp; allowed in space: nothing of the kind"),)
 
 
 # Groups of a geometry, and sizes of its elements
