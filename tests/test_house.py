@@ -319,7 +319,7 @@ def test_no_name_twice():
     """No file name shall stand twice, but in the registries of laws and methods, and in options."""
     names = {}
     for path in modules():
-        if not path.startswith(("contact/laws/", "solver/methods/")) and not option_of(path):
+        if not path.startswith(("contact/laws/", "solver/methods/", "input/without/")) and not option_of(path):
             names.setdefault(path.split("/")[-1], []).append(path)
     twice = {name: paths for name, paths in names.items() if len(paths) > 1}
     assert not twice

@@ -199,7 +199,8 @@ def test_module_in_the_present_folder(tmp_path):
     shutil.copytree(package / "edp/contact/laws", package / "input/contact/laws")
     for flags in (quick, [*quick[:4], "-accuracy", 0.25]):
         said = run_in(package, script(DISC), *flags, out=tmp_path / "never", expect=10).stdout
-        assert said.count("\n") == 1 and "input/contact/laws" in said and "in place of the package's contact/laws/" in said
+        assert said.count("\n") == 1
+        assert "input/contact/laws" in said and "in place of the package's contact/laws/" in said
     shutil.rmtree(package / "input")
     here = tmp_path / "here"
     here.mkdir()
