@@ -1,7 +1,7 @@
 """Bodies under their loads, for the commands `state` and `stress`: what the files hold, and how a part of it is drawn.
 
 In the plane bodies are filled triangles, and the pressure stands on the contact's surface as a curve; what is drawn of
-bodies in space is in space.py.
+bodies in space is in bodies_3d.py.
 """
 
 import argparse
@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
@@ -185,7 +187,7 @@ def units_of(run: Run, given: tuple[str, str]) -> style.Units:
     return style.Units(*map(style.plain, given))
 
 
-def title(axes, index: int, words: str = "", width: int = 56) -> None:
+def title(axes: Axes, index: int, words: str = "", width: int = 56) -> None:
     """A panel's letter, and what it shows, in lines of so many letters."""
     axes.set_title(style.folded(f"{style.panel(index)} {words}", width), loc="left", fontsize=8)
 
@@ -319,7 +321,9 @@ def singular_places(bodies: Bodies) -> np.ndarray:
     return bodies.place[rows]
 
 
-def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units, what: str = "von Mises") -> None:
+def colour_bar(
+    figure: Figure, colours, axes: Axes, bodies: Bodies, units: style.Units, what: str = "von Mises"
+) -> None:
     """Beside one panel, below several; its end is an arrow where the greatest lies above, which is said."""
     most = bodies.grid.stress.max() if what == "von Mises" else bodies.greatest
     above = colours.norm.vmax < most * (1 - 1e-9)
@@ -328,7 +332,7 @@ def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units
     label = f"{what} [{units.stress}]"
     if above:  # in two lines beside a panel: a short bar's label would stand out above it
         label = f"{label}\n{words}" if upright else f"{what}, {words} [{units.stress}]"
-    look = {"extend": "max" if above else "neither", "label": label}
+    look: style.Look = {"extend": "max" if above else "neither", "label": label}
     if upright:
         axes[0].set_anchor("W")
         look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}
@@ -337,7 +341,7 @@ def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units
     figure.colorbar(colours, **look)
 
 
-def fill_plane(axes, bodies: Bodies, top: float | None):
+def fill_plane(axes: Axes, bodies: Bodies, top: float | None):
     """The bodies, each in its colour or all by von Mises' stress up to `top`, with their outlines.
 
     Returns what a colour bar is for.
@@ -346,7 +350,7 @@ def fill_plane(axes, bodies: Bodies, top: float | None):
     colours = None
     if top is not None:
         mesh = Triangulation(place[:, 0], place[:, 1], grid.cells)
-        look = {"shading": "gouraud", "cmap": "viridis", "vmin": 0, "vmax": top}
+        look: style.Look = {"shading": "gouraud", "cmap": "viridis", "vmin": 0, "vmax": top}
         colours = axes.tripcolor(mesh, grid.stress, rasterized=True, **look)
         mark_singular(axes, singular_places(bodies)[:, :2])
     else:
@@ -359,12 +363,12 @@ def fill_plane(axes, bodies: Bodies, top: float | None):
     return colours
 
 
-def mark_singular(axes, at: np.ndarray) -> None:
-    look = {"markersize": 6, "markeredgewidth": 0.9, "fillstyle": "none", "linestyle": "none", "zorder": 7}
+def mark_singular(axes: Axes, at: np.ndarray) -> None:
+    look: style.Look = {"markersize": 6, "markeredgewidth": 0.9, "fillstyle": "none", "linestyle": "none", "zorder": 7}
     axes.plot(*at.T, marker="o", color=style.VERMILION, **look)
 
 
-def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
+def stand_pressure(axes: Axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
     """The pressure on the surface of one contact, or of all, in a box; its scale; rigid obstacles.
 
     Where it is greatest it stands not higher than the contact is long.
@@ -394,7 +398,7 @@ def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, u
     begin = box[0] + 0.05 * np.ptp(box, axis=0)
     axes.plot(begin[0] + [0, scale * told], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
     unit = "" if units.stress == style.Units.stress else f" {units.stress}"
-    look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
+    look: style.Look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
     axes.annotate(f"pressure ${style.number(told)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
 
 
@@ -421,7 +425,7 @@ def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]
     return [(from_[a], to[b], int(slide[a])) for a, b in zip(starts, ends, strict=True) if slide[a] > 0]
 
 
-def colour_zones(axes, found: list[Chain]) -> None:
+def colour_zones(axes: Axes, found: list[Chain]) -> None:
     """Where it sticks and slips: behind the curves of a single piece; of several in a strip each below the curves."""
     height = 1.0 if len(found) == 1 else min(0.06, 0.4 / len(found))
     if len(found) > 1:
@@ -436,14 +440,14 @@ def colour_zones(axes, found: list[Chain]) -> None:
             axes.plot(0.0, bottom + 0.5 * height, transform=axes.transAxes, **look)
 
 
-def name_zones(axes, where, **look) -> None:
-    """A legend of the axes, in them or in the figure: curves with names, and the colours of what sticks and slips."""
+def zone_legend(axes: Axes) -> tuple[list[Artist], list[str]]:
+    """Handles and labels of a legend: the curves of the axes with names, and the colours of what sticks and slips."""
     handles, names = axes.get_legend_handles_labels()
-    handles += [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
-    where.legend(handles, [*names, "sticks", "slips"], fontsize=7, **look)
+    zones: list[Artist] = [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
+    return [*handles, *zones], [*names, "sticks", "slips"]
 
 
-def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
+def plot_pressure(axes: Axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
     """The pressure over the arc length, a curve a contact, as far as they touch; the origin is stated.
 
     With friction the shear stands beside it, and what sticks and slips is coloured.
@@ -486,9 +490,9 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False
         above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
         under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 2}
         if narrow and len(seen) > 1:
-            name_zones(axes, axes.figure, loc="outside lower right", ncols=3)
+            style.legend_outside(style.figure_of(axes), "lower right", *zone_legend(axes), fontsize=7, ncols=3)
         else:
-            name_zones(axes, axes, **(under if narrow else above))
+            axes.legend(*zone_legend(axes), fontsize=7, **(under if narrow else above))
             # on a slide there is room below a narrow panel, which is not to be taken from the other ones
             axes.get_legend().set_in_layout(not narrow)
         axes.set_anchor("N" if narrow else "C")

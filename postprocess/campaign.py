@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -129,7 +130,7 @@ def name_meshes(figure: Figure, rows: list[Row]) -> None:
     style.put_below(figure, ", ".join(texts))
 
 
-def draw_failures(axes, x: np.ndarray, color: str) -> None:
+def draw_failures(axes: Axes, x: np.ndarray, color: str) -> None:
     """Runs that failed: crosses on the upper edge, at what they cost."""
     if len(x):
         axes.plot(
@@ -145,7 +146,7 @@ def draw_failures(axes, x: np.ndarray, color: str) -> None:
         )
 
 
-def heat_map(axes, counts: np.ndarray, failed: np.ndarray, colors, size: float = 7) -> None:
+def heat_map(axes: Axes, counts: np.ndarray, failed: np.ndarray, colors, size: float = 7) -> None:
     """A cell a count, annotated; a cell where a run failed is hatched, one without a run has a dot.
 
     counts: (rows, columns), NaN where there is no run; failed: (rows, columns) bool. colors: (colormap, norm).

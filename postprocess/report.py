@@ -8,14 +8,14 @@ from dataclasses import replace
 import matplotlib
 import numpy as np
 
-from postprocess import doctor, figures, page, player, style
+from postprocess import doctor, figures, html_page, movie_player, style
 from postprocess.campaign import CONVERGED, Campaign, Row, good, number
 from postprocess.figures import cost
-from postprocess.page import Markup, element, folded, joined, section, table
-from postprocess.references import PAPER, Check, checks, paper_test
+from postprocess.formatting import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
+from postprocess.html_page import Markup, element, folded, joined, section, table
+from postprocess.reference_values import PAPER, Check, checks, paper_test
 from postprocess.results import ResultsError, Run, brief, is_number
-from postprocess.tree import Tree, read_bytes, read_png
-from postprocess.words import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
+from postprocess.results_folder import ResultsFolder, read_bytes, read_png
 
 NAMED = 6  # failures that the page's first lines name
 HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
@@ -26,7 +26,7 @@ CAMPAIGNS = {
 }
 
 
-def build(tree: Tree) -> str:
+def build(tree: ResultsFolder) -> str:
     """The whole page."""
     verdicts = [(run, checks(run)) for run in tree.runs]
     pictures = {path: read_png(path) for path in tree.figures}
@@ -49,10 +49,10 @@ def build(tree: Tree) -> str:
         section("machine", "Machine and versions", machine()),
     ]
     body = joined([header(tree, verdicts, parts), element("main", joined(filter(None, parts)), id="main")])
-    return page.document("Stiff normal contact: report", body)
+    return html_page.document("Stiff normal contact: report", body)
 
 
-def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> Markup:
+def header(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]], parts: list) -> Markup:
     """What the page holds, in a few lines, and links to its parts."""
     converged = sum(run.summary["converged"] for run in tree.runs)
     found = [check for _, several in verdicts for check in several]
@@ -103,7 +103,7 @@ def with_error(summary: dict, name: str) -> str:
     return short(summary[name]) + (f" ± {error:.1g}" if error else "")
 
 
-def scenes(tree: Tree) -> list[Markup]:
+def scenes(tree: ResultsFolder) -> list[Markup]:
     """The runs scene by scene, folded: a table, then each run."""
     groups: dict[str, list[tuple[int, Run]]] = {}
     for index, run in enumerate(tree.runs, 1):
@@ -116,7 +116,7 @@ def scenes(tree: Tree) -> list[Markup]:
     return found
 
 
-def overview(tree: Tree, scene: str, runs: list[tuple[int, Run]]) -> Markup:
+def overview(tree: ResultsFolder, scene: str, runs: list[tuple[int, Run]]) -> Markup:
     """A row per run of a scene."""
     columns = (
         "run,converged,warnings,force,greatest pressure,half-width,method,element,h,dofs,adaptations,Newton steps,"
@@ -140,7 +140,7 @@ def overview(tree: Tree, scene: str, runs: list[tuple[int, Run]]) -> Markup:
     return table(f"Runs of {scene}", columns, rows, [2, 3, 4, 5, *range(8, 15)])
 
 
-def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
+def references(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
     """A row per comparison, and what is compared with what."""
     rows = [
         [
@@ -173,7 +173,7 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
     return [words, table("Comparisons", columns, rows, [5, 6, 7, 8])]
 
 
-def accuracy(tree: Tree) -> list[Markup]:
+def accuracy(tree: ResultsFolder) -> list[Markup]:
     """The paper's test: the force's error over run times, a curve a method and order; a row a run."""
     found = []
     for run in tree.runs:
@@ -205,7 +205,7 @@ def accuracy(tree: Tree) -> list[Markup]:
     ]
     columns = "run,method,element,h,unknowns,error of the force,CPU s of the solution,CPU s in all,s waited".split(",")
     seen = "Error of the contact force over CPU seconds and over the seconds waited"
-    picture = page.picture(file.getvalue(), seen, Markup(f"{seen}, a curve a method and element."))
+    picture = html_page.picture(file.getvalue(), seen, Markup(f"{seen}, a curve a method and element."))
     return [words, picture, folded(style.count(len(rows), "run"), table("Runs", columns, rows, range(3, 9)))]
 
 
@@ -220,14 +220,14 @@ def figure(path, data: bytes) -> Markup:
     title = f"{module.__doc__.splitlines()[0]}." if module else f"Picture {name}."
     seen = captions().get(name, title[0].upper() + title[1:])
     made = CAMPAIGNS[path.parent.name][1] if path.parent.name in CAMPAIGNS else f"make results/figures/{name}.pdf"
-    return page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
+    return html_page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
 
 
 def read_movie(path) -> str | None:
     """The player in a movie's page; None when it is too heavy to be shown here."""
     data = read_bytes(path)
     try:
-        part = player.extract(data.decode("utf-8"))
+        part = movie_player.extract(data.decode("utf-8"))
     except UnicodeDecodeError:
         part = None
     if part is None:
@@ -235,7 +235,7 @@ def read_movie(path) -> str | None:
     return part if len(data) <= HEAVY else None
 
 
-def movie(tree: Tree, path, part: str | None) -> Markup:
+def movie(tree: ResultsFolder, path, part: str | None) -> Markup:
     """A movie with its player, or a link to it."""
     name = tree.name(path.parent)
     runs = {run.path: run for run in tree.runs}
@@ -250,7 +250,7 @@ def movie(tree: Tree, path, part: str | None) -> Markup:
     return joined([heading, element("pre", made), shown])
 
 
-def campaign(tree: Tree, name: str, pictures: dict) -> Markup | str:
+def campaign(tree: ResultsFolder, name: str, pictures: dict) -> Markup | str:
     """The figures of a campaign and its tables in brief; nothing when it has not been run."""
     title, made, tables = CAMPAIGNS[name]
     folder = tree.path / name
@@ -336,7 +336,7 @@ def middle(rows: list[Row], column: str) -> str:
     return short(float(np.median(values)), 3) if len(values) else "–"
 
 
-def details(tree: Tree, run: Run, index: int) -> Markup:
+def details(tree: ResultsFolder, run: Run, index: int) -> Markup:
     """One run: how to make it again, what it was given, what it gave, step by step."""
     summary = run.summary
     results = {**{name: value for name, value in summary.items() if not isinstance(value, dict | list)}}
@@ -371,7 +371,9 @@ def picture_of_run(run: Run, name: str) -> Markup:
     }
     seen = f"{run_words(run)}: {what[name]}"
     made = element("code", f".venv/bin/python -m postprocess {name} {place(run.path)}")
-    return page.picture(read_png(run.path / f"{name}.png"), seen, joined([f"{what[name].capitalize()}. ", made], ""))
+    return html_page.picture(
+        read_png(run.path / f"{name}.png"), seen, joined([f"{what[name].capitalize()}. ", made], "")
+    )
 
 
 def cell(value: object) -> str:

@@ -55,7 +55,7 @@ class ResultsError(Exception):
         super().__init__(f"{path}: {what}")
 
 
-class Said(dict):
+class JsonObject(dict):
     """An object of a JSON file; what is looked for and not there is a fault of that file."""
 
     def __init__(self, path: Path, content: dict):
@@ -266,7 +266,7 @@ def read_summary(path: Path) -> dict:
     except UnicodeDecodeError:
         raise ResultsError(path, "is binary, not a JSON file") from None
     try:
-        summary = json.loads(text, parse_constant=refuse_constant, object_hook=lambda found: Said(path, found))
+        summary = json.loads(text, parse_constant=refuse_constant, object_hook=lambda found: JsonObject(path, found))
     except json.JSONDecodeError as error:
         raise ResultsError(path, f"is not JSON, or is truncated, at line {error.lineno}: {error.msg}") from None
     except (ValueError, RecursionError) as error:

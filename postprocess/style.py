@@ -1,26 +1,30 @@
 """One look for all figures: fonts, colours, widths, and the words for methods, runs and units."""
 
+import argparse
 import contextlib
 import re
 import textwrap
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from string import ascii_lowercase
+from typing import Any
 
 import matplotlib as mpl
 import matplotlib.style
 import numpy as np
-from matplotlib.figure import Figure
+from cycler import cycler
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.legend import Legend
 from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, NullFormatter
 from matplotlib.tri import Triangulation
 
 from postprocess.results import ResultsError, Run, is_number
-
-if mpl.__version_info__ < (3, 7):
-    from postprocess import matplotlib36
-
-    matplotlib36.install()
 
 COLUMN = 85 / 25.4  # inches: one column of a journal page
 PAGE = 180 / 25.4  # inches: two columns
@@ -33,10 +37,12 @@ PURPLE, SKY = "#CC79A7", "#56B4E9"
 CURVES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
-# behind text that stands on a picture
-HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+Look = dict[str, Any]  # keyword arguments of matplotlib's drawing functions
 
-RC = {
+# behind text that stands on a picture
+HALO: Look = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+
+RC: Look = {
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
     "font.size": 9,
@@ -48,7 +54,7 @@ RC = {
     "axes.linewidth": 0.6,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.prop_cycle": mpl.cycler(color=CURVES),
+    "axes.prop_cycle": cycler(color=CURVES),
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
     "xtick.minor.width": 0.4,
@@ -70,7 +76,7 @@ class Units:
     stress: str = "force/area unit"
 
 
-def add_units(parser) -> None:
+def add_units(parser: argparse.ArgumentParser) -> None:
     """The flag --units LENGTH STRESS of every command that draws."""
     parser.add_argument(
         "--units",
@@ -81,14 +87,14 @@ def add_units(parser) -> None:
     )
 
 
-def add_output(parser, name: str, written: str = "") -> None:
+def add_output(parser: argparse.ArgumentParser, name: str, written: str = "") -> None:
     """The run, and --out, of a command that draws it into its own folder."""
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
     written = written or f"{name}.pdf"
     parser.add_argument("--out", metavar=written.replace(name, "FILE"), help=f"where to write (default: RUN/{written})")
 
 
-def add_picture(parser, name: str, written: str = "") -> None:
+def add_picture(parser: argparse.ArgumentParser, name: str, written: str = "") -> None:
     """The arguments of a command that draws one run's bodies into its own folder."""
     add_output(parser, name, written)
     parser.add_argument(
@@ -110,7 +116,7 @@ def add_picture(parser, name: str, written: str = "") -> None:
     add_units(parser)
 
 
-def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
+def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool) -> tuple[Figure, dict[str, Axes]]:
     """A figure and its panels by letter: rows on a page, a column wide, or a mosaic of 16:9.
 
     page: the letters side by side in a row, and its height over the width; slide: rows of letters as of matplotlib's
@@ -133,17 +139,72 @@ def settled(figure: Figure) -> Figure:
     Ticks stay as they are after the first rounds: those of a panel that grows would take more room than was left.
     """
     for _ in range(4):
-        figure.get_layout_engine().execute(figure)
+        layout_of(figure).execute(figure)
     titles = {axes: axes.get_title(loc="left") for axes in figure.axes}
     for _ in range(3):
         set_ticks(figure)
         name_powers(figure)
         fold_titles(figure, titles)
-        figure.get_layout_engine().execute(figure)
+        layout_of(figure).execute(figure)
     return figure
 
 
-def every_axes(figure: Figure) -> list:
+def legend_outside(
+    figure: Figure | SubFigure,
+    place: str,
+    handles: Iterable[Artist] | None = None,
+    labels: Iterable[str] | None = None,
+    **options: Any,
+) -> Legend:
+    """A figure's legend beyond all axes, for which the constrained layout leaves room.
+
+    place: the side first, as "upper center", "lower left", "right upper". handles and labels as of Figure.legend: without
+    them all curves with labels. matplotlib has such legends from 3.7 on; before, the layout's rectangle leaves the room.
+    """
+    entries = {name: given for name, given in (("handles", handles), ("labels", labels)) if given is not None}
+    if mpl.__version_info__ >= (3, 7):
+        return figure.legend(**entries, **options, loc=f"outside {place}")
+    root = figure.figure  # of a part of a figure the whole: the rectangle is the whole figure's
+    side, along = place.split()
+    curves: Look = {} if entries or root is figure else dict(zip(("handles", "labels"), curves_of(figure), strict=True))
+    legend = root.legend(**entries, **curves, **options, loc=f"{along} {side}" if side == "right" else place)
+    engine = layout_of(root)
+    box, pads = legend.get_window_extent().transformed(root.transFigure.inverted()), engine.get()
+    room = box.width + 2 * pads["w_pad"] if side == "right" else box.height + 2 * pads["h_pad"]
+    left, bottom, width, height = pads["rect"]
+    right, top = left + width, bottom + height
+    right = min(right, 1 - room) if side == "right" else right
+    top = min(top, 1 - room) if side == "upper" else top
+    bottom = max(bottom, room) if side == "lower" else bottom
+    engine.set(rect=(left, bottom, right - left, top - bottom))
+    return legend
+
+
+def layout_of(figure: Figure) -> ConstrainedLayoutEngine:
+    """The layout engine of a figure that was made with layout="constrained"."""
+    engine = figure.get_layout_engine()
+    if not isinstance(engine, ConstrainedLayoutEngine):
+        raise TypeError(f"the figure has no constrained layout, but {engine!r}")
+    return engine
+
+
+def figure_of(axes: Axes) -> Figure:
+    """The whole figure that a panel belongs to."""
+    figure = axes.figure
+    return figure.figure if isinstance(figure, SubFigure) else figure
+
+
+def curves_of(figure: Figure | SubFigure) -> tuple[list[Artist], list[str]]:
+    """The curves with labels of all panels of a figure, or of a part of one, and these labels."""
+    handles: list[Artist] = []
+    labels: list[str] = []
+    for axes in figure.axes:
+        found = axes.get_legend_handles_labels()
+        handles, labels = handles + found[0], labels + found[1]
+    return handles, labels
+
+
+def every_axes(figure: Figure) -> list[Axes]:
     """Panels and bars, with those that stand beside a panel."""
     return [each for axes in figure.axes for each in (axes, *axes.child_axes) if each.axison]
 
@@ -178,7 +239,7 @@ def set_ticks(figure: Figure) -> None:
                 axis.set_major_locator(FixedLocator(ticks))
 
 
-def collide(axis) -> bool:
+def collide(axis: Axis) -> bool:
     """Does a tick's label touch the next one?"""
     boxes = [label.get_window_extent() for label in axis.get_majorticklabels() if label.get_text()]
     side = 0 if axis.axis_name == "x" else 1
@@ -186,7 +247,7 @@ def collide(axis) -> bool:
     return any(a[1] + 2 * axis.figure.dpi / 100 > b[0] for a, b in pairwise(ends))
 
 
-def fold_titles(figure: Figure, titles: dict) -> None:
+def fold_titles(figure: Figure, titles: dict[Axes, str]) -> None:
     """Titles at the left of panels in more lines, where they would leave the figure or reach the panel beside."""
     for axes in figure.axes:
         place, text, before = axes.get_position(), titles[axes], axes.get_title(loc="left")
@@ -216,13 +277,13 @@ def round_below(value: float) -> float:
 
 
 @contextlib.contextmanager
-def look():
+def look() -> Iterator[None]:
     """Within this context figures are drawn and saved in the package's style, whatever the user's own settings."""
     with matplotlib.style.context(["default", RC]):
         yield
 
 
-def curve(index: int) -> dict:
+def curve(index: int) -> Look:
     """Colour and marker of the curve with this number, both different from its neighbours'."""
     return {"color": CURVES[index % len(CURVES)], "marker": MARKERS[index % len(MARKERS)]}
 
@@ -339,7 +400,7 @@ def named(amount: int) -> set[int]:
     return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
 
 
-def decades(axes, values: np.ndarray, most: int = 9) -> None:
+def decades(axes: Axes, values: np.ndarray, most: int = 9) -> None:
     """A logarithmic vertical axis over whole decades around the positive values, at most so many."""
     positive = values[values > 0]
     top = np.floor(np.log10(positive.max()) + 0.2) + 1

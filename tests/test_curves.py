@@ -10,11 +10,11 @@ from test_friction import case, series
 from test_parts import Mesh, block
 
 from postprocess import style
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.commands import hysteresis
+from postprocess.formatting import Units
+from postprocess.load_series import curves, driving, read_series
 from postprocess.results import read_run
-from postprocess.series import curves, driving, read_series
-from postprocess.words import Units
 
 PUNCH = data("curves/punch.geo")
 ONE = (

@@ -23,13 +23,13 @@ from matplotlib.animation import FFMpegWriter
 from test_scene_figures import WAVY
 from text_boxes import faults
 
-from postprocess import doctor, player, style
-from postprocess.__main__ import main
-from postprocess.frames import Movie, line_words, off_law
+from postprocess import doctor, movie_player, style
+from postprocess.command_line import main
+from postprocess.formatting import captions, command
 from postprocess.laws import law_of
-from postprocess.references import PAPER, checks
+from postprocess.newton_movie import NewtonMovie, line_words, off_law
+from postprocess.reference_values import PAPER, checks
 from postprocess.results import Run, read_run
-from postprocess.words import captions, command
 
 MOVIE = ["movie.html", "movie.gif", *(["movie.mp4"] if FFMpegWriter.isAvailable() else [])]
 
@@ -155,7 +155,7 @@ class TestFrames:
         """The dots shall be the points' overlaps and pressures, the disc where its prescribed motion takes it."""
         found = read_run(paper)
         with style.look():
-            movie = Movie(found, style.Units("mm", "MPa"))
+            movie = NewtonMovie(found, style.Units("mm", "MPa"))
             movie.draw(movie.count - 1)
         assert movie.count == found.summary["newton"] + 1
         dots = np.concatenate([line.get_xydata() for line in movie.left.lines[1:]])
@@ -175,7 +175,7 @@ class TestFrames:
     def test_points_off_the_law_are_told(self, paper):
         """At the end every point shall be on the law or its wall; on the way those that are not shall be hollow."""
         with style.look():
-            movie = Movie(read_run(paper), style.Units())
+            movie = NewtonMovie(read_run(paper), style.Units())
             movie.draw(4)
         assert not off_law(movie.steps, movie.plane, movie.count - 1)[0].any()
         off, expected = off_law(movie.steps, movie.plane, 4)
@@ -197,7 +197,7 @@ class TestMovie:
         assert len(re.findall(r"frames\[\d+\] = ", page)) == frames
         assert "http" not in re.sub(r"base64,[^\"]*", "", page).replace("http-equiv", "")
         check_page(page)
-        assert player.extract(page).count("<script") == 2
+        assert movie_player.extract(page).count("<script") == 2
 
     def test_the_gif(self, film):
         from PIL import Image

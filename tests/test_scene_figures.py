@@ -9,8 +9,8 @@ import pytest
 from freefem import ROOT, cases_of, run, run_in, script
 
 from postprocess import figures, style
-from postprocess.__main__ import main
-from postprocess.references import hertz, merging_pressure
+from postprocess.command_line import main
+from postprocess.reference_values import hertz, merging_pressure
 from postprocess.results import read_run
 from postprocess.vtu import cut, read_grid
 

@@ -12,10 +12,10 @@ from browser import CHROMIUM, Browser
 from freefem import FREEFEM, ROOT, execute, run
 from page_numbers import number
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.commands.sheet import Units, vector
+from postprocess.formatting import command, rounded, with_error
 from postprocess.results import read_run
-from postprocess.words import command, rounded, with_error
 
 EXAMPLE = ROOT / "edp/examples/shrink-fit"
 A4 = 794  # pixels across

@@ -13,15 +13,16 @@ import json
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from postprocess import bodies as drawn
-from postprocess import faces, style
+from postprocess import geometry_faces, style
+from postprocess.bodies_3d import VIEW, sight
 from postprocess.output import enter, write_figures
 from postprocess.results import ResultsError, brief, check_file, read_table
-from postprocess.space import VIEW, sight
 from postprocess.vtu import CORNERS, corners, read_arrays
 
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8C510A", "#35978F")
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> None:
             figures[out] = draw(folder, sight(*(arguments.view or VIEW)))
         if numbered.exists():
             beside = out.with_name(f"{out.stem}-faces.pdf") if arguments.out else folder / "faces.pdf"
-            figures[beside] = faces.draw(numbered, *(arguments.view or VIEW))
+            figures[beside] = geometry_faces.draw(numbered, *(arguments.view or VIEW))
         if not arguments.out:
             enter(folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")])
         for path in write_figures(figures):
@@ -80,7 +81,7 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     ]
     entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
     words = [style.plain(role(said, group)) for group in colours]
-    figure.legend(entries, [*words, "contact points and normals"], loc="outside lower left", ncols=1)
+    style.legend_outside(figure, "lower left", entries, [*words, "contact points and normals"], ncols=1)
     held = "\n".join(
         f"{brief(str(body['name']))}: held by {brief(str(body['held']))}"
         + ("; free: " + ", ".join(word.partition(": ")[2] for word in body["free"]) if body["free"] else "")
@@ -121,7 +122,7 @@ def roles(said: dict) -> dict[int, float]:
     return found | {numbers[pair[0]]: 2.4 for pair in pairs if pair[0] in numbers}
 
 
-def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) -> float:
+def draw_plane(axes: Axes, at, cells, parts, sides, groups, colours, _view, widths) -> float:
     """Elements in their bodies' colours, the groups' edges on them; the size of an element at the groups.
 
     Where surfaces touch as drawn, the thin line of a master lies on the wide one of its slave.
@@ -129,7 +130,7 @@ def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) ->
     place = at[:, :2]
     for number, part in enumerate(np.unique(parts)):
         fill = drawn.FILLS[number % len(drawn.FILLS)]
-        look = {"facecolor": fill, "edgecolor": "#9A9A9A", "linewidth": 0.12}
+        look: style.Look = {"facecolor": fill, "edgecolor": "#9A9A9A", "linewidth": 0.12}
         axes.add_collection(PolyCollection(place[cells[parts == part]], **look))
     for group, colour in colours.items():
         width = widths.get(group, 1.4)
@@ -143,7 +144,7 @@ def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) ->
     return float(np.median(np.hypot(*edges.T)))
 
 
-def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -> float:
+def draw_solid(axes: Axes, at, cells, _parts, sides, groups, colours, view, _widths) -> float:
     """The boundary from outside, far parts first, named groups in their colours; the size of an element there."""
     every = np.concatenate([np.delete(cells, corner, axis=1) for corner in range(CORNERS[10])])
     key, first, times = np.unique(np.sort(every, axis=1), axis=0, return_index=True, return_counts=True)
@@ -157,7 +158,7 @@ def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -
     shade = (0.62 + 0.38 * np.abs(across @ drawn.LIGHT))[:, None]
     order = np.argsort(seen[:, :, 2].mean(axis=1))
     mixed = (0.45 + 0.55 * fills) * shade
-    look = {"facecolor": mixed[order], "edgecolor": "#707070", "linewidth": 0.08}
+    look: style.Look = {"facecolor": mixed[order], "edgecolor": "#707070", "linewidth": 0.08}
     axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **look))
     axes.autoscale_view()
     axes.set_aspect("equal")
@@ -165,7 +166,7 @@ def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -
     return float(np.median(np.linalg.norm(at[sides[:, 1]] - at[sides[:, 0]], axis=1)))
 
 
-def draw_points(axes, points: dict, view: np.ndarray, size: float, shown: bool) -> None:
+def draw_points(axes: Axes, points: dict, view: np.ndarray, size: float, shown: bool) -> None:
     """A dot at each contact point with something opposite, and its normal, where these can be seen."""
     if not shown:
         return

@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from postprocess import kit, markdown
+from postprocess import markdown, teaching_kit
 from postprocess.results import ResultsError, reason
 
 SHARE = 0.005
@@ -37,17 +37,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Prints a line an answer, and how many are well; ends with code 1 where not all are."""
-    found = [lab for lab in kit.folders() if lab.name.split("-")[0] == arguments.lab]
+    found = [lab for lab in teaching_kit.folders() if lab.name.split("-")[0] == arguments.lab]
     if not found:
         raise ResultsError(
-            arguments.lab, f"no such lab; allowed: {' '.join(lab.name.split('-')[0] for lab in kit.folders())}"
+            arguments.lab, f"no such lab; allowed: {' '.join(lab.name.split('-')[0] for lab in teaching_kit.folders())}"
         )
     if arguments.file.suffix == ".idp":
         if arguments.lab != "4":
             raise ResultsError(arguments.file, "a law file is checked by lab 4 alone")
         lines = of_a_law(arguments.file)
     else:
-        lines = of_answers(kit.read(found[0] / "ANSWERS.md"), arguments.file)
+        lines = of_answers(teaching_kit.read(found[0] / "ANSWERS.md"), arguments.file)
     good = sum(well for well, _ in lines)
     for well, words in lines:
         print(f"{'ok ' if well else 'OFF'}  {words}")
@@ -135,7 +135,7 @@ def of_a_law(file: Path) -> list[tuple[bool, str]]:
         raise ResultsError(file, "is not there")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        edp, own = folder / "edp", kit.LABS.parent  # a copy: the package reads its own files before any other
+        edp, own = folder / "edp", teaching_kit.LABS.parent  # a copy: the package reads its own files before any other
         shutil.copytree(own, edp, ignore=shutil.ignore_patterns("*.png", "mylaw.idp"))
         for path in (own.parent / "meshes", own.parent / "build", own.parent / "freefem++.pref"):
             if path.exists():

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from postprocess import of_case, style
+from postprocess import case_report, style
 from postprocess.commands.show import cell
 from postprocess.output import write_figure
 from postprocess.results import Run, column_names, is_number, read_run
@@ -52,13 +52,13 @@ def table(first: Run, second: Run) -> list[str]:
     seconds = [name for name in both[0] if name.startswith("seconds.") and name in both[1]]
     said = [cell(len(run.summary.get("warnings", []))) for run in (first, second)]
     rows.append(["warnings", *said, "" if said[0] == said[1] else "differs", ""])
-    cases = all(of_case.is_case(run.summary) for run in (first, second))
+    cases = all(case_report.is_case(run.summary) for run in (first, second))
     if cases:
-        told = [of_case.results(run.summary) for run in (first, second)]
+        told = [case_report.results(run.summary) for run in (first, second)]
         for words, (value, _, unit) in told[0].items():
             if words in told[1]:
                 rows.append(row(f"{words} [{unit}]" if unit else words, value, told[1][words][0]))
-    for name in [*(name for name in VALUES if not cases or name not in of_case.WHOLE), *seconds]:
+    for name in [*(name for name in VALUES if not cases or name not in case_report.WHOLE), *seconds]:
         if name in both[0] and name in both[1]:
             rows.append(row(name, both[0][name], both[1][name]))
     rows += profiles(first, second)
@@ -148,5 +148,5 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     residuals.set_xlabel("Newton step")
     residuals.set_yscale("log")
     residuals.xaxis.set_major_locator(MaxNLocator(integer=True))
-    figure.legend(loc="outside upper left", alignment="left")
+    style.legend_outside(figure, "upper left", alignment="left")
     return figure

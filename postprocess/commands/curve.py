@@ -9,14 +9,15 @@ beside it.
 import argparse
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
+from postprocess.formatting import Units
+from postprocess.load_series import Curve, curves, legs, read_series
 from postprocess.output import write_own
 from postprocess.results import Run, read_run
-from postprocess.series import Curve, curves, legs, read_series
-from postprocess.words import Units
 
 ENERGIES = {"work": "work of the loads", "stored": "stored", "stored energy": "stored", "dissipated": "dissipated"}
 
@@ -106,7 +107,7 @@ def named(words: str, width: int) -> str:
     return style.plain(style.folded(words, width))
 
 
-def name_curves(figure: Figure, axes) -> None:
+def name_curves(figure: Figure, axes: Axes) -> None:
     """The names of each panel's curves above it; the page grows with the longest list, for the panels to stay."""
     found = [each.legend(loc="lower left", bbox_to_anchor=(0, 1)) for each in axes if each.lines]
     most = max(sum(1 + text.get_text().count("\n") for text in legend.get_texts()) for legend in found)

@@ -14,7 +14,7 @@ from postprocess.figures import overshoot
 from postprocess.figures.figure2 import SAME_PROBLEM
 from postprocess.output import write_figures
 from postprocess.results import ResultsError, Run
-from postprocess.tree import Tree, read_tree
+from postprocess.results_folder import ResultsFolder, read_results_folder
 
 # What a figure of runs needs, for those who have to make it.
 NEEDS = {
@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Draws what can be drawn, writes it, prints the paths, and what is missing with the reason."""
-    tree = read_tree(arguments.folder)
+    tree = read_results_folder(arguments.folder)
     folder = Path(arguments.out) if arguments.out else tree.path / "figures"
     drawn, missing = {}, []
     with style.look():
@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(f"not made: {line}")
 
 
-def material(tree: Tree, name: str, module) -> list | str:
+def material(tree: ResultsFolder, name: str, module) -> list | str:
     """What a figure is drawn from, or what it needs."""
     if hasattr(module, "READ"):
         folder = tree.path / name.partition("_")[0]

@@ -9,6 +9,7 @@ step by load step, where the contact sticks and slips; in space, the shares of t
 import argparse
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
@@ -16,10 +17,10 @@ from matplotlib.patches import Rectangle
 from postprocess import bodies as drawn
 from postprocess import style
 from postprocess.bodies import ZONES, units_of, zones
+from postprocess.formatting import Units
+from postprocess.load_series import Curve, curves, driving, read_series
 from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
-from postprocess.series import Curve, curves, driving, read_series
-from postprocess.words import Units
 
 COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
 STRONG = {1: style.GREEN, 2: style.ORANGE}
@@ -115,7 +116,7 @@ def named(chosen: Run, contact: int) -> str:
     return style.plain(brief(str(stated[contact].get("name", ""))))
 
 
-def plot_loop(axes, table: dict, words: str, said: str, unit: str) -> None:
+def plot_loop(axes: Axes, table: dict, words: str, said: str, unit: str) -> None:
     drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
     closed = last_loop(drag, shear)
     energy = f"dissipated {lost[-1]:.3g}"
@@ -134,7 +135,7 @@ def plot_loop(axes, table: dict, words: str, said: str, unit: str) -> None:
         way = np.hypot(np.ptp(drag[rows]) / (np.ptp(drag) or 1), np.ptp(shear[rows]) / (np.ptp(shear) or 1))
         if len(rows) > 1 and way > 0.2:
             k = rows[len(rows) // 2 - 1]
-            ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
+            ends: style.Look = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
     axes.set_xlabel(style.folded(words, 36), loc="left", multialignment="left")  # the power of ten is at the right end
     axes.set_ylabel(said)
@@ -142,7 +143,7 @@ def plot_loop(axes, table: dict, words: str, said: str, unit: str) -> None:
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
 
 
-def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) -> None:
+def plot_zones(axes: Axes, chosen: Run, contact: int, steps: int, units: style.Units) -> None:
     """Load step by load step, where one contact sticks and slips."""
     table = read_table(chosen.path / "slides.csv", "step contact x y slide".split())
     mine = table["contact"] == contact
@@ -164,7 +165,7 @@ def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) 
     axes.legend([Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)], ["sticks", "slips"], **ABOVE)
 
 
-def plot_shares(axes, table: dict) -> None:
+def plot_shares(axes: Axes, table: dict) -> None:
     """In space: the shares of the points in contact that stick and slip."""
     share = 100 * table["stickingPoints"] / np.maximum(table["contactPoints"], 1)
     steps = table["step"]

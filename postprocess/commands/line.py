@@ -7,6 +7,7 @@ left out where it is not known, and the principal stresses; right: the displacem
 import argparse
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -55,7 +56,7 @@ def drawn(path, units: style.Units) -> Figure:
     left, right = figure.subplots(1, 2)
     breaks = np.flatnonzero(np.diff(at) > 1.5 * np.median(np.diff(at))) + 1 if len(at) > 2 else []
 
-    def curve(axes, values, error, label, color):
+    def curve(axes: Axes, values, error, label, color):
         # places that were asked have less than their neighbours: no comb of it
         beside = np.where(np.isfinite(error), error, 0)
         beside = np.maximum(beside, np.maximum(np.r_[beside[1:], 0], np.r_[0, beside[:-1]]))

@@ -13,14 +13,14 @@ from pathlib import Path
 
 from matplotlib import rc_context
 
-from postprocess import page, style
+from postprocess import html_page, style
 from postprocess.commands.show import cell
-from postprocess.frames import Movie
-from postprocess.loop import Loop, along_path
+from postprocess.formatting import HISTORY_COLUMNS, history_rows, run_words
+from postprocess.movie_player import render
+from postprocess.newton_movie import NewtonMovie
 from postprocess.output import enter, write_files
-from postprocess.player import render
+from postprocess.path_movie import PathMovie, along_path
 from postprocess.results import ResultsError, Run, brief, read_run
-from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     try:
         with style.look():
-            kind = Loop if along_path(chosen) else Movie
+            kind = PathMovie if along_path(chosen) else NewtonMovie
             movie = kind(chosen, style.Units(*map(style.plain, arguments.units)))
             if arguments.frame is not None:
                 contents = {
@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(path)
 
 
-def one_frame(run: Run, movie: Movie | Loop, number: int) -> bytes:
+def one_frame(run: Run, movie: NewtonMovie | PathMovie, number: int) -> bytes:
     """A frame as SVG."""
     if not 1 <= number <= movie.count:
         raise ResultsError(run.path, f"--frame {number}: allowed: 1 to {movie.count}")
@@ -90,8 +90,8 @@ def web_page(run: Run, player: str) -> str:
     )
     if along_path(run):
         words = "A frame is a state of the path: what the surfaces do as they come together and part."
-    head = [page.element("h1", f"The method at work: {run_words(run)}"), page.element("p", words)]
-    steps = page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
-    outcome = page.element("p", f"Force {cell(run.summary['force'])}, residual {cell(run.summary['residual'])}.")
-    body = page.joined([*head, page.Markup(player), outcome, steps])
-    return page.document(f"Newton steps: {run_words(run)}", page.element("main", body, id="main"))
+    head = [html_page.element("h1", f"The method at work: {run_words(run)}"), html_page.element("p", words)]
+    steps = html_page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
+    outcome = html_page.element("p", f"Force {cell(run.summary['force'])}, residual {cell(run.summary['residual'])}.")
+    body = html_page.joined([*head, html_page.Markup(player), outcome, steps])
+    return html_page.document(f"Newton steps: {run_words(run)}", html_page.element("main", body, id="main"))

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from postprocess import page
+from postprocess import html_page
+from postprocess.formatting import command
+from postprocess.html_page import Markup, element, joined, section, table
 from postprocess.output import write_files
-from postprocess.page import Markup, element, joined, section, table
 from postprocess.results import ResultsError, Run, read_run
-from postprocess.tree import read_png
-from postprocess.words import command
+from postprocess.results_folder import read_png
 
 SIZES = ("1", "0.5", "0.25", "0.1")
 TOLERANCES = ("1e-2", "1e-4", "1e-6", "1e-8", "1e-10", "1e-12")  # -tol; 1e-6 is the default
@@ -180,7 +180,7 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
         "figure1": "The paper's Figure 1: at rest, the motion prescribed, the first model solved, converged",
         "figure2": "The paper's Figure 2: pressure by the scheme on that of 20 load steps",
     }
-    drawn = [page.picture(pictures[name], text, Markup(text + ".")) for name, text in seen.items()]
+    drawn = [html_page.picture(pictures[name], text, Markup(text + ".")) for name, text in seen.items()]
     parts = [
         element("h1", "The paper's claims, and what comes out"),
         element(
@@ -198,7 +198,7 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
         section("conditions", "Overshoot, not conditioning", element("p", about_conditions)),
         section("figures", "Figures", *drawn),
     ]
-    return page.document("The paper, reproduced", element("main", joined(parts), id="main"))
+    return html_page.document("The paper, reproduced", element("main", joined(parts), id="main"))
 
 
 def every_claim() -> Markup:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import bodies_3d, style
 from postprocess.bodies import Bodies, read_bodies, units_of
 from postprocess.commands.state import carrying
 from postprocess.output import enter, write_files
@@ -101,14 +101,14 @@ def state(bodies: Bodies, units: style.Units, view: tuple | None) -> str:
     named = read_names(bodies_file(bodies.run.path))
     names = named.get("bodies", []) + named.get("groups", [])
     strongest = carrying(bodies)[0][0]
-    loads, normal = space.pressing(bodies, strongest)
+    loads, normal = bodies_3d.pressing(bodies, strongest)
     middle = loads @ bodies.points / loads.sum()
     unit = "" if units.stress == style.Units.stress else f"[{units.stress}]"
-    solid = {"cut": None}
+    solid: style.Look = {"cut": None}
     if bodies.grid.space:
         # what is nearer to the eye than the middle of the contact is taken away
-        eye = space.sight(*(view or space.onto(normal)))
-        flat = space.facing(normal)
+        eye = bodies_3d.sight(*(view or bodies_3d.onto(normal)))
+        flat = bodies_3d.facing(normal)
         across = flat[1] * (1 if flat[1] @ eye[2] > 0 else -1)
         solid["cut"] = [numbers(middle), numbers(across)]
         top = drawn.stress_range(bodies)

@@ -13,13 +13,13 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from postprocess import page, style
+from postprocess import html_page, style
 from postprocess.bodies import read_bodies, units_of
 from postprocess.commands import curve, stress
+from postprocess.formatting import NONE, Units, command, place, readable, short, with_error
+from postprocess.html_page import Markup, element, joined, section, table
 from postprocess.output import enter, write_files
-from postprocess.page import Markup, element, joined, section, table
 from postprocess.results import ResultsError, Run, brief, is_number, read_run
-from postprocess.words import NONE, Units, command, place, readable, short, with_error
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,7 +56,7 @@ def build(chosen: Run, title: str | None = None) -> str:
     ]
     title = title or case.stem or chosen.path.name
     body = joined([header(chosen, title, case, units), element("main", joined(parts), id="main")])
-    return page.document(title, element("div", body, class_="sheet"))
+    return html_page.document(title, element("div", body, class_="sheet"))
 
 
 def header(chosen: Run, title: str, case: Path, units: Units) -> Markup:
@@ -274,7 +274,7 @@ def pictures(chosen: Run) -> tuple[Markup, list[Markup]]:
 def picture(figure: Figure, words: str) -> Markup:
     file = io.BytesIO()
     figure.savefig(file, format="png", bbox_inches="tight", metadata={"Software": None})
-    return page.picture(file.getvalue(), words, Markup(f"{words}."))
+    return html_page.picture(file.getvalue(), words, Markup(f"{words}."))
 
 
 def versions(summary: dict) -> list[list[str]]:

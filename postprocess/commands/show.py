@@ -6,7 +6,7 @@ of each contact, load, support and body, with units; further lists are in summar
 
 import argparse
 
-from postprocess import of_case
+from postprocess import case_report
 from postprocess.results import is_number, read_run
 
 GROUPS = {
@@ -30,14 +30,14 @@ def run(arguments: argparse.Namespace) -> None:
 
 def table(summary: dict) -> list[str]:
     """The lines of the table: names left, values from one common column on, a blank line between groups."""
-    case = of_case.is_case(summary)
-    told = {key: with_error(summary, key) for key in summary if not case or key not in of_case.WHOLE}
+    case = case_report.is_case(summary)
+    told = {key: with_error(summary, key) for key in summary if not case or key not in case_report.WHOLE}
     groups = {title: {key: told[key] for key in keys if key in told} for title, keys in GROUPS.items()}
     listed = {key for keys in GROUPS.values() for key in keys} | {"seconds", "parameters"}
     if case:
         run = {"run": groups.pop("run")}
         groups = (
-            run | {"results": {words: number(*found) for words, found in of_case.results(summary).items()}} | groups
+            run | {"results": {words: number(*found) for words, found in case_report.results(summary).items()}} | groups
         )
     further = {key: summary[key] for key in told if key not in listed}
     groups["further"] = {key: value for key, value in further.items() if not case or not nested(value)}

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from PIL import Image, ImageSequence, UnidentifiedImageError
 
+from postprocess import style
 from postprocess.output import write_files
 from postprocess.results import ResultsError
 
@@ -31,7 +32,7 @@ def run(arguments: argparse.Namespace) -> None:
             kind = picture.format
     except (OSError, UnidentifiedImageError) as error:
         raise ResultsError(arguments.picture, f"cannot be read: {error}") from None
-    moving = {}
+    moving: style.Look = {}
     if len(frames) > 1:
         frames = of_one_palette(frames)
         moving = {"save_all": True, "append_images": frames[1:], "duration": pause, "loop": 0}

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import bodies_3d, style
 from postprocess.bodies import Bodies, write_picture
 from postprocess.results import ResultsError
 
@@ -103,7 +103,7 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
         box = drawn.zone_window(bodies, contact)
         size = np.ptp(box, axis=0)
         panels[body].add_patch(Rectangle(box[0], *size, fill=False, linewidth=0.6, zorder=6))
-        look = {"textcoords": "offset points", "fontsize": 7, "zorder": 7, "bbox": style.HALO}
+        look: style.Look = {"textcoords": "offset points", "fontsize": 7, "zorder": 7, "bbox": style.HALO}
         under = box[1, 1] > whole[1, 1] - 0.1 * np.ptp(whole[:, 1])  # the panel's title is close
         panels[body].annotate(f"({letter})", np.minimum(box[1], whole[1]), (3, -6 if under else 3), **look)
     drawn.plot_pressure(panels[curve], bodies, units, slide and tall)
@@ -112,7 +112,7 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
 
 
 def eye(bodies: Bodies, contact: int, view: tuple | None) -> np.ndarray:
-    return space.sight(*(view or space.onto(space.pressing(bodies, contact)[1])))
+    return bodies_3d.sight(*(view or bodies_3d.onto(bodies_3d.pressing(bodies, contact)[1])))
 
 
 def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
@@ -128,20 +128,21 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
     for index, (letter, (contact, sheared)) in enumerate(zip(maps, shown, strict=True)):
         words = style.plain(bodies.names[contact])
         if sheared:
-            greatest = space.map_shear(panels[letter], bodies, contact, panels[maps[index - 1]])
+            greatest = bodies_3d.map_shear(panels[letter], bodies, contact, panels[maps[index - 1]])
             unit = "" if units.stress == style.Units.stress else f" {units.stress}"
             words = f"{words} shear, up to ${style.number(float(f'{greatest:.3g}'))}${unit}".lstrip()
         else:
-            words += space.map_words(bodies, contact)
-            colours = space.map_pressure(panels[letter], bodies, contact, units)
+            words += bodies_3d.map_words(bodies, contact)
+            colours = bodies_3d.map_pressure(panels[letter], bodies, contact, units)
         if rubs:
             panels[letter].locator_params(nbins=4)
         panels[letter].set_anchor("W")
         drawn.title(panels[letter], index, words, 56 if each == 1 and not slide else 28)
     if rubs:
-        below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4}
-        drawn.name_zones(panels[maps[-1]], panels[maps[-1]], ncols=2, handlelength=1.2, **below)
-    space.draw_parts(panels[body], bodies, eye(bodies, contacts[0], view), False)
+        below: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4}
+        last = panels[maps[-1]]
+        last.legend(*drawn.zone_legend(last), fontsize=7, ncols=2, handlelength=1.2, **below)
+    bodies_3d.draw_parts(panels[body], bodies, eye(bodies, contacts[0], view), False)
     drawn.title(panels[body], len(maps), drawn.motion(bodies, units) + more, 44 if slide else 56)
     drawn.colour_bar(figure, colours, [panels[letter] for letter in maps], bodies, units, "pressure")
     return style.settled(figure)

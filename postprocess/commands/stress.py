@@ -11,7 +11,7 @@ import argparse
 from matplotlib.figure import Figure
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import bodies_3d, style
 from postprocess.bodies import Bodies, write_picture
 from postprocess.commands import state
 
@@ -46,13 +46,13 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
     width = 56 if count == 1 and not slide else (44 if count == 1 else 26)
     for index, contact in enumerate(contacts):
         name = style.plain(bodies.names[contact])
-        colours = space.draw_section(panels[sections[index]], true, contact, units)
+        colours = bodies_3d.draw_section(panels[sections[index]], true, contact, units)
         drawn.title(
-            panels[sections[index]], 2 * index, f"{name}: section{space.section_words(true, contact, units)}", width
+            panels[sections[index]], 2 * index, f"{name}: section{bodies_3d.section_words(true, contact, units)}", width
         )
-        pressed = space.map_pressure(panels[maps[index]], true, contact, units)
-        drawn.title(panels[maps[index]], 2 * index + 1, f"{name}: pressure{space.map_words(true, contact)}", width)
-    whole = space.draw_parts(panels[body], bodies, state.eye(bodies, contacts[0], view), True)
+        pressed = bodies_3d.map_pressure(panels[maps[index]], true, contact, units)
+        drawn.title(panels[maps[index]], 2 * index + 1, f"{name}: pressure{bodies_3d.map_words(true, contact)}", width)
+    whole = bodies_3d.draw_parts(panels[body], bodies, state.eye(bodies, contacts[0], view), True)
     drawn.title(panels[body], 2 * count, drawn.motion(bodies, units) + more, 44 if slide else 56)
     of_stress, of_pressure = [panels[each] for each in sections], [panels[each] for each in maps]
     drawn.colour_bar(figure, colours, of_stress, bodies, units)

@@ -1,6 +1,7 @@
 """true error, estimate and time: runs that make their own meshes beside meshes of a user's trial (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
@@ -61,7 +62,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     return figure
 
 
-def draw_series(axes, rows: list[Row], looks: dict) -> None:
+def draw_series(axes: Axes, rows: list[Row], looks: dict) -> None:
     """Of each run a stroke from the true error to what was said; the true ones joined from the coarse to the fine."""
     for row in rows:
         x, true, said = (number(row, name) for name in ("seconds", "forceError", "said"))
@@ -73,7 +74,7 @@ def draw_series(axes, rows: list[Row], looks: dict) -> None:
         axes.plot(*zip(*points, strict=True), **looks, markersize=3.2, linewidth=0.9, alpha=0.9, zorder=2)
 
 
-def draw_peers(axes, rows: list[Row]) -> None:
+def draw_peers(axes: Axes, rows: list[Row]) -> None:
     """The best of the other code: what no run of it beats, medians over the rounds."""
     groups: dict[str, list[Row]] = {}
     for row in rows:
@@ -84,11 +85,11 @@ def draw_peers(axes, rows: list[Row]) -> None:
         axes.plot(*zip(*front, strict=True), color=style.GREY, linewidth=0.9, linestyle="--", zorder=1)
 
 
-def draw_legend(axes, peers: bool) -> None:
+def draw_legend(axes: Axes, peers: bool) -> None:
     """In the place of a sixth panel."""
     axes.axis("off")
     handles = [Line2D([], [], **LOOKS[name], markersize=3.2, label=words) for name, words in SERIES.items()]
-    dark = {"color": "0.25", "marker": "o", "markersize": 3.2, "linestyle": ""}
+    dark: style.Look = {"color": "0.25", "marker": "o", "markersize": 3.2, "linestyle": ""}
     handles.append(Line2D([], [], **dark, label="true error"))
     handles.append(Line2D([], [], **dark, markerfacecolor="white", label="what the run says"))
     if peers:

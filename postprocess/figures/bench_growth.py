@@ -62,7 +62,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     memory.set_yscale("log")
     ratio.axhline(1.25, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
     ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if good(row)], "costRatio"))))
-    figure.legend(loc="outside upper center", ncols=3)
+    style.legend_outside(figure, "upper center", ncols=3)
     name_meshes(figure, rows)
     return figure
 

@@ -1,6 +1,7 @@
 """errors against the independent reference over meshes, against seconds, by degree of the elements (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
@@ -75,12 +76,12 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for name in RIVALS:
         if any(method(row) == name for row in rows):
             grid[0, 0].plot([], [], **rival_look(name), label=NAMES[name])
-    figure.legend(loc="outside upper center", ncols=5)
+    style.legend_outside(figure, "upper center", ncols=5)
     name_meshes(figure, rows)
     return figure
 
 
-def draw_front(rows: list[Row], column: str, axes, place: int) -> None:
+def draw_front(rows: list[Row], column: str, axes: Axes, place: int) -> None:
     """The runs of one element, as points; the line joins what none of them beats."""
     points = sorted(zip(seconds(rows), numbers(rows, column), strict=True))
     looks = style.curve(place)

@@ -1,6 +1,7 @@
 """error in force against CPU seconds, this package beside NGSolve, by degree of the elements (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
@@ -53,9 +54,9 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for name, color in zip(CODES, COLORS, strict=True):
         grid[0, 0].plot([], [], color=color, label=name)
     for degree in sorted({round(number(row, "order")) for row in rows}):
-        look = {"marker": SHAPES[degree], "markerfacecolor": "white", "color": style.GREY, "markersize": 4}
+        look: style.Look = {"marker": SHAPES[degree], "markerfacecolor": "white", "color": style.GREY, "markersize": 4}
         grid[0, 0].plot([], [], linestyle="", label=f"degree {degree}", **look)
-    figure.legend(loc="outside upper center", ncols=3, columnspacing=1)
+    style.legend_outside(figure, "upper center", ncols=3, columnspacing=1)
     name_meshes(figure, rows)
     return figure
 
@@ -70,7 +71,7 @@ def problem(row: Row) -> tuple[str, float, float]:
     return flags.get("-problem", row["scene"]), number(row, "kappa"), number(row, "m")
 
 
-def name_lost(axes, rows: list[Row]) -> None:
+def name_lost(axes: Axes, rows: list[Row]) -> None:
     """How many cases of each code came to nothing, and how."""
     lines = []
     for code, name in enumerate(CODES):
@@ -91,7 +92,7 @@ def name_of(scene: str, kappa: float, m: float) -> str:
     return SCENES.get(scene, "") + law
 
 
-def draw_code(axes, rows: list[Row], color: str) -> None:
+def draw_code(axes: Axes, rows: list[Row], color: str) -> None:
     """The runs of one code: medians over the rounds, what must come before added; the best joined."""
     groups: dict[str, list[Row]] = {}
     for row in rows:

@@ -1,6 +1,7 @@
 """error of the iteration on one mesh against seconds, factorisations and back-substitutions (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -49,12 +50,12 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for name in present:
         grid[0, 0].plot([], [], **look(name), label=NAMES[name])
     grid[0, 0].plot([], [], "x", color=style.GREY, label="failed")
-    figure.legend(loc="outside upper center", ncols=4)
+    style.legend_outside(figure, "upper center", ncols=4)
     name_meshes(figure, rows)
     return figure
 
 
-def draw_curve(axes, rows: list[dict], name: str, measure: str) -> None:
+def draw_curve(axes: Axes, rows: list[dict], name: str, measure: str) -> None:
     rows = sorted(rows, key=lambda row: -number(row, "tol"))
     done = [row for row in rows if good(row)]
     error = np.maximum(numbers(done, "pressureError"), FLOOR)

@@ -44,6 +44,6 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     left.set_ylabel("condition number of the first tangent")
     right.set_xlabel(r"$x = \ln(s_0/s^*)\,/\,\ln(m/(m-1))$")
     right.set_ylabel("steps of plain Newton")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=len(exponents))
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=len(exponents))
     name_meshes(figure, rows)
     return figure

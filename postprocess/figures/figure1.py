@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
@@ -75,7 +76,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for axes in own:
         axes.set_ylim(1.4 * low, None)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    free = {"loc": "best"} if own else {"loc": "center", "bbox_to_anchor": (0.5, 0.42)}
+    free: style.Look = {"loc": "best"} if own else {"loc": "center", "bbox_to_anchor": (0.5, 0.42)}
     grid[2, -1].legend(fontsize=8, handlelength=1.5, labelspacing=0.2, **free)
     grid[2, 0].annotate(
         "$d_0$", (close[0], low), xytext=(3, 2), textcoords="offset points", fontsize=8, color=style.GREY
@@ -85,7 +86,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def draw_overlap(axes, run: Run, state: int) -> None:
+def draw_overlap(axes: Axes, run: Run, state: int) -> None:
     """The overlap d over x and the model's threshold T; before the first step that of the prescribed motion alone."""
     newton, history = run.states.newton[state], run.history
     until = history["newton"] <= max(newton, 1)
@@ -142,7 +143,7 @@ def line_weight(run: Run, window: tuple, columns: int) -> float:
     return float(np.clip(0.08 * scale * np.median(sizes), 0.04, 0.3))
 
 
-def draw_state(axes, run: Run, edges: Bodies, state: int, weight: float) -> None:
+def draw_state(axes: Axes, run: Run, edges: Bodies, state: int, weight: float) -> None:
     """Both bodies in one state: fills, the overlap on top of them, mesh lines of the given weight [points] last."""
     states, mesh = run.states, run.mesh
     x, y = states.x + states.ux[state], states.y + states.uy[state]
@@ -172,7 +173,7 @@ def draw_state(axes, run: Run, edges: Bodies, state: int, weight: float) -> None
     axes.fill_between(at, obstacle, surface, where=surface > obstacle, color=style.ORANGE, linewidth=0, zorder=2)
 
 
-def draw_boundary(axes, x, y, edges, colour: str) -> None:
+def draw_boundary(axes: Axes, x, y, edges, colour: str) -> None:
     """The outline of a body."""
     segments = np.stack([x[edges], y[edges]], axis=-1)
     axes.add_collection(LineCollection(segments, color=colour, linewidth=0.7, capstyle="round", zorder=4))

@@ -1,6 +1,7 @@
 """contact pressure of a run against a second one, the reference, and their difference"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -51,7 +52,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     top = max(pressure.max(), pressure_reference.max())
     above.set_ylim(-0.03 * top, 1.05 * top)
     handles, texts = above.get_legend_handles_labels()
-    figure.legend(handles[::-1], texts[::-1], loc="outside upper center", borderaxespad=0.2, alignment="left")
+    style.legend_outside(figure, "upper center", handles[::-1], texts[::-1], borderaxespad=0.2, alignment="left")
 
     draw_difference(below, x[touched], difference[touched])
     if not same_points:
@@ -63,7 +64,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def draw_difference(axes, x: np.ndarray, difference: np.ndarray) -> None:
+def draw_difference(axes: Axes, x: np.ndarray, difference: np.ndarray) -> None:
     """The relative difference at the points in contact; where it is exactly zero there is nothing to draw."""
     axes.set_ylabel(r"$|p - p_{\mathrm{ref}}| \,/\, \max\, p_{\mathrm{ref}}$")
     if not difference.any():

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import patch_pressure
+from postprocess.reference_values import patch_pressure
 from postprocess.results import Run
 
 RUNS = (1, 6)
@@ -33,7 +33,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         panels[0].set_title("(a) plane", loc="left")
     greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
     for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
-        look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
+        look: style.Look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
         colours = axes.tripcolor(style.surface(run), error, shading="gouraud", **look)
         axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
         axes.set_aspect("equal")

@@ -1,12 +1,13 @@
 """contact in space: pressure map, pressure over the distance from the middle against Hertz, deformed cut"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, TriMesh
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.references import hertz
+from postprocess.reference_values import hertz
 from postprocess.results import ResultsError, Run, read_table
 from postprocess.vtu import bodies_file, cut, read_grid
 
@@ -47,10 +48,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         mesh = Triangulation(*images[once, :2].T)
     except (ValueError, RuntimeError):
         raise ResultsError(run.path / "contact.csv", "its points make no surface") from None
-    look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
+    look: style.Look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
     colours = left.tripcolor(mesh, images[once, 2], shading="gouraud", **look)
     turn = np.linspace(0, 2 * np.pi, 200)
-    circle = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
+    circle: style.Look = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
     left.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), label="Hertz's circle, radius $a$", **circle)
     left.set_aspect("equal")
     left.set_xlabel(f"$x$ [{units.length}]")
@@ -62,7 +63,13 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     distance = np.hypot(x - middle[0], y - middle[1])
     shown = distance <= 1.5 * a
     label = f"{style.method(run)}, {style.count(run.summary['contactPoints'], 'point')} in contact"
-    dots = {"linestyle": "none", "marker": "o", "markersize": 2.2, "markeredgewidth": 0, "color": style.BLUE}
+    dots: style.Look = {
+        "linestyle": "none",
+        "marker": "o",
+        "markersize": 2.2,
+        "markeredgewidth": 0,
+        "color": style.BLUE,
+    }
     right.plot(distance[shown] / a, pressure[shown] / greatest, label=label, alpha=0.6, **dots)
     right.set_xlabel("$r/a$")
     right.set_ylabel("pressure $p/p_0$")
@@ -76,7 +83,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         ha="right",
         fontsize=8,
     )
-    top.legend(handles=[*left.lines, *right.lines], loc="outside upper center", ncols=3)
+    style.legend_outside(top, "upper center", handles=[*left.lines, *right.lines], ncols=3)
     for part in bottom:
         below = part.subplots()
         colours = draw_cut(below, run, middle, height, a)
@@ -96,7 +103,7 @@ def percent(value: float, reference: float) -> str:
     return f"{100 * (value / reference - 1):+.1f} %".replace("-", "−")
 
 
-def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
+def draw_cut(axes: Axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
     """The deformed section through the middle, with its outline, and the rigid obstacle where there is no second body.
 
     The bodies' mean planes are d0 apart where hard contact is: they touch only in runs with -d0 0.
@@ -117,7 +124,7 @@ def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
         stress = np.tile(stress, (2, 1))
     corner = np.arange(4 * len(pieces)).reshape(-1, 4)
     mesh = Triangulation(*pieces.reshape(-1, 2).T, np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]]))
-    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "rasterized": True}
+    look: style.Look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "rasterized": True}
     colours = axes.tripcolor(mesh, stress.ravel(), **look)
     axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.6))
     window = middle[0] - WIDE * a, middle[0] + WIDE * a

@@ -1,6 +1,7 @@
 """threshold and overlap of one to three runs, model by model"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -39,7 +40,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     limits(grid, [table for models in columns for _, table in models])
     figure.supylabel(f"$T^N - d_0$, $d^N - d_0$ [{units.length}]", fontsize=9)
     handles = {line.get_label(): line for axes in grid.ravel() for line in axes.lines if line.get_label()[0] != "_"}
-    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=3, columnspacing=1.2)
+    style.legend_outside(figure, "upper center", handles.values(), handles.keys(), ncols=3, columnspacing=1.2)
     style.name_elements(figure, runs)
     return figure
 
@@ -56,13 +57,13 @@ def shown(run: Run) -> list[tuple[int, np.ndarray]]:
     return models if len(models) <= MOST else [*models[: MOST - 1], models[-1]]
 
 
-def draw_model(axes, number: int, table) -> None:
+def draw_model(axes: Axes, number: int, table) -> None:
     """One model: the threshold where it has one, the points where its wall carries, the overlap."""
     x, wall = table["x"], table["status"] == WALL
     if np.isfinite(table["tau"]).all():
         axes.plot(x, table["tau"], color=style.BLUE, label="threshold $T^N$", zorder=3)
         size = 5 if np.count_nonzero(wall) < CROWD else 2.5
-        dots = {"linestyle": "none", "marker": ".", "markersize": size, "color": style.BLUE, "zorder": 6}
+        dots: style.Look = {"linestyle": "none", "marker": ".", "markersize": size, "color": style.BLUE, "zorder": 6}
         axes.plot(x[wall], table["tau"][wall], label="the wall carries" if wall.any() else "_", **dots)
     axes.plot(x, table["s"], label="overlap $d^N$", **OVERLAP)
     axes.axhline(0, color=style.GREY, linewidth=0.6)

@@ -18,7 +18,7 @@ from types import SimpleNamespace
 import numpy as np
 from freefem import FREEFEM, ROOT, execute
 
-from postprocess.words import readable, with_error
+from postprocess.formatting import readable, with_error
 
 FOLDER = ROOT / "tests/verification"
 PAGE = ROOT / "tests/VERIFICATION.md"

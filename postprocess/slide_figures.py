@@ -1,7 +1,7 @@
 """Pictures of the lecture: sketches and closed forms, drawn without a run, for a slide or a page.
 
 `PICTURES` has the functions by name. Each draws into an empty figure; `drawn(function)` makes the figure for a slide,
-`drawn(function, slide=False)` for a page. The film of `postprocess/kit.py` alone needs a run.
+`drawn(function, slide=False)` for a page. The film of `postprocess/teaching_kit.py` alone needs a run.
 """
 
 import itertools
@@ -138,7 +138,7 @@ def laws(figure: Figure) -> None:
     axes.axvline(-d0, color=style.GREY, linewidth=0.8, linestyle=DASHED)
     axes.set_xlabel("overlap of the asperities $s = d - d_0$")
     axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def springs(figure: Figure) -> None:
@@ -159,7 +159,7 @@ def springs(figure: Figure) -> None:
     axes.set_yticks([0, 5, 10, 15])
     axes.set_xlabel("overlap of the asperities $s$")
     axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def hard(figure: Figure) -> None:
@@ -183,7 +183,7 @@ def hard(figure: Figure) -> None:
     axes.set_yticks([])
     axes.set_xlabel("overlap of the asperities $s$")
     axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def disc(figure: Figure) -> None:
@@ -266,7 +266,7 @@ def overshoot(figure: Figure) -> None:
     axes.set_xticks([])
     axes.set_xlabel("Newton step")
     axes.set_ylabel("relative error of $s$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 # ---------------------------------------------------------------- the paper's scheme
@@ -450,7 +450,7 @@ def uniform(figure: Figure) -> None:
         axes.set_ylim(-0.31, 0.1)
         axes.set_xlabel("place $x$ on the contact line")
         axes.set_title(name)
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    style.legend_outside(figure, "lower center", *left.get_legend_handles_labels(), ncols=3)
 
 
 def proximal(figure: Figure) -> None:
@@ -582,7 +582,7 @@ def orders(rows: list[tuple[str, float, float]], figure: Figure) -> None:
     axes.set_xticks([500, 1000, 2000, 5000, 10000], ["500", "1000", "2000", "5000", "10 000"])
     axes.minorticks_off()
     axes.grid(color="#e6e6e6", linewidth=0.8)
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 # ---------------------------------------------------------------- friction, space, adhesion
@@ -631,7 +631,7 @@ def mindlin(figure: Figure) -> None:
         axes.set_yticks([0], ["0"])
         axes.set_ylim(0, 1.1)
     panels[0].set_ylabel("traction")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    style.legend_outside(figure, "lower center", *panels[0].get_legend_handles_labels(), ncols=2)
 
 
 def loop(figure: Figure) -> None:
@@ -655,7 +655,7 @@ def loop(figure: Figure) -> None:
     axes.set_ylabel(r"tangential force $Q/(\mu P)$")
     axes.set_xticks([0], ["0"])
     axes.set_yticks([-1, 0, 1])
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def hertz(figure: Figure) -> None:

@@ -7,11 +7,12 @@ import textwrap
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import bodies_3d, style
 from postprocess.results import read_table
 
 
@@ -34,7 +35,7 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
         return figure
     rim = rims(at, face)
     at, face, body = finer(at, face, body)
-    views = [space.sight(azimuth, elevation), space.sight(azimuth + 180, -elevation)]
+    views = [bodies_3d.sight(azimuth, elevation), bodies_3d.sight(azimuth + 180, -elevation)]
     places = [seen_places(at, face, view) for view in views]
     inner = sorted(set(face.tolist()) - set(places[0]) - set(places[1]))
     figure.set_size_inches(style.COLUMN, (2.25 if inner else 1.5) * style.COLUMN)
@@ -58,7 +59,7 @@ def volumes(face: np.ndarray, body: np.ndarray) -> list[str]:
     return lines
 
 
-def draw_curves(axes, at: np.ndarray, curve: np.ndarray) -> None:
+def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     """Each curve's number at its middle."""
     place = at[:, :, :2]
     axes.add_collection(LineCollection(place, color=style.BLUE, linewidth=0.8))
@@ -125,12 +126,12 @@ def edges_of(rim: np.ndarray, view: np.ndarray) -> np.ndarray:
     return np.stack([ends[:-1], ends[1:]], axis=2).reshape(-1, 2, 3) @ view.T
 
 
-def draw_faces(axes, at, body, rim, view, places) -> None:
+def draw_faces(axes: Axes, at, body, rim, view, places) -> None:
     """Far triangles first, in their bodies' colours, the faces' edges on them; the numbers at their places."""
     seen = at @ view.T
     colours = shaded(seen, body)
     order = np.lexsort((seen[:, :, 2].mean(axis=1), ~hidden(seen.mean(axis=1), seen)))
-    shown = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
+    shown: style.Look = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
     axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **shown))
     edges = edges_of(rim, view)
     visible = ~hidden(edges.mean(axis=1), seen)
@@ -140,13 +141,13 @@ def draw_faces(axes, at, body, rim, view, places) -> None:
     frame(axes)
 
 
-def draw_inner(axes, at, face, body, rim, view, inner) -> None:
+def draw_inner(axes: Axes, at, face, body, rim, view, inner) -> None:
     """The faces that nothing else shows, over the edges of all."""
     seen = at @ view.T
     axes.add_collection(LineCollection(edges_of(rim, view)[:, :, :2], color="#B0B0B0", linewidth=0.3))
     own = np.isin(face, inner)
     depth = np.argsort(seen[own][:, :, 2].mean(axis=1))
-    fill = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
+    fill: style.Look = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
     axes.add_collection(PolyCollection(seen[own][depth][:, :, :2], rasterized=True, **fill))
     places: list[tuple[np.ndarray, list[str]]] = []
     for number in inner:
@@ -159,7 +160,7 @@ def draw_inner(axes, at, face, body, rim, view, inner) -> None:
     frame(axes)
 
 
-def frame(axes) -> None:
+def frame(axes: Axes) -> None:
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -192,6 +193,6 @@ def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
     return answer
 
 
-def write(axes, place: np.ndarray, number: int | str) -> None:
-    look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
+def write(axes: Axes, place: np.ndarray, number: int | str) -> None:
+    look: style.Look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
     axes.annotate(str(number), place, color=style.BLACK, **look)

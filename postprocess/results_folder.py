@@ -10,7 +10,7 @@ FIGURES = ("figures", "bench", "stability")  # folders whose pictures are figure
 
 
 @dataclass(frozen=True)
-class Tree:
+class ResultsFolder:
     """The folder, its runs by path, its figures and its movies' pages, each in alphabetical order."""
 
     path: Path
@@ -23,7 +23,7 @@ class Tree:
         return path.relative_to(self.path).as_posix() if path != self.path else self.path.name
 
 
-def read_tree(folder: Path | str) -> Tree:
+def read_results_folder(folder: Path | str) -> ResultsFolder:
     """Everything below a folder; a file that cannot be used is refused, none is left out silently."""
     path = Path(folder)
     if not path.is_dir():
@@ -34,7 +34,7 @@ def read_tree(folder: Path | str) -> Tree:
         movies = sorted(path.rglob("movie.html"))
     except OSError as error:
         raise ResultsError(error.filename or path, reason(error)) from None
-    return Tree(path, [read_run(summary.parent) for summary in summaries], pictures, movies)
+    return ResultsFolder(path, [read_run(summary.parent) for summary in summaries], pictures, movies)
 
 
 def read_png(path: Path) -> bytes:

@@ -10,7 +10,7 @@ from pathlib import Path
 from matplotlib.animation import FFMpegWriter, HTMLWriter, PillowWriter
 
 from postprocess import style
-from postprocess.frames import Movie
+from postprocess.newton_movie import NewtonMovie
 
 BEGIN, END = "<!-- player -->", "<!-- end of player -->"
 MILLISECONDS = 800  # a frame
@@ -31,7 +31,7 @@ ICONS = {
 }
 
 
-def render(movie: Movie, described: str, speed: float = 1) -> tuple[str, bytes, bytes | None]:
+def render(movie: NewtonMovie, described: str, speed: float = 1) -> tuple[str, bytes, bytes | None]:
     """Every frame drawn once: the player as a piece of HTML between BEGIN and END, the GIF's bytes, the MP4's.
 
     described: what the pictures show, for those who do not see them. speed: 2 is twice as fast. No MP4 without ffmpeg.

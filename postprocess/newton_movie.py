@@ -40,7 +40,7 @@ class Plane:
     at: object  # s -> pressure, or None
 
 
-class Movie:
+class NewtonMovie:
     """Draws the frames of one run, which was made with -states 1, into one figure."""
 
     def __init__(self, run: Run, units: style.Units):
@@ -72,7 +72,7 @@ class Movie:
         looks = [LOOKS[status] for status in used]
         handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in looks]
         handles.append(Line2D([], [], linestyle="none", marker=">", color=style.BLACK, label="beyond the picture"))
-        hollow = {"marker": "o", "markerfacecolor": "white", "color": style.BLUE, "linewidth": 0.6}
+        hollow: style.Look = {"marker": "o", "markerfacecolor": "white", "color": style.BLUE, "linewidth": 0.6}
         handles.append(Line2D([], [], label="off the law: on its tangent of the step before", **hollow))
         self.figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.05, 0.0), ncols=5, columnspacing=1.5)
 
@@ -142,7 +142,7 @@ class Movie:
             near = (x[triangles].max(1) > left) & (x[triangles].min(1) < right)
             near &= (y[triangles].max(1) > bottom - (right - left)) & (y[triangles].min(1) < top + (right - left))
             corners = np.stack([x[triangles[near]], y[triangles[near]]], axis=-1)
-            look = {"facecolor": FILLS[order % len(FILLS)], "edgecolor": LINES[order % len(LINES)]}
+            look: style.Look = {"facecolor": FILLS[order % len(FILLS)], "edgecolor": LINES[order % len(LINES)]}
             axes.add_collection(PolyCollection(corners, **look, linewidth=0.2, alpha=0.85, zorder=1))
         if self.rigid:
             outline = obstacle(run, self.steps, index, x, y)

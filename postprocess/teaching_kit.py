@@ -17,8 +17,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from postprocess import lecture, markdown, page, style
-from postprocess.page import Markup, element, joined
+from postprocess import html_page, markdown, slide_figures, style
+from postprocess.html_page import Markup, element, joined
 from postprocess.results import ResultsError, Run, read_run
 
 LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
@@ -59,7 +59,7 @@ def whole(title: str, css: str, body: str) -> bytes:
 
 
 def template_file(name: str) -> str:
-    return read(page.TEMPLATES / name).strip()
+    return read(html_page.TEMPLATES / name).strip()
 
 
 def embedded(png: bytes) -> str:
@@ -95,7 +95,7 @@ def film(run: Run) -> Markup:
     high = 1.6 * max(table["overlap"].max() for table in models) - 0.1 * low
     frames = []
     for number, table in enumerate(models, 1):
-        figure = Figure(figsize=lecture.SLIDE, layout="constrained")
+        figure = Figure(figsize=slide_figures.SLIDE, layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True)
         x, wall = table["x"], table["status"] == 2
         above.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6)
@@ -111,7 +111,7 @@ def film(run: Run) -> Markup:
         below.set_xlim(-reach, reach)
         below.set_ylabel("pressure")
         below.set_xlabel("$x$")
-        figure.legend(*above.get_legend_handles_labels(), loc="outside right upper")
+        style.legend_outside(figure, "right upper", *above.get_legend_handles_labels())
         frames.append(element("div", image(figure, f"Model {number}: {words}"), class_="frame"))
     names = [("back", "◀ model before"), ("on", "next model ▶"), ("play", "play")]
     buttons = joined((element("button", words, type="button", data_do=name) for name, words in names), " ")
@@ -168,15 +168,15 @@ def unlinked(target: str) -> str:
 def sheet(title: str, text: str, folder: Path) -> bytes:
     """A page to print."""
     body = element("main", markdown.markup(text, unlinked, picture_of(folder)), id="main")
-    return page.document(title, body).encode()
+    return html_page.document(title, body).encode()
 
 
 def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
     """(title, content, notes) of each slide."""
     drawn = {"algorithm": algorithm, "film": lambda: film(run)}
-    pictures = lecture.PICTURES | {"orders": functools.partial(lecture.orders, orders())}
+    pictures = slide_figures.PICTURES | {"orders": functools.partial(slide_figures.orders, orders())}
     found = []
-    with style.look(), mpl.rc_context(lecture.LARGE):
+    with style.look(), mpl.rc_context(slide_figures.LARGE):
         for text in re.split(r"^\*\*\*$", read(LABS / "slides.md"), flags=re.M):
             shown, _, notes = text.partition("\nNotes: ")
             title = re.search(r"^# (.*)$", shown, re.M)[1]
@@ -185,7 +185,9 @@ def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
                 if name in drawn:
                     made = drawn[name]()
                 else:
-                    made = image(lecture.drawn(pictures[name]), alt(getattr(pictures[name], "func", pictures[name])))
+                    made = image(
+                        slide_figures.drawn(pictures[name]), alt(getattr(pictures[name], "func", pictures[name]))
+                    )
                 content = Markup(content.replace(f"<p>{{{{{name}}}}}</p>", made))
             found.append((title, content, markdown.markup(notes, unlinked)))
     return found
@@ -233,7 +235,7 @@ def make(folder: Path) -> dict[str, bytes]:
     found = slides(read_run(folder))
     files = {"slides.html": slide_page(found)}
     notes = [joined([element("h2", f"{place}. {title}"), words]) for place, (title, _, words) in enumerate(found, 1)]
-    files["notes.html"] = page.document(
+    files["notes.html"] = html_page.document(
         "Speaker's notes", element("main", joined([element("h1", "Speaker's notes"), *notes]), id="main")
     ).encode()
     own = with_mesh()
@@ -263,5 +265,5 @@ def make(folder: Path) -> dict[str, bytes]:
     }
     items = (element("li", joined([element("a", name, href=name), ": ", text], "")) for name, text in words.items())
     body = element("main", joined([element("h1", "Teaching kit"), element("ul", joined(items))]), id="main")
-    files["index.html"] = page.document("Teaching kit", body).encode()
+    files["index.html"] = html_page.document("Teaching kit", body).encode()
     return files

@@ -8,6 +8,7 @@ import os
 from dataclasses import replace
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgb
@@ -95,7 +96,7 @@ def edges_of(grid: Grid, place: np.ndarray) -> np.ndarray:
     return sides[twins[bent]]
 
 
-def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
+def draw_parts(axes: Axes, bodies: Bodies, view: np.ndarray, stress: bool):
     """The deformed bodies from outside with their edges, and the pressures on them, or coloured by von Mises' stress.
 
     What only lies on a contact is seen through, unless stresses are drawn. Returns what a colour bar is for.
@@ -138,7 +139,7 @@ def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
     corner = corner - 0.13 * np.minimum(view[:2].min(axis=1), 0)
     for k, name in enumerate("xyz"):
         tip = 0.09 * view[:2, k]
-        look = {
+        look: style.Look = {
             "xycoords": "axes fraction",
             "textcoords": "axes fraction",
             "ha": "center",
@@ -163,7 +164,7 @@ def renderer():
     return None
 
 
-def rendered(axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque: np.ndarray) -> bool:
+def rendered(axes: Axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque: np.ndarray) -> bool:
     """Draws the faces in these colours by PyVista into the axes, in the view's coordinates; False without it."""
     pyvista = renderer()
     if pyvista is None:
@@ -252,7 +253,7 @@ def near_side(bodies: Bodies, contact: int) -> np.ndarray:
     return bodies.normals @ pressing(bodies, contact)[1] > 0
 
 
-def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
+def map_pressure(axes: Axes, bodies: Bodies, contact: int, units: style.Units):
     """The pressure on one contact's surface, seen along the mean of the normals where it presses.
 
     Only the side that is seen is drawn: the far side of a shaft lies behind it.
@@ -283,12 +284,12 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
     return colours
 
 
-def name_axes(axes, view: np.ndarray, across: int, upwards: int, units: style.Units) -> None:
+def name_axes(axes: Axes, view: np.ndarray, across: int, upwards: int, units: style.Units) -> None:
     axes.set_xlabel(f"{axis_name(view, across)} [{units.length}]")
     axes.set_ylabel(f"{axis_name(view, upwards)} [{units.length}]")
 
 
-def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
+def map_shear(axes: Axes, bodies: Bodies, contact: int, beside: Axes) -> float:
     """What sticks and slips on one contact's surface, and arrows: the shear on the slave. Returns the greatest.
 
     beside: the panel with the contact's pressure, of which this one shows the same part.
@@ -310,7 +311,7 @@ def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
     axes.imshow(colours[state[np.array(nearest)]], extent=box, origin="lower", interpolation="nearest")
     length = 0.85 * np.ptp(limits, axis=1).max() / np.sqrt(min(max(len(seen), 16), 250))
     part = slice(None, None, 1 + len(seen) // 250)
-    arrows = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
+    arrows: style.Look = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
     axes.quiver(*seen[part].T, *(shear[part] / max(greatest, 1e-300) * length).T, pivot="mid", **arrows)
     axes.set_xlim(limits[0])
     axes.set_ylim(limits[1])
@@ -319,7 +320,7 @@ def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
     return greatest
 
 
-def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
+def draw_section(axes: Axes, bodies: Bodies, contact: int, units: style.Units):
     """The section through the middle of what presses in one contact that holds its normal, with the outlines."""
     grid, count = bodies.grid, len(bodies.points)
     loads, normal = pressing(bodies, contact)
@@ -340,7 +341,13 @@ def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
     # without needles, which shading would colour far beyond their ends
     full = abs(np.linalg.det(place[:, 1:] - place[:, :1])) > 0.01 * longest
     mesh = Triangulation(*pieces.reshape(-1, 2).T, triangles[full])
-    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "vmax": stress_range(bodies), "rasterized": True}
+    look: style.Look = {
+        "cmap": "viridis",
+        "shading": "gouraud",
+        "vmin": 0,
+        "vmax": stress_range(bodies),
+        "rasterized": True,
+    }
     colours = axes.tripcolor(mesh, stress.ravel(), **look)
     axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.5))
     touched = bodies.points[bodies.touching(contact)] @ frame.T

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
+from postprocess.formatting import Units
 from postprocess.results import brief, is_number
-from postprocess.words import Units
 
 # numbers of the whole, which a case with several contacts does not have, or about the origin
 WHOLE = set(
