@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import Collection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
@@ -19,11 +20,11 @@ from matplotlib.tri import Triangulation
 from postprocess import style
 from postprocess.output import write_own
 from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
-from postprocess.vtu import Grid, Surface, bodies_file, read_grid, read_surface
+from postprocess.vtu import NONE, Grid, Surface, bodies_file, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
 ZONES = {1: "#CFE8DC", 2: "#FBE3C4"}  # behind curves: sticks, slips
-SHEAR = {"marker": "", "linestyle": (0, (4, 1.5))}
+SHEAR: style.Look = {"marker": "", "linestyle": (0, (4, 1.5))}
 LIGHT = np.array([-0.35, -0.5, 0.79])
 FARTHEST = 1.5  # an obstacle is drawn as far from the surface as that times the contact's size
 TOUCHING = 1e-3  # of the greatest pressure: what is shown of a contact
@@ -42,8 +43,8 @@ class Chain:
     along: np.ndarray  # from the origin on, or x
     rigid: bool
     origin: str  # what the arc length begins at: "axis", "middle" of the pressure; "" for x
-    shear: np.ndarray | None = None  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
-    slide: np.ndarray | None = None
+    shear: np.ndarray = NONE  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
+    slide: np.ndarray = NONE
 
     @property
     def joined(self) -> np.ndarray:
@@ -183,7 +184,7 @@ def units_of(run: Run, given: tuple[str, str]) -> style.Units:
     """The units named on the command line, or those that the run's case file names."""
     stated = run.summary.get("units")
     if tuple(given) == (style.Units.length, style.Units.stress) and isinstance(stated, list) and len(stated) == 2:
-        given = [brief(str(name), 20) for name in stated]
+        return style.Units(*(style.plain(brief(str(name), 20)) for name in stated))
     return style.Units(*map(style.plain, given))
 
 
@@ -322,11 +323,16 @@ def singular_places(bodies: Bodies) -> np.ndarray:
 
 
 def colour_bar(
-    figure: Figure, colours, axes: Axes, bodies: Bodies, units: style.Units, what: str = "von Mises"
+    figure: Figure,
+    colours: ScalarMappable | Collection,
+    axes: list[Axes],
+    bodies: Bodies,
+    units: style.Units,
+    what: str = "von Mises",
 ) -> None:
     """Beside one panel, below several; its end is an arrow where the greatest lies above, which is said."""
     most = bodies.grid.stress.max() if what == "von Mises" else bodies.greatest
-    above = colours.norm.vmax < most * (1 - 1e-9)
+    above = colours.get_clim()[1] < most * (1 - 1e-9)
     words = f"up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
     upright = len(axes) == 1 and np.ptp(axes[0].get_ylim()) > 0.4 * np.ptp(axes[0].get_xlim())
     label = f"{what} [{units.stress}]"
@@ -335,13 +341,13 @@ def colour_bar(
     look: style.Look = {"extend": "max" if above else "neither", "label": label}
     if upright:
         axes[0].set_anchor("W")
-        look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}
+        look |= {"cax": axes[0].inset_axes((1.03, 0, 0.045, 1))}
     else:
         look |= {"ax": axes, "location": "bottom", "aspect": 40, "pad": 0.02}
     figure.colorbar(colours, **look)
 
 
-def fill_plane(axes: Axes, bodies: Bodies, top: float | None):
+def fill_plane(axes: Axes, bodies: Bodies, top: float | None) -> Collection | None:
     """The bodies, each in its colour or all by von Mises' stress up to `top`, with their outlines.
 
     Returns what a colour bar is for.
@@ -357,7 +363,9 @@ def fill_plane(axes: Axes, bodies: Bodies, top: float | None):
         for number, body in enumerate(np.unique(grid.body)):
             cells = place[grid.cells[grid.body == body], :2]
             colour = FILLS[number % len(FILLS)]
-            axes.add_collection(PolyCollection(cells, facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
+            axes.add_collection(
+                PolyCollection(list(cells), facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1)
+            )
     lines = place[grid.skin][:, :, :2]
     axes.add_collection(LineCollection(lines, color=style.BLACK, linewidth=0.5, zorder=3))
     return colours
@@ -487,14 +495,15 @@ def plot_pressure(axes: Axes, bodies: Bodies, units: style.Units, narrow: bool =
     if rubs:
         colour = style.curve(min(seen))["color"] if len(seen) == 1 else style.BLACK
         axes.plot([], [], label="shear", linewidth=0.9, color=colour, **SHEAR)
-        above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
-        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 2}
+        above: style.Look = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
+        under: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 2}
         if narrow and len(seen) > 1:
             style.legend_outside(style.figure_of(axes), "lower right", *zone_legend(axes), fontsize=7, ncols=3)
         else:
-            axes.legend(*zone_legend(axes), fontsize=7, **(under if narrow else above))
+            handles, names = zone_legend(axes)
+            legend = axes.legend(handles, names, fontsize=7, **(under if narrow else above))
             # on a slide there is room below a narrow panel, which is not to be taken from the other ones
-            axes.get_legend().set_in_layout(not narrow)
+            legend.set_in_layout(not narrow)
         axes.set_anchor("N" if narrow else "C")
     elif axes.get_legend_handles_labels()[0]:
         below, above = (

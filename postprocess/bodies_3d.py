@@ -6,11 +6,12 @@ With PyVista, where it is installed, the view from outside is rendered; without 
 import contextlib
 import os
 from dataclasses import replace
+from types import ModuleType
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import Collection, LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.tri import Triangulation
 
@@ -22,7 +23,7 @@ from postprocess.vtu import Grid, bodies_file, cut
 VIEW = (-125.0, 22.0)
 EDGE = np.cos(np.radians(30))  # faces that meet at more than that have an edge
 THROUGH = 0.16  # how opaque a body is that hides a contact
-PRESSED = {"cmap": "YlOrRd", "vmin": 0}
+PRESSED: style.Look = {"cmap": "YlOrRd", "vmin": 0}
 PIXELS = 1400
 
 
@@ -96,7 +97,7 @@ def edges_of(grid: Grid, place: np.ndarray) -> np.ndarray:
     return sides[twins[bent]]
 
 
-def draw_parts(axes: Axes, bodies: Bodies, view: np.ndarray, stress: bool):
+def draw_parts(axes: Axes, bodies: Bodies, view: np.ndarray, stress: bool) -> ScalarMappable:
     """The deformed bodies from outside with their edges, and the pressures on them, or coloured by von Mises' stress.
 
     What only lies on a contact is seen through, unless stresses are drawn. Returns what a colour bar is for.
@@ -151,7 +152,7 @@ def draw_parts(axes: Axes, bodies: Bodies, view: np.ndarray, stress: bool):
     return scale
 
 
-def renderer():
+def renderer() -> ModuleType | None:
     """PyVista where it is installed and can draw without a screen, else None."""
     with contextlib.suppress(ImportError, AttributeError):
         import pyvista
@@ -253,7 +254,7 @@ def near_side(bodies: Bodies, contact: int) -> np.ndarray:
     return bodies.normals @ pressing(bodies, contact)[1] > 0
 
 
-def map_pressure(axes: Axes, bodies: Bodies, contact: int, units: style.Units):
+def map_pressure(axes: Axes, bodies: Bodies, contact: int, units: style.Units) -> Collection:
     """The pressure on one contact's surface, seen along the mean of the normals where it presses.
 
     Only the side that is seen is drawn: the far side of a shaft lies behind it.
@@ -320,7 +321,7 @@ def map_shear(axes: Axes, bodies: Bodies, contact: int, beside: Axes) -> float:
     return greatest
 
 
-def draw_section(axes: Axes, bodies: Bodies, contact: int, units: style.Units):
+def draw_section(axes: Axes, bodies: Bodies, contact: int, units: style.Units) -> Collection:
     """The section through the middle of what presses in one contact that holds its normal, with the outlines."""
     grid, count = bodies.grid, len(bodies.points)
     loads, normal = pressing(bodies, contact)
@@ -340,7 +341,7 @@ def draw_section(axes: Axes, bodies: Bodies, contact: int, units: style.Units):
     longest = np.square(np.roll(place, 1, axis=1) - place).sum(axis=2).max(axis=1)
     # without needles, which shading would colour far beyond their ends
     full = abs(np.linalg.det(place[:, 1:] - place[:, :1])) > 0.01 * longest
-    mesh = Triangulation(*pieces.reshape(-1, 2).T, triangles[full])
+    mesh = Triangulation(pieces[..., 0].ravel(), pieces[..., 1].ravel(), triangles[full])
     look: style.Look = {
         "cmap": "viridis",
         "shading": "gouraud",
@@ -349,7 +350,7 @@ def draw_section(axes: Axes, bodies: Bodies, contact: int, units: style.Units):
         "rasterized": True,
     }
     colours = axes.tripcolor(mesh, stress.ravel(), **look)
-    axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.5))
+    axes.add_collection(LineCollection(list(outline), color=style.BLACK, linewidth=0.5))
     touched = bodies.points[bodies.touching(contact)] @ frame.T
     middle, half = loads @ bodies.points @ frame.T / loads.sum(), 1.5 * np.ptp(touched, axis=0).max()
     for limits, at, reach, values in (

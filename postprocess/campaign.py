@@ -8,9 +8,11 @@ import csv
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -35,6 +37,7 @@ LAWS = {
 }
 
 Row = dict[str, str]
+Cells = dict[str, Any]  # cells that a row is chosen by: texts and numbers
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,7 @@ def numbers(rows: list[Row], name: str) -> np.ndarray:
     return np.array([number(row, name) for row in rows])
 
 
-def select(rows: list[Row], **wanted) -> list[Row]:
+def select(rows: list[Row], **wanted: str | float) -> list[Row]:
     """The rows with these cells: a text as it is, a number as a number."""
 
     def matches(row: Row, name: str, asked: object) -> bool:
@@ -146,7 +149,9 @@ def draw_failures(axes: Axes, x: np.ndarray, color: str) -> None:
         )
 
 
-def heat_map(axes: Axes, counts: np.ndarray, failed: np.ndarray, colors, size: float = 7) -> None:
+def heat_map(
+    axes: Axes, counts: np.ndarray, failed: np.ndarray, colors: tuple[Colormap, Normalize], size: float = 7
+) -> None:
     """A cell a count, annotated; a cell where a run failed is hatched, one without a run has a dot.
 
     counts: (rows, columns), NaN where there is no run; failed: (rows, columns) bool. colors: (colormap, norm).

@@ -1,6 +1,7 @@
 """The results of a case as on screen: of each contact, load, support and body, with errors and units."""
 
 from collections.abc import Iterator
+from typing import TypeGuard
 
 from postprocess.formatting import Units
 from postprocess.results import brief, is_number
@@ -28,7 +29,7 @@ def results(summary: dict) -> dict[str, tuple[object, object, str]]:
     }
 
 
-def is_vector(value: object) -> bool:
+def is_vector(value: object) -> TypeGuard[list[float]]:
     return isinstance(value, list) and len(value) > 0 and all(map(is_number, value))
 
 
@@ -38,8 +39,8 @@ def entries(holder: object, key: str) -> list[dict]:
     return [each for each in found if isinstance(each, dict)] if isinstance(found, list) else []
 
 
-def error_of(told: dict, key: str) -> object:
-    known = told.get(key)
+def error_of(estimates: dict, key: str) -> object:
+    known = estimates.get(key)
     return known.get("error") if isinstance(known, dict) else None
 
 
@@ -84,8 +85,12 @@ def of_supports(summary: dict, units: Units) -> Iterator[tuple]:
         if each.get("printed"):
             words = f"moment of {each.get('name')} on {each.get('body')}"
             moment = each.get("moment")
-            plane = isinstance(moment, list) and len(moment) == 1
-            yield words, moment[0] if plane else moment, each.get("error"), units.moment
+            yield (
+                words,
+                moment[0] if isinstance(moment, list) and len(moment) == 1 else moment,
+                each.get("error"),
+                units.moment,
+            )
 
 
 def of_bodies(summary: dict, units: Units) -> Iterator[tuple]:

@@ -8,6 +8,7 @@ import os
 import sys
 
 from postprocess import commands
+from postprocess.formatting import first_line
 from postprocess.results import ResultsError, brief
 
 
@@ -20,7 +21,7 @@ def parser() -> argparse.ArgumentParser:
     )
     subparsers = top.add_subparsers(title="subcommands", metavar="SUBCOMMAND", required=True)
     for name, module in commands.modules().items():
-        summary = module.__doc__.splitlines()[0]
+        summary = first_line(module)
         sub = subparsers.add_parser(
             name,
             help=summary,

@@ -257,7 +257,10 @@ def numbers(version: str) -> tuple:
 def within_bounds() -> bool:
     """Are there, in this Python itself, the packages that requirements.txt asks for?"""
     for line in (ROOT / "requirements.txt").read_text().split():
-        name, least, below = re.fullmatch(r"(\w+)>=([\d.]+),<([\d.]+)", line).groups()
+        stated = re.fullmatch(r"(\w+)>=([\d.]+),<([\d.]+)", line)
+        if not stated:
+            return False
+        name, least, below = stated.groups()
         try:
             version = numbers(importlib.metadata.version(name))
         except importlib.metadata.PackageNotFoundError:

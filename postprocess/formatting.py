@@ -45,7 +45,7 @@ class Units:
         if given and tuple(given) != UNNAMED:
             stated = list(given)
         known = isinstance(stated, list) and len(stated) == 2
-        self.length, self.stress = (brief(str(name), 20) for name in stated) if known else ("", "")
+        self.length, self.stress = (brief(str(name), 20) for name in stated) if stated and known else ("", "")
         self.plane = summary.get("state") in ("strain", "stress")
         self.force = self.moment = self.energy = ""
         if not known:
@@ -63,6 +63,11 @@ class Units:
         return f"{self.stress} {self.length}" + {1: "", 2: "²", 3: "³"}[power]
 
 
+def first_line(described: object) -> str:
+    """The first line of the docstring of a module or a function."""
+    return (described.__doc__ or "").partition("\n")[0]
+
+
 def short(value: object, digits: int = 6) -> str:
     """A number with so many digits; a dash for what is not defined."""
     if value is None:
@@ -76,8 +81,7 @@ def with_error(number: object, error: object = None, unit: str = "") -> str:
     """A number with its error to two digits; without one, five digits of the number."""
     if not is_number(number):
         return NONE
-    known = is_number(error) and error > 0
-    text = rounded(number, error) if known else f"{number:.5g}"
+    text = rounded(number, error) if is_number(error) and error > 0 else f"{number:.5g}"
     return readable(text) + (f" {unit}" if unit else "")
 
 

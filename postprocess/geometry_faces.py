@@ -62,7 +62,7 @@ def volumes(face: np.ndarray, body: np.ndarray) -> list[str]:
 def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     """Each curve's number at its middle."""
     place = at[:, :, :2]
-    axes.add_collection(LineCollection(place, color=style.BLUE, linewidth=0.8))
+    axes.add_collection(LineCollection(list(place), color=style.BLUE, linewidth=0.8))
     for number in np.unique(curve):
         own = place[curve == number]
         write(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
@@ -73,7 +73,7 @@ def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.set_title("Curves", loc="left", fontsize=6.5)
 
 
-def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray):
+def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Triangles cut until they are small beside the whole: each is drawn before or behind another as a whole."""
     for _ in range(5):
         large = (
@@ -126,7 +126,14 @@ def edges_of(rim: np.ndarray, view: np.ndarray) -> np.ndarray:
     return np.stack([ends[:-1], ends[1:]], axis=2).reshape(-1, 2, 3) @ view.T
 
 
-def draw_faces(axes: Axes, at, body, rim, view, places) -> None:
+def draw_faces(
+    axes: Axes,
+    at: np.ndarray,
+    body: np.ndarray,
+    rim: np.ndarray,
+    view: np.ndarray,
+    places: dict[int, np.ndarray],
+) -> None:
     """Far triangles first, in their bodies' colours, the faces' edges on them; the numbers at their places."""
     seen = at @ view.T
     colours = shaded(seen, body)
@@ -141,10 +148,18 @@ def draw_faces(axes: Axes, at, body, rim, view, places) -> None:
     frame(axes)
 
 
-def draw_inner(axes: Axes, at, face, body, rim, view, inner) -> None:
+def draw_inner(
+    axes: Axes,
+    at: np.ndarray,
+    face: np.ndarray,
+    body: np.ndarray,
+    rim: np.ndarray,
+    view: np.ndarray,
+    inner: list[int],
+) -> None:
     """The faces that nothing else shows, over the edges of all."""
     seen = at @ view.T
-    axes.add_collection(LineCollection(edges_of(rim, view)[:, :, :2], color="#B0B0B0", linewidth=0.3))
+    axes.add_collection(LineCollection(list(edges_of(rim, view)[:, :, :2]), color="#B0B0B0", linewidth=0.3))
     own = np.isin(face, inner)
     depth = np.argsort(seen[own][:, :, 2].mean(axis=1))
     fill: style.Look = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
@@ -195,4 +210,4 @@ def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
 
 def write(axes: Axes, place: np.ndarray, number: int | str) -> None:
     look: style.Look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
-    axes.annotate(str(number), place, color=style.BLACK, **look)
+    axes.annotate(str(number), (place[0], place[1]), color=style.BLACK, **look)

@@ -66,8 +66,8 @@ def table(caption: str, columns: Sequence[str], rows: Iterable[Sequence], number
             element("tbody", joined(body)),
         ]
     )
-    look = "scroll sideways" if len(columns) > MANY else "scroll"
-    return element("div", element("table", inner), class_=look, role="region", tabindex=0, aria_label=caption)
+    scrolling = "scroll sideways" if len(columns) > MANY else "scroll"
+    return element("div", element("table", inner), class_=scrolling, role="region", tabindex=0, aria_label=caption)
 
 
 def picture(png: bytes, alt: str, caption: Markup) -> Markup:

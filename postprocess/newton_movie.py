@@ -11,8 +11,8 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
-from postprocess.laws import law_of, overlap_at
-from postprocess.results import LAW, OPEN, TANGENT, WALL, ResultsError, Run, is_number
+from postprocess.laws import Law, law_of, overlap_at
+from postprocess.results import LAW, OPEN, TANGENT, WALL, ResultsError, Run, Steps, is_number
 
 SIZE = (8.6, 4.8)  # inches
 CROWD = 120  # points beyond which their dots are drawn smaller
@@ -21,7 +21,7 @@ HUGE = 1e100  # overlaps and pressures beyond it are not drawn
 FILLS = ("#DCE9F3", "#E9E6E1", "#E3EFE3")  # of the bodies, by region
 LINES = (style.BLUE, "#6E675F", style.GREEN)
 # Status of a point: what it is called, and how it is drawn; colour and shape both tell.
-LOOKS = {
+LOOKS: dict[int, tuple[str, style.Look]] = {
     OPEN: ("open", {"marker": "o", "markerfacecolor": "white", "color": style.GREY, "markersize": 3.5}),
     LAW: ("on the law", {"marker": "o", "color": style.BLUE, "markersize": 4.5}),
     WALL: ("at the wall", {"marker": "s", "color": style.VERMILION, "markersize": 4.5}),
@@ -37,7 +37,7 @@ class Plane:
     right: float
     top: float
     curve: tuple[np.ndarray, np.ndarray] | None
-    at: object  # s -> pressure, or None
+    at: Law | None  # s -> pressure
 
 
 class NewtonMovie:
@@ -143,7 +143,7 @@ class NewtonMovie:
             near &= (y[triangles].max(1) > bottom - (right - left)) & (y[triangles].min(1) < top + (right - left))
             corners = np.stack([x[triangles[near]], y[triangles[near]]], axis=-1)
             look: style.Look = {"facecolor": FILLS[order % len(FILLS)], "edgecolor": LINES[order % len(LINES)]}
-            axes.add_collection(PolyCollection(corners, **look, linewidth=0.2, alpha=0.85, zorder=1))
+            axes.add_collection(PolyCollection(list(corners), **look, linewidth=0.2, alpha=0.85, zorder=1))
         if self.rigid:
             outline = obstacle(run, self.steps, index, x, y)
             axes.add_patch(Polygon(outline, facecolor=FILLS[1], edgecolor=LINES[1], linewidth=0.8, alpha=0.7, zorder=2))
@@ -187,7 +187,7 @@ def line_words(run: Run, index: int) -> str:
     return "line 10: the thresholds stand still, the end" if run.summary["converged"] else "stopped before its end"
 
 
-def off_law(steps, plane: Plane, index: int) -> tuple[np.ndarray, np.ndarray]:
+def off_law(steps: Steps, plane: Plane, index: int) -> tuple[np.ndarray, np.ndarray]:
     """(off, pressure), a point each: whether it is off the law and its wall, and the law's pressure at its overlap."""
     s, pressure, tau = steps.s[index], steps.pressure[index], steps.tau[index]
     if plane.at is None:
@@ -259,7 +259,7 @@ def window_of(run: Run, ratio: float) -> tuple[float, float, float, float]:
     return middle - reach, middle + reach, surface - 0.7 * height, surface + 0.3 * height
 
 
-def obstacle(run: Run, steps, index: int, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def obstacle(run: Run, steps: Steps, index: int, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The outline (n, 2) of the rigid obstacle: at each point as far above the deformed surface as the gap says.
 
     x, y: deformed vertices. Scenes with a disc (parameter R) get its lower half, at the height that the points tell.

@@ -43,7 +43,11 @@ def save_figure(figure: Figure, kind: str, metadata: dict) -> Callable[[Path], o
 
 def write_files(contents: dict[Path, bytes]) -> list[Path]:
     """Writes each content under its name: all of them, or none."""
-    return write_whole({path: (lambda part, data=data: part.write_bytes(data)) for path, data in contents.items()})
+    return write_whole({path: bytes_writer(data) for path, data in contents.items()})
+
+
+def bytes_writer(data: bytes) -> Callable[[Path], object]:
+    return lambda path: path.write_bytes(data)
 
 
 def enter(folder: Path, names: list[str]) -> None:

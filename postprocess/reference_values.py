@@ -133,7 +133,8 @@ def paper_test(run: Run) -> dict[str, float]:
     if any(not equal(parameters[name], value) for name, value in PAPER_TEST.items() if name in parameters):
         return {}
     law = parameters.get("kappa"), parameters.get("m")
-    return PAPER.get(tuple(map(float, law)), {}) if all(map(is_number, law)) else {}
+    kappa, m = law
+    return PAPER.get((float(kappa), float(m)), {}) if is_number(kappa) and is_number(m) else {}
 
 
 def confined_block(run: Run) -> dict[str, float]:

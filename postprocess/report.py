@@ -4,6 +4,7 @@ import datetime
 import io
 import platform
 from dataclasses import replace
+from pathlib import Path
 
 import matplotlib
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from postprocess import doctor, figures, html_page, movie_player, style
 from postprocess.campaign import CONVERGED, Campaign, Row, good, number
 from postprocess.figures import cost
-from postprocess.formatting import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
+from postprocess.formatting import HISTORY_COLUMNS, captions, command, first_line, history_rows, place, run_words, short
 from postprocess.html_page import Markup, element, folded, joined, section, table
 from postprocess.reference_values import PAPER, Check, checks, paper_test
 from postprocess.results import ResultsError, Run, brief, is_number
@@ -213,17 +214,17 @@ def verdict(passed: bool, good_word: str, bad_word: str) -> Markup:
     return element("span", good_word if passed else bad_word, class_="pass" if passed else "fail")
 
 
-def figure(path, data: bytes) -> Markup:
+def figure(path: Path, data: bytes) -> Markup:
     """A picture, what is seen in it, and the command that makes it."""
     name = path.stem
     module = figures.modules().get(name)
-    title = f"{module.__doc__.splitlines()[0]}." if module else f"Picture {name}."
+    title = f"{first_line(module)}." if module else f"Picture {name}."
     seen = captions().get(name, title[0].upper() + title[1:])
     made = CAMPAIGNS[path.parent.name][1] if path.parent.name in CAMPAIGNS else f"make results/figures/{name}.pdf"
     return html_page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
 
 
-def read_movie(path) -> str | None:
+def read_movie(path: Path) -> str | None:
     """The player in a movie's page; None when it is too heavy to be shown here."""
     data = read_bytes(path)
     try:
@@ -235,7 +236,7 @@ def read_movie(path) -> str | None:
     return part if len(data) <= HEAVY else None
 
 
-def movie(tree: ResultsFolder, path, part: str | None) -> Markup:
+def movie(tree: ResultsFolder, path: Path, part: str | None) -> Markup:
     """A movie with its player, or a link to it."""
     name = tree.name(path.parent)
     runs = {run.path: run for run in tree.runs}

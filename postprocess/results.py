@@ -14,6 +14,7 @@ import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any, NoReturn, TypeGuard
 
 import numpy as np
 
@@ -55,14 +56,14 @@ class ResultsError(Exception):
         super().__init__(f"{path}: {what}")
 
 
-class JsonObject(dict):
+class JsonObject(dict[str, Any]):
     """An object of a JSON file; what is looked for and not there is a fault of that file."""
 
-    def __init__(self, path: Path, content: dict):
+    def __init__(self, path: Path, content: dict[str, Any]):
         super().__init__(content)
         self.path = path
 
-    def __missing__(self, key: str):
+    def __missing__(self, key: str) -> NoReturn:
         raise ResultsError(self.path, f"has no key {key} where one is needed")
 
 
@@ -412,7 +413,7 @@ def check_status(path: Path, status: np.ndarray) -> None:
         raise ResultsError(path, f"column status has {status[np.argmax(bad)]}, not {words}")
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[int | float]:
     """True for a finite JSON number; true and false are none."""
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 

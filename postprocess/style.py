@@ -16,7 +16,7 @@ import numpy as np
 from cycler import cycler
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
+from matplotlib.axis import Axis, XAxis
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.legend import Legend
@@ -124,7 +124,7 @@ def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool) -> tuple[Fi
     """
     mosaic = slide.split() if is_slide else [row for row, _ in page]
     across = np.lcm.reduce([len(row) for row in mosaic])
-    cells = [[letter for letter in row for _ in range(across // len(row))] for row in mosaic]
+    cells: list[Any] = [[letter for letter in row for _ in range(across // len(row))] for row in mosaic]
     if is_slide:
         figure = Figure(figsize=(PAGE, PAGE * 9 / 16), layout="constrained")
         return figure, figure.subplot_mosaic(cells)
@@ -158,16 +158,20 @@ def legend_outside(
 ) -> Legend:
     """A figure's legend beyond all axes, for which the constrained layout leaves room.
 
-    place: the side first, as "upper center", "lower left", "right upper". handles and labels as of Figure.legend: without
-    them all curves with labels. matplotlib has such legends from 3.7 on; before, the layout's rectangle leaves the room.
+    place: the side first, as "upper center", "lower left", "right upper". handles, labels: as of Figure.legend; without
+    them all curves with labels. matplotlib has such legends from 3.7 on. Before, the layout's rectangle leaves room.
     """
-    entries = {name: given for name, given in (("handles", handles), ("labels", labels)) if given is not None}
+    given = {"handles": handles, "labels": labels}
+    entries: Look = options | {name: value for name, value in given.items() if value is not None}
     if mpl.__version_info__ >= (3, 7):
-        return figure.legend(**entries, **options, loc=f"outside {place}")
+        entries["loc"] = f"outside {place}"
+        return figure.legend(**entries)
     root = figure.figure  # of a part of a figure the whole: the rectangle is the whole figure's
     side, along = place.split()
-    curves: Look = {} if entries or root is figure else dict(zip(("handles", "labels"), curves_of(figure), strict=True))
-    legend = root.legend(**entries, **curves, **options, loc=f"{along} {side}" if side == "right" else place)
+    if handles is None:
+        entries["handles"], entries["labels"] = curves_of(figure)
+    entries["loc"] = f"{along} {side}" if side == "right" else place
+    legend = root.legend(**entries)
     engine = layout_of(root)
     box, pads = legend.get_window_extent().transformed(root.transFigure.inverted()), engine.get()
     room = box.width + 2 * pads["w_pad"] if side == "right" else box.height + 2 * pads["h_pad"]
@@ -206,7 +210,7 @@ def curves_of(figure: Figure | SubFigure) -> tuple[list[Artist], list[str]]:
 
 def every_axes(figure: Figure) -> list[Axes]:
     """Panels and bars, with those that stand beside a panel."""
-    return [each for axes in figure.axes for each in (axes, *axes.child_axes) if each.axison]
+    return [each for axes in figure.axes for each in (axes, *axes.child_axes) if isinstance(each, Axes) and each.axison]
 
 
 def name_powers(figure: Figure) -> None:
@@ -242,7 +246,7 @@ def set_ticks(figure: Figure) -> None:
 def collide(axis: Axis) -> bool:
     """Does a tick's label touch the next one?"""
     boxes = [label.get_window_extent() for label in axis.get_majorticklabels() if label.get_text()]
-    side = 0 if axis.axis_name == "x" else 1
+    side = 0 if isinstance(axis, XAxis) else 1
     ends = sorted((box.min[side], box.max[side]) for box in boxes)
     return any(a[1] + 2 * axis.figure.dpi / 100 > b[0] for a, b in pairwise(ends))
 
@@ -255,7 +259,7 @@ def fold_titles(figure: Figure, titles: dict[Axes, str]) -> None:
         ends = [row.x0 for row in rows if row.x0 > place.x0 + 0.02 and row.y0 < place.y1 and place.y0 < row.y1]
         most = figure.bbox.width * min([1.0, *ends]) - figure.dpi / 40
         own = [bar.get_tightbbox() for bar in axes.child_axes]
-        most = min([most, *(bar.x0 for bar in own if bar.y1 > axes.bbox.y1 + figure.dpi / 12)])
+        most = min([most, *(bar.x0 for bar in own if bar is not None and bar.y1 > axes.bbox.y1 + figure.dpi / 12)])
         drawn = [each for each in axes.findobj(Text) if before and each.get_text() == before]
         for each in drawn:
             each.set_text(text)

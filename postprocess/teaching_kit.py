@@ -18,6 +18,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import html_page, markdown, slide_figures, style
+from postprocess.formatting import first_line
 from postprocess.html_page import Markup, element, joined
 from postprocess.results import ResultsError, Run, read_run
 
@@ -78,10 +79,9 @@ def orders() -> list[tuple[str, float, float]]:
     ((_, rows), *_) = markdown.tables(read(LABS / "8-error/ANSWERS.md"))
     degree = {"-order 1 ": "P1", "-h": "P2", "-order 4 -grading 60 ": "P4"}
     found = [
-        (degree[start], float(unknowns), float(error))
+        (degree[start[1]], float(unknowns), float(error))
         for flags, error, _, unknowns in rows
         if (start := re.fullmatch(r"`(-order 1 |-order 4 -grading 60 |-h(?= [\d.]+`))(?:-h )? ?[\d.]+`", flags))
-        and (start := start[1])
     ]
     return sorted(found)
 
@@ -150,7 +150,9 @@ def plain(text: str) -> str:
     return "\n".join(line for line in text.splitlines() if "ANSWERS" not in line and "INSTRUCTOR" not in line)
 
 
-def picture_of(folder: Path):
+def picture_of(folder: Path) -> Callable[[str], str]:
+    """From the name of a picture in a folder to its address that holds the picture itself."""
+
     def embed(source: str) -> str:
         path = folder / source
         if not path.is_file():
@@ -179,7 +181,7 @@ def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
     with style.look(), mpl.rc_context(slide_figures.LARGE):
         for text in re.split(r"^\*\*\*$", read(LABS / "slides.md"), flags=re.M):
             shown, _, notes = text.partition("\nNotes: ")
-            title = re.search(r"^# (.*)$", shown, re.M)[1]
+            title = next(line.removeprefix("# ") for line in shown.splitlines() if line.startswith("# "))
             content = markdown.markup(shown, unlinked, picture_of(LABS))
             for name in re.findall(r"<p>\{\{(\w+)\}\}</p>", content):
                 if name in drawn:
@@ -195,7 +197,7 @@ def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
 
 def alt(picture: Callable) -> str:
     """What a picture shows, in words: the first line of its function's description."""
-    return picture.__doc__.split("\n")[0].rstrip(".")
+    return first_line(picture).rstrip(".")
 
 
 def slide_page(found: list[tuple[str, Markup, Markup]]) -> bytes:

@@ -101,7 +101,7 @@ def read_names(path: Path) -> dict[str, list[str]]:
     found = {}
     for element in root.iterfind("UnstructuredGrid/FieldData/Array"):
         letters = bytes(int(letter) for letter in (element.text or "").split())
-        found[element.get("Name")] = [text.decode("utf-8", "replace") for text in letters.split(b"\0")[:-1]]
+        found[element.get("Name", "")] = [text.decode("utf-8", "replace") for text in letters.split(b"\0")[:-1]]
     return found
 
 

@@ -122,7 +122,17 @@ def roles(said: dict) -> dict[int, float]:
     return found | {numbers[pair[0]]: 2.4 for pair in pairs if pair[0] in numbers}
 
 
-def draw_plane(axes: Axes, at, cells, parts, sides, groups, colours, _view, widths) -> float:
+def draw_plane(
+    axes: Axes,
+    at: np.ndarray,
+    cells: np.ndarray,
+    parts: np.ndarray,
+    sides: np.ndarray,
+    groups: np.ndarray,
+    colours: dict[int, str],
+    _view: np.ndarray,
+    widths: dict[int, float],
+) -> float:
     """Elements in their bodies' colours, the groups' edges on them; the size of an element at the groups.
 
     Where surfaces touch as drawn, the thin line of a master lies on the wide one of its slave.
@@ -144,7 +154,17 @@ def draw_plane(axes: Axes, at, cells, parts, sides, groups, colours, _view, widt
     return float(np.median(np.hypot(*edges.T)))
 
 
-def draw_solid(axes: Axes, at, cells, _parts, sides, groups, colours, view, _widths) -> float:
+def draw_solid(
+    axes: Axes,
+    at: np.ndarray,
+    cells: np.ndarray,
+    _parts: np.ndarray,
+    sides: np.ndarray,
+    groups: np.ndarray,
+    colours: dict[int, str],
+    view: np.ndarray,
+    _widths: dict[int, float],
+) -> float:
     """The boundary from outside, far parts first, named groups in their colours; the size of an element there."""
     every = np.concatenate([np.delete(cells, corner, axis=1) for corner in range(CORNERS[10])])
     key, first, times = np.unique(np.sort(every, axis=1), axis=0, return_index=True, return_counts=True)
@@ -187,4 +207,4 @@ def draw_points(axes: Axes, points: dict, view: np.ndarray, size: float, shown: 
         zorder=5,
     )
     lines = np.stack([at[:, :2], (at + long * normal)[:, :2]], axis=1)
-    axes.add_collection(LineCollection(lines, color=style.BLACK, linewidth=0.3, zorder=5))
+    axes.add_collection(LineCollection(list(lines), color=style.BLACK, linewidth=0.3, zorder=5))

@@ -110,12 +110,12 @@ def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
             continue
         flags, quantity = key(row["flags"]), key(row["quantity"])
         words = f"{flags}, {quantity}: {value}"
-        cells = known.get((flags, quantity))
-        if cells is None:
+        values = known.get((flags, quantity))
+        if values is None:
             found.append((False, f"{words}: line {place}: the lab has no such number"))
             continue
         try:
-            best = min(cells, key=lambda cell: abs(number(value) - number(cell)))
+            best = min(values, key=lambda cell: abs(number(value) - number(cell)))
         except ValueError:
             found.append((False, f"{words}: line {place}: is not a number"))
             continue
@@ -141,7 +141,7 @@ def of_a_law(file: Path) -> list[tuple[bool, str]]:
             if path.exists():
                 (folder / path.name).symlink_to(path)
         shutil.copyfile(file, edp / "labs/4-own-law/mylaw.idp")
-        command = ["sh", edp / "freefem.sh", edp / "labs/4-own-law/own-law.edp", "-vtu", "0", "-out", folder / "out"]
+        command = ["sh", f"{edp}/freefem.sh", f"{edp}/labs/4-own-law/own-law.edp", "-vtu", "0", "-out", f"{folder}/out"]
         quiet = {name: value for name, value in os.environ.items() if name != "CONTACT_RESULTS"}
         quiet |= {"LC_ALL": "C"}
         try:

@@ -134,10 +134,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         positive = history["residual"] > 0
         residuals.plot(history["newton"][positive], history["residual"][positive], **look)
     touched = [run.contact["overlap"][run.contact["pressure"] > 0] for run in runs]
-    touched = np.concatenate(touched)
-    if len(touched):
-        span = max(float(np.ptp(touched)), 0.02 * abs(float(touched.max())), 1e-300)
-        overlaps.set_ylim(touched.min() - 0.5 * span, touched.max() + 0.1 * span)
+    reached = np.concatenate(touched)
+    if len(reached):
+        span = max(float(np.ptp(reached)), 0.02 * abs(float(reached.max())), 1e-300)
+        overlaps.set_ylim(reached.min() - 0.5 * span, reached.max() + 0.1 * span)
     across = "distance from the axis" if "z" in header(runs[0]) else "$x$"
     for axes in (pressures, overlaps):
         axes.set_xlabel(f"{across} [{units.length}]")

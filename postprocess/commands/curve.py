@@ -9,7 +9,6 @@ beside it.
 import argparse
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -96,7 +95,7 @@ def drawn(chosen: Run, units: Units) -> Figure:
         each.axvline(0, color=style.GREY, linewidth=0.5, zorder=0)
     for each in axes[1:]:
         each.set_xlim(left=0)
-        ends = np.flatnonzero(np.diff(legs(table))) if phased else []
+        ends = np.flatnonzero(np.diff(legs(table))) if phased else np.empty(0, int)
         for end in ends:
             each.axvline(table["step"][end], color=style.GREY, linewidth=0.5, linestyle=":", zorder=0)
     name_curves(figure, axes)
@@ -107,7 +106,7 @@ def named(words: str, width: int) -> str:
     return style.plain(style.folded(words, width))
 
 
-def name_curves(figure: Figure, axes: Axes) -> None:
+def name_curves(figure: Figure, axes: np.ndarray) -> None:
     """The names of each panel's curves above it; the page grows with the longest list, for the panels to stay."""
     found = [each.legend(loc="lower left", bbox_to_anchor=(0, 1)) for each in axes if each.lines]
     most = max(sum(1 + text.get_text().count("\n") for text in legend.get_texts()) for legend in found)

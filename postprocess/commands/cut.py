@@ -7,6 +7,7 @@ or a quarter is its mirror image. FILE.png is 860 pixels wide.
 import argparse
 import io
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 from PIL import Image
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(path)
 
 
-def drawn(pyvista, chosen: Run, factor: float, unit: str) -> np.ndarray:
+def drawn(pyvista: ModuleType, chosen: Run, factor: float, unit: str) -> np.ndarray:
     """The pixels: six contact radii wide, four deep."""
     path = bodies_file(chosen.path)
     radius = chosen.summary.get("halfWidthMoment")

@@ -8,6 +8,7 @@ with what it needs. The figures are written as PDF and PNG: all of them, or none
 import argparse
 import contextlib
 from pathlib import Path
+from types import ModuleType
 
 from postprocess import figures, style
 from postprocess.figures import overshoot
@@ -60,7 +61,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(f"not made: {line}")
 
 
-def material(tree: ResultsFolder, name: str, module) -> list | str:
+def material(tree: ResultsFolder, name: str, module: ModuleType) -> list | str:
     """What a figure is drawn from, or what it needs."""
     if hasattr(module, "READ"):
         folder = tree.path / name.partition("_")[0]
@@ -78,7 +79,7 @@ def material(tree: ResultsFolder, name: str, module) -> list | str:
     return chosen or f"needs {NEEDS.get(name, 'a run that holds what it shows')}"
 
 
-def first_that_fits(runs: list[Run], module) -> list[Run]:
+def first_that_fits(runs: list[Run], module: ModuleType) -> list[Run]:
     """For a figure of one run: the first that it can be drawn from."""
     for run in runs if module.RUNS[0] == 1 else ():
         with contextlib.suppress(ResultsError):

@@ -9,6 +9,7 @@ step by load step, where the contact sticks and slips; in space, the shares of t
 import argparse
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
@@ -162,7 +163,8 @@ def plot_zones(axes: Axes, chosen: Run, contact: int, steps: int, units: style.U
     axes.margins(y=0.05)
     axes.set_xlabel("load step")
     axes.set_ylabel(f"${'x' if flat else 'y'}$ [{units.length}]")
-    axes.legend([Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)], ["sticks", "slips"], **ABOVE)
+    squares: list[Artist] = [Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)]
+    axes.legend(squares, ["sticks", "slips"], **ABOVE)
 
 
 def plot_shares(axes: Axes, table: dict) -> None:
@@ -178,4 +180,4 @@ def plot_shares(axes: Axes, table: dict) -> None:
     axes.legend(**ABOVE)
 
 
-ABOVE = {"ncols": 2, "loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}
+ABOVE: style.Look = {"ncols": 2, "loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}

@@ -151,6 +151,27 @@ def numbers(values: np.ndarray) -> list[float]:
     return [float(f"{value:.9g}") for value in values]
 
 
-def call(file, name, array, top, title, unit, corner, colours, cut=None) -> str:
-    words = [file, name, array, float(f"{top:.6g}"), title, unit, corner, colours, *([cut] if cut else [])]
+def call(
+    file: str,
+    name: str,
+    array: str,
+    top: float,
+    title: str,
+    unit: str,
+    corner: str,
+    colours: str,
+    cut: list[list[float]] | None = None,
+) -> str:
+    """The line of the script that shows one file's grid; cut: a point and the normal of the plane that cuts it open."""
+    words: list[object] = [
+        file,
+        name,
+        array,
+        float(f"{top:.6g}"),
+        title,
+        unit,
+        corner,
+        colours,
+        *([cut] if cut else []),
+    ]
     return f"shown({', '.join(map(repr, words))})"

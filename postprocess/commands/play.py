@@ -70,7 +70,7 @@ def influence(h: float) -> dict[str, list[float]]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "influence.edp").write_text(text, encoding="utf-8")
-        command = ["sh", teaching_kit.LABS.parent / "freefem.sh", "influence.edp"]
+        command = ["sh", str(teaching_kit.LABS.parent / "freefem.sh"), "influence.edp"]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
         if done.returncode != 0:
             raise ResultsError("FreeFem++", f"ended with code {done.returncode}: {done.stdout.strip()[-300:]}")

@@ -131,92 +131,108 @@ def vector(values: object, size: float = 0) -> str:
 
 def length_of(values: object) -> float | None:
     """The length of a vector."""
-    known = isinstance(values, list) and all(map(is_number, values))
-    return math.hypot(*values) if known else None
+    return math.hypot(*values) if isinstance(values, list) and all(map(is_number, values)) else None
 
 
 def results(summary: dict, units: Units) -> list[Markup]:
-    """Tables of contacts, loads, supports and bodies."""
-    told = summary.get("estimates") or {}
+    """Tables of contacts, friction, loads, preloads, supports and bodies."""
+    forces = (abs(each["normalForce"]) for each in summary.get("contacts") or [] if is_number(each.get("normalForce")))
+    greatest = max(forces, default=0)
+    small = [
+        friction_table(summary, units),
+        loads_table(summary, units),
+        preloads_table(summary, units),
+        supports_table(summary, units, greatest),
+    ]
+    columns = element("div", joined(each for each in small if each is not None), class_="columns")
+    return [contacts_table(summary, units, greatest), columns, bodies_table(summary, units)]
+
+
+def contacts_table(summary: dict, units: Units, greatest: float) -> Markup:
+    """A row a contact: forces, greatest pressure, size, points; greatest: the largest normal force, for rounding."""
+    estimates = summary.get("estimates") or {}
     contacts = summary.get("contacts") or []
-    estimates = told.get("contacts") or [{}] * len(contacts)
     space = any("area" in each for each in contacts)
     length, area = ("area", f"{units.length}²" if units.length else "") if space else ("length", units.length)
     size = "area" if space else "contactLength"
-    most = max((abs(each["normalForce"]) for each in contacts if is_number(each.get("normalForce"))), default=0)
     rows = [
         [
             f"{brief(str(each['name']))}",
             estimated(known.get("normalForce"), each.get("normalForce")),
-            vector(each.get("force"), most),
+            vector(each.get("force"), greatest),
             estimated(known.get("pressureMax"), each.get("pressureMax"))
-            + ("" if known.get("pressureMax") or not told else " (±: unknown)"),
+            + ("" if known.get("pressureMax") or not estimates else " (±: unknown)"),
             estimated(known.get("contactLength"), each.get(size)),
             f"{short(each.get('contactPoints'))} of {short(each.get('points'))}",
         ]
-        for each, known in zip(contacts, estimates, strict=True)
+        for each, known in zip(contacts, estimates.get("contacts") or [{}] * len(contacts), strict=True)
     ]
     columns = ["contact", headed("normal force", units.force), headed("resultant", units.force)]
     columns += [headed("greatest pressure", units.stress), headed(length, area), "points in contact"]
-    first = table("Contacts", columns, rows, range(1, 6))
-    small = []
-    rubs = [
+    return table("Contacts", columns, rows, range(1, 6))
+
+
+def friction_table(summary: dict, units: Units) -> Markup | None:
+    """A row a contact with friction: shear force, share that sticks, dissipated energy; None without any."""
+    rows = [
         [
             brief(str(each["name"])),
             estimated((each.get("mesh") or {}).get("shearForce"), length_of(each["shearForce"])),
             f"{100 * each['stickShare']:.3g}" if is_number(each.get("stickShare")) else NONE,
             with_error(each.get("dissipated")),
         ]
-        for each in contacts
+        for each in summary.get("contacts") or []
         if "shearForce" in each
     ]
-    if rubs:
-        columns = ["contact", headed("shear force", units.force), "sticks on, %", "dissipated"]
-        small.append(table("Friction", columns, rubs, range(1, 4)))
-    ways = {each["name"]: each.get("way") for each in told.get("loads") or []}
-    loads = [
-        [
-            brief(str(each["name"])),
-            with_error(each.get("force")),
-            estimated(ways.get(each["name"]), (ways.get(each["name"]) or {}).get("value")),
-        ]
-        for each in summary.get("prescribed") or []
-    ]
-    if loads:
-        columns = ["load", headed("force", units.force), headed("displacement along it", units.length)]
-        small.append(table("Loads", columns, loads, (1, 2)))
-    tight = [
-        [
-            brief(str(each["name"])),
-            with_error(each["preload"]),
-            with_error(each["force"]),
-        ]
+    columns = ["contact", headed("shear force", units.force), "sticks on, %", "dissipated"]
+    return table("Friction", columns, rows, range(1, 4)) if rows else None
+
+
+def loads_table(summary: dict, units: Units) -> Markup | None:
+    """A row a load: its force, and the displacement of its load point; None without any."""
+    loads = (summary.get("estimates") or {}).get("loads") or []
+    displacements = {each["name"]: each.get("way") for each in loads}
+    rows = []
+    for each in summary.get("prescribed") or []:
+        displacement = displacements.get(each["name"])
+        value = estimated(displacement, (displacement or {}).get("value"))
+        rows.append([brief(str(each["name"])), with_error(each.get("force")), value])
+    columns = ["load", headed("force", units.force), headed("displacement along it", units.length)]
+    return table("Loads", columns, rows, (1, 2)) if rows else None
+
+
+def preloads_table(summary: dict, units: Units) -> Markup | None:
+    """A row a preloaded cut: the force of tightening, and the force under the loads; None without any."""
+    rows = [
+        [brief(str(each["name"])), with_error(each["preload"]), with_error(each["force"])]
         for each in summary.get("preloads") or []
     ]
-    if tight:
-        columns = ["cut", headed("tightened to", units.force), headed("carries", units.force)]
-        small.append(table("Preloads", columns, tight, (1, 2)))
-    held = [[brief(str(each["name"])), vector(each.get("force"), most)] for each in summary.get("supports") or []]
-    if held:
-        small.append(table("Supports", ["support", headed("carries", units.force)], held, [1]))
-    strained = {each["body"]: each for each in summary.get("stresses") or []}
-    bodies = [
+    columns = ["cut", headed("tightened to", units.force), headed("carries", units.force)]
+    return table("Preloads", columns, rows, (1, 2)) if rows else None
+
+
+def supports_table(summary: dict, units: Units, greatest: float) -> Markup | None:
+    """A row a support with its reaction; None without any."""
+    rows = [[brief(str(each["name"])), vector(each.get("force"), greatest)] for each in summary.get("supports") or []]
+    return table("Supports", ["support", headed("carries", units.force)], rows, [1]) if rows else None
+
+
+def bodies_table(summary: dict, units: Units) -> Markup:
+    """A row a body: its mean displacement and, where the run has stresses, the greatest von Mises stress."""
+    stresses = {each["body"]: each for each in summary.get("stresses") or []}
+    rows = [
         [
             brief(str(each["name"])),
             vector(each["motion"][: 3 if summary["scene"] == "parts-3d" else 2]),
-            *of_stress(strained.get(each["name"])),
+            *of_stress(stresses.get(each["name"])),
         ]
         for each in summary["bodies"]
     ]
     columns = ["body", headed("mean displacement", units.length)]
-    if strained:
+    if stresses:
         columns += [headed("greatest von Mises stress", units.stress), headed("at", units.length)]
         columns += [headed("yield stress", units.stress)]
-    return [
-        first,
-        element("div", joined(small), class_="columns"),
-        table("Bodies", columns, bodies, range(1, len(columns))),
-    ]
+    return table("Bodies", columns, rows, range(1, len(columns)))
 
 
 def of_stress(each: dict | None) -> list[str]:

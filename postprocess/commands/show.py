@@ -51,7 +51,7 @@ def table(summary: dict) -> list[str]:
         row = 0
         for name, value in group.items():
             # a warning a line: each is a sentence
-            for text in map(cell, value) if name == "warnings" and value else [cell(value)]:
+            for text in map(cell, value) if name == "warnings" and isinstance(value, list) and value else [cell(value)]:
                 lines.append(f"{title if row == 0 else '':<{title_width}}{name:<{name_width}}{text}")
                 row += 1
         lines.append("")
@@ -61,13 +61,13 @@ def table(summary: dict) -> list[str]:
 def with_error(summary: dict, name: str) -> object:
     """A number with what the run says of its error, where it says so; any other value as it is."""
     told = (summary.get("estimates") or {}).get(name)
-    known = isinstance(told, dict) and told.get("error")
-    return f"{cell(summary[name])} ± {told['error']:.2g}" if known else summary[name]
+    error = told.get("error") if isinstance(told, dict) else None
+    return f"{cell(summary[name])} ± {error:.2g}" if error else summary[name]
 
 
 def number(value: object, error: object, unit: str) -> str:
     """A number, or the parts of a force, with its error and its unit."""
-    text = cell(value) if is_number(value) else f"({', '.join(map(cell, value))})"
+    text = f"({', '.join(map(cell, value))})" if isinstance(value, list) else cell(value)
     text += f" ± {error:.2g}" if is_number(error) and error > 0 else ""
     return f"{text} {unit}".rstrip()
 

@@ -6,12 +6,13 @@ FILE.pdf is written, and FILE.png beside it: both, or neither.
 import argparse
 
 from postprocess import slide_figures, style
+from postprocess.formatting import first_line
 from postprocess.output import write_figure
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     width = max(map(len, slide_figures.PICTURES)) + 2
-    table = [f"  {name:<{width}}{draw.__doc__.splitlines()[0]}" for name, draw in slide_figures.PICTURES.items()]
+    table = [f"  {name:<{width}}{first_line(draw)}" for name, draw in slide_figures.PICTURES.items()]
     parser.epilog = "\n".join(["pictures:", *table])
     parser.add_argument("name", choices=list(slide_figures.PICTURES), metavar="NAME", help="which picture to draw")
     parser.add_argument("--out", required=True, metavar="FILE.pdf", help="where to write; folders are created")

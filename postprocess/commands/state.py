@@ -90,7 +90,7 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
         axes.ticklabel_format(useOffset=False)
         axes.set_xlabel(f"$x$ [{units.length}]")
         axes.set_ylabel(f"$y$ [{units.length}]")
-        if stress and (contact is None or each == 1):
+        if colours is not None and (contact is None or each == 1):
             drawn.colour_bar(figure, colours, [axes], bodies, units)
         words = drawn.motion(bodies, units) + more
         if contact is not None:
@@ -141,7 +141,8 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
     if rubs:
         below: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4}
         last = panels[maps[-1]]
-        last.legend(*drawn.zone_legend(last), fontsize=7, ncols=2, handlelength=1.2, **below)
+        handles, names = drawn.zone_legend(last)
+        last.legend(handles, names, fontsize=7, ncols=2, handlelength=1.2, **below)
     bodies_3d.draw_parts(panels[body], bodies, eye(bodies, contacts[0], view), False)
     drawn.title(panels[body], len(maps), drawn.motion(bodies, units) + more, 44 if slide else 56)
     drawn.colour_bar(figure, colours, [panels[letter] for letter in maps], bodies, units, "pressure")

@@ -18,6 +18,7 @@ import signal
 import subprocess
 import time
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -175,7 +176,8 @@ def done(folder: Path, origin: str) -> bool:
 def execute(todo: list, mesh: Path, origin: str, arguments: argparse.Namespace) -> None:
     """So many at once; when interrupted none is left running."""
     script = "parts-3d" if arguments.space else "parts"
-    running, waiting = {}, list(todo)
+    running: dict[subprocess.Popen[bytes], tuple[Path, BinaryIO]] = {}
+    waiting = list(todo)
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
         while running or waiting:

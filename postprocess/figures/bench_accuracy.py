@@ -7,19 +7,19 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Row, contact_seconds, good, name_meshes, number, read_campaign, select
+from postprocess.campaign import Campaign, Cells, Row, contact_seconds, good, name_meshes, number, read_campaign, select
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
 READ = read_campaign
 
 SERIES = {"adaptive": "own meshes (-accuracy)", "graded": "graded by hand", "uniform": "uniform"}
-LOOKS = {
+LOOKS: dict[str, style.Look] = {
     "adaptive": {"color": style.BLUE, "marker": "o"},
     "graded": {"color": style.VERMILION, "marker": "s"},
     "uniform": {"color": style.GREEN, "marker": "^"},
 }
-PROBLEMS = {
+PROBLEMS: dict[str, Cells] = {
     r"disc, $\kappa = 10^3$": {"scene": "disc-on-block", "kappa": 1e3},
     r"disc, $\kappa = 10^9$": {"scene": "disc-on-block", "kappa": 1e9},
     r"disc, $\kappa = 10^{12}$": {"scene": "disc-on-block", "kappa": 1e12},

@@ -9,6 +9,7 @@ from postprocess import style
 from postprocess.campaign import (
     NAMES,
     Campaign,
+    Cells,
     Row,
     contact_seconds,
     good,
@@ -31,7 +32,7 @@ ERRORS = {
     "halfWidthError": "half-width",
     "profileError": "pressure profile",
 }
-PROBLEMS = {
+PROBLEMS: dict[str, Cells] = {
     r"$\kappa = 10^3$": {"scene": "disc-on-block", "kappa": 1e3, "m": 3.0},
     r"$\kappa = 10^{12}$": {"scene": "disc-on-block", "kappa": 1e12, "m": 3.0},
     "sphere": {"scene": "sphere-on-block"},

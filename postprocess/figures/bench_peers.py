@@ -113,7 +113,7 @@ def draw_code(axes: Axes, rows: list[Row], color: str) -> None:
             markersize=3.5,
             markeredgewidth=0.8,
         )
-    front = []
+    front: list[tuple[float, float]] = []
     for seconds, error, _ in sorted(points):
         if not front or error < front[-1][1]:
             front.append((seconds, error))

@@ -50,7 +50,7 @@ def place_legend(axes: Axes) -> None:
         "framealpha": 1,
     }  # over the adaptations' lines
     legend = axes.legend(loc="upper right", labelspacing=0.3, borderaxespad=0.1, **white)
-    axes.figure.draw_without_rendering()
+    style.figure_of(axes).draw_without_rendering()
     bottom, top = np.log10(axes.dataLim.y0) - 0.5, np.log10(axes.dataLim.y1) + 0.5
     covered = min(0.8, legend.get_window_extent().height / axes.get_window_extent().height + 0.03)
     axes.set_ylim(10**bottom, 10 ** (bottom + (top - bottom) / (1 - covered)))
@@ -69,7 +69,7 @@ def draw_curve(axes: Axes, run: Run, index: int, label: str, floor: float) -> No
     for piece in np.split(np.arange(len(newton)), starts):
         axes.plot(newton[piece], residual[piece], label=label, **look, **hollow, zorder=3)
         axes.plot(newton[piece[-1]], residual[piece[-1]], **look, markersize=hollow["markersize"], zorder=4)
-        label = None
+        label = "_"
     for start in starts:
         pair = [start - 1, start]
         axes.plot(newton[pair], residual[pair], color=look["color"], linewidth=0.6, linestyle=":", zorder=2)

@@ -76,4 +76,5 @@ def block_line(run: Run) -> tuple[float, float, float]:
 
 def state(run: Run) -> tuple[float, float, float]:
     """(overlap, pressure, s) of the points, which are all alike."""
-    return tuple(float(np.mean(run.contact[column])) for column in ("overlap", "pressure", "s"))
+    overlap, pressure, s = (float(np.mean(run.contact[column])) for column in ("overlap", "pressure", "s"))
+    return overlap, pressure, s

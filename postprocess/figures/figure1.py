@@ -147,36 +147,33 @@ def draw_state(axes: Axes, run: Run, edges: Bodies, state: int, weight: float) -
     """Both bodies in one state: fills, the overlap on top of them, mesh lines of the given weight [points] last."""
     states, mesh = run.states, run.mesh
     x, y = states.x + states.ux[state], states.y + states.uy[state]
-    outline = None
     for region in np.unique(mesh.region):
         triangles = mesh.triangles[mesh.region == region]
         colour = FILL.get(int(region), FILL[BLOCK])
         corners = np.stack([x[triangles], y[triangles]], axis=-1)
-        axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
+        axes.add_collection(PolyCollection(list(corners), facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
         lines = Triangulation(x, y, triangles).edges
         segments = np.stack([x[lines], y[lines]], axis=-1)
         colour = LINE.get(int(region), LINE[BLOCK])
-        axes.add_collection(LineCollection(segments, color=colour, linewidth=weight, zorder=3))
-    if edges.disc is None:
-        outline = half_disc(run, state)
-        axes.add_patch(Polygon(outline, facecolor=FILL[DISC], edgecolor=LINE[DISC], linewidth=0.6, zorder=1.5))
+        axes.add_collection(LineCollection(list(segments), color=colour, linewidth=weight, zorder=3))
     at = np.linspace(x[edges.block].min(), x[edges.block].max(), 2001)
     surface = envelope(at, x, y, edges.block, np.fmax)
-    if outline is None:
+    if edges.disc is not None:
         obstacle = envelope(at, x, y, edges.disc, np.fmin)
         draw_boundary(axes, x, y, edges.disc, LINE[DISC])
     else:
-        radius = run.parameter("R")
+        outline, radius = half_disc(run, state), run.parameter("R")
+        axes.add_patch(Polygon(outline, facecolor=FILL[DISC], edgecolor=LINE[DISC], linewidth=0.6, zorder=1.5))
         with np.errstate(invalid="ignore"):
             obstacle = outline[0, 1] - np.sqrt(radius**2 - at**2)
     draw_boundary(axes, x, y, edges.block, LINE[BLOCK])
     axes.fill_between(at, obstacle, surface, where=surface > obstacle, color=style.ORANGE, linewidth=0, zorder=2)
 
 
-def draw_boundary(axes: Axes, x, y, edges, colour: str) -> None:
+def draw_boundary(axes: Axes, x: np.ndarray, y: np.ndarray, edges: np.ndarray, colour: str) -> None:
     """The outline of a body."""
     segments = np.stack([x[edges], y[edges]], axis=-1)
-    axes.add_collection(LineCollection(segments, color=colour, linewidth=0.7, capstyle="round", zorder=4))
+    axes.add_collection(LineCollection(list(segments), color=colour, linewidth=0.7, capstyle="round", zorder=4))
 
 
 def boundary(triangles: np.ndarray) -> np.ndarray:
@@ -186,7 +183,7 @@ def boundary(triangles: np.ndarray) -> np.ndarray:
     return edges[counts == 1]
 
 
-def envelope(at: np.ndarray, x: np.ndarray, y: np.ndarray, edges: np.ndarray, choose) -> np.ndarray:
+def envelope(at: np.ndarray, x: np.ndarray, y: np.ndarray, edges: np.ndarray, choose: np.ufunc) -> np.ndarray:
     """The greatest (np.fmax) or least (np.fmin) height of a boundary over each abscissa; NaN beside the body."""
     height = np.full(len(at), np.nan)
     for start, end in edges:

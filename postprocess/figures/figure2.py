@@ -104,7 +104,7 @@ def check_comparable(run: Run, reference: Run) -> None:
                 f"{name} = {ours[name]}, but {theirs[name]} in {reference.path}: not the same problem",
             )
     for each in (run, reference):
-        touching = np.count_nonzero(each.contact["pressure"] > 0)
+        touching = int(np.count_nonzero(each.contact["pressure"] > 0))
         if touching < LEAST_POINTS:
             raise ResultsError(
                 each.path / "contact.csv",

@@ -46,8 +46,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         panels[0].xaxis.set_major_formatter("{x:g}")
         panels[0].xaxis.set_minor_formatter(NullFormatter())
         place, entries = "lower left" if side else "lower right", panels[0].get_legend_handles_labels()
-        look: style.Look = {"fontsize": 7, "handlelength": 1.5, "title_fontproperties": {"size": 7}}
-        style.legend_outside(figure, place, *entries, title="slopes of the three rows", **look)
+        small: style.Look = {"fontsize": 7, "handlelength": 1.5, "title_fontproperties": {"size": 7}}
+        style.legend_outside(figure, place, *entries, title="slopes of the three rows", **small)
     for index, (row, what) in enumerate(zip(grid, WHAT, strict=True)):
         row[0].set_yscale("log")
         row[0].yaxis.set_minor_formatter(NullFormatter())

@@ -1,5 +1,7 @@
 """patch tests: pressure between two meshes that do not match over its exact value, in the plane and in space"""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -18,7 +20,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     plane = [run for run in runs if run.summary["scene"] == "patch-test"]
     space = [run for run in runs if run not in plane]
     off = [100 * (run.contact["pressure"] / patch_pressure(run) - 1) for run in plane + space]
-    rows = [["plane"] * max(len(space), 1)] * bool(plane) + [
+    rows: list[Any] = [["plane"] * max(len(space), 1)] * bool(plane) + [
         [f"space {number}" for number in range(len(space))]
     ] * bool(space)
     figure = Figure(figsize=(style.COLUMN, 0.68 * len(rows) * style.COLUMN), layout="constrained")

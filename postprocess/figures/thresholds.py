@@ -5,14 +5,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.results import WALL, ResultsError, Run
+from postprocess.results import WALL, ResultsError, Run, Table
 
 RUNS = (1, 3)
 
 MOST = 4  # models of a run that are shown: the first ones and the last
 CROWD = 40  # points beyond which their dots are drawn smaller
 FAR_WALL = 30  # walls this many times beyond the greatest overlap need a logarithmic axis
-OVERLAP = {"color": style.VERMILION, "linestyle": (0, (4, 1.5)), "zorder": 5}
+OVERLAP: style.Look = {"color": style.VERMILION, "linestyle": (0, (4, 1.5)), "zorder": 5}
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
@@ -45,7 +45,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def shown(run: Run) -> list[tuple[int, np.ndarray]]:
+def shown(run: Run) -> list[tuple[int, Table]]:
     """(N, table) of the models that were solved under the full load: all of a few, else the first ones and the last."""
     history, tables = run.history, run.adaptations
     if len(history["step"]):
@@ -57,7 +57,7 @@ def shown(run: Run) -> list[tuple[int, np.ndarray]]:
     return models if len(models) <= MOST else [*models[: MOST - 1], models[-1]]
 
 
-def draw_model(axes: Axes, number: int, table) -> None:
+def draw_model(axes: Axes, number: int, table: Table) -> None:
     """One model: the threshold where it has one, the points where its wall carries, the overlap."""
     x, wall = table["x"], table["status"] == WALL
     if np.isfinite(table["tau"]).all():
@@ -78,9 +78,9 @@ def limits(grid: np.ndarray, tables: list) -> None:
     if top <= 0:
         raise ResultsError("adaptations.csv", "no overlap beyond d0 and no wall beyond it: nothing to draw")
     touched = [table["x"][(table["s"] > 0) | (table["status"] == WALL)] for table in tables]
-    touched = np.concatenate(touched) if any(map(len, touched)) else x
-    margin = 0.15 * np.ptp(touched) or 0.05 * np.ptp(x)
-    grid[0, 0].set_xlim(max(touched.min() - margin, x.min()), min(touched.max() + margin, x.max()))
+    shown = np.concatenate(touched) if any(map(len, touched)) else x
+    margin = 0.15 * np.ptp(shown) or 0.05 * np.ptp(x)
+    grid[0, 0].set_xlim(max(shown.min() - margin, x.min()), min(shown.max() + margin, x.max()))
     if reached > 0 and top > FAR_WALL * reached:
         grid[0, 0].set_yscale("log")
         grid[0, 0].set_ylim(reached * 1e-2, top * 3)
