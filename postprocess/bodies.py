@@ -6,7 +6,7 @@ bodies in space is in bodies_3d.py.
 
 import argparse
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -43,8 +43,10 @@ class Chain:
     along: np.ndarray  # from the origin on, or x
     rigid: bool
     origin: str  # what the arc length begins at: "axis", "middle" of the pressure; "" for x
-    shear: np.ndarray = NONE  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
-    slide: np.ndarray = NONE
+    shear: np.ndarray = field(
+        default_factory=lambda: NONE
+    )  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
+    slide: np.ndarray = field(default_factory=lambda: NONE)
 
     @property
     def joined(self) -> np.ndarray:

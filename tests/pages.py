@@ -21,7 +21,6 @@ import test_contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
-sys.path.append(str(EDP / "case"))  # the reader of cases
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 EXAMPLES = ["scenes/slurm.sh"]
 EVERYWHERE = "case/flags", "case/texts", "case/hooks", "case/scene", "contact/points", "bodies/elasticity"

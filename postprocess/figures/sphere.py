@@ -36,7 +36,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     style.layout_of(figure).set(h_pad=0.09)
     top: Figure | SubFigure = figure
     if whole:
-        top, bottom = np.ravel(figure.subfigures(2, 1, height_ratios=[1, 1.05]))
+        (top,), (bottom,) = figure.subfigures(2, 1, squeeze=False, height_ratios=[1, 1.05])
     left, right = top.subplots(1, 2)
     colours = draw_map(left, run, middle, a, units)
     top.colorbar(colours, ax=left, label=f"pressure $p$ [{units.stress}]", shrink=0.85)
