@@ -1,4 +1,4 @@
-"""The Python of postprocess/ and edp/case/: functions that fit on a screen, no private modules, no edited path of modules."""
+"""The Python of postprocess/ and edp/case/: short functions, no private modules, no edited path of modules."""
 
 import ast
 import re
@@ -51,7 +51,7 @@ def test_path_of_modules_is_not_edited(folder):
 
 
 def test_few_types_are_left_out():
-    """mypy shall be told to overlook no line of postprocess, and few of the reader, each for one fault that is named."""
+    """mypy shall be told to overlook no line of postprocess, and few of the reader, each for one named fault."""
     texts = {path: (ROOT / path).read_text().splitlines() for path in trees()}
     lines = [f"{path}: {line}" for path, text in texts.items() for line in text if "type: ignore" in line]
     assert len(lines) <= 5 and all(line.startswith("edp/") and "type: ignore[" in line for line in lines), lines
