@@ -174,7 +174,8 @@ def legend_outside(
     legend = root.legend(**entries)
     engine = layout_of(root)
     box, pads = legend.get_window_extent().transformed(root.transFigure.inverted()), engine.get()
-    room = box.width + 2 * pads["w_pad"] if side == "right" else box.height + 2 * pads["h_pad"]
+    across, up = root.get_size_inches()  # the layout's pads are in inches
+    room = box.width + 2 * pads["w_pad"] / across if side == "right" else box.height + 2 * pads["h_pad"] / up
     left, bottom, width, height = pads["rect"]
     right, top = left + width, bottom + height
     right = min(right, 1 - room) if side == "right" else right
