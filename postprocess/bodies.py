@@ -18,8 +18,8 @@ from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
+from postprocess.output import write_figure_of_run
+from postprocess.results import ResultsError, Run, column_names, one_line, read_run, read_table
 from postprocess.vtu import NONE, Grid, Surface, bodies_file, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
@@ -115,15 +115,15 @@ class Bodies:
     def coloured(self) -> float:
         """A scale's end: of pressures without bound what a fiftieth of the contact's force lies above."""
         table, tops = self.table, []
-        told = (self.run.summary.get("estimates") or {}).get("contacts") or []
+        estimates = (self.run.summary.get("estimates") or {}).get("contacts") or []
         for contact in set(table["contact"].tolist()):
             strength = np.sort(np.abs(table["pressure"][table["contact"] == contact]))
             order = np.argsort(np.abs(table["pressure"][table["contact"] == contact]))
             force = np.cumsum(strength * table["weight"][table["contact"] == contact][order])
             most = strength[np.searchsorted(force, 0.98 * force[-1])] if force[-1] > 0 else 0
             # where the run does not tell, it stands out
-            known = contact < len(told)
-            bound = told[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
+            known = contact < len(estimates)
+            bound = estimates[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
             tops.append(strength[-1] if bound or not most > 0 else most)
         return max(tops) if max(tops) > 0 else self.greatest
 
@@ -156,7 +156,7 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     table["contact"] = table["contact"].astype(int)
     stated = run.summary.get("contacts") or []
     last = table["contact"].max(initial=0)
-    titles = [brief(str(each.get("name", ""))) for each in stated] or [""]
+    titles = [one_line(str(each.get("name", ""))) for each in stated] or [""]
     rigid = [each.get("master") is None for each in stated] or [
         not any(key.startswith("masterForce") for key in run.summary)
     ]
@@ -179,23 +179,23 @@ def write_picture(arguments: argparse.Namespace, name: str, draw: Callable) -> N
     with style.look():
         bodies = read_bodies(chosen, arguments.scale)
         figure = draw(bodies, units_of(chosen, arguments.units), arguments.view, arguments.slide)
-        write_own(figure, arguments.out, chosen.path / f"{name}.pdf")
+        write_figure_of_run(figure, arguments.out, chosen.path / f"{name}.pdf")
 
 
 def units_of(run: Run, given: tuple[str, str]) -> style.Units:
     """The units named on the command line, or those that the run's case file names."""
     stated = run.summary.get("units")
     if tuple(given) == (style.Units.length, style.Units.stress) and isinstance(stated, list) and len(stated) == 2:
-        return style.Units(*(style.plain(brief(str(name), 20)) for name in stated))
-    return style.Units(*map(style.plain, given))
+        return style.Units(*(style.without_mathtext(one_line(str(name), 20)) for name in stated))
+    return style.Units(*map(style.without_mathtext, given))
 
 
-def title(axes: Axes, index: int, words: str = "", width: int = 56) -> None:
+def set_panel_title(axes: Axes, index: int, words: str = "", width: int = 56) -> None:
     """A panel's letter, and what it shows, in lines of so many letters."""
-    axes.set_title(style.folded(f"{style.panel(index)} {words}", width), loc="left", fontsize=8)
+    axes.set_title(style.wrapped(f"{style.panel(index)} {words}", width), loc="left", fontsize=8)
 
 
-def motion(bodies: Bodies, units: style.Units) -> str:
+def displacement_caption(bodies: Bodies, units: style.Units) -> str:
     """What the displacements in a picture are."""
     most = np.sqrt((bodies.grid.move**2).sum(axis=1).max())
     drawn = "true scale" if bodies.scale == 1 else f"drawn {style.number(bodies.scale)} times"
@@ -206,7 +206,7 @@ def motion(bodies: Bodies, units: style.Units) -> str:
 # ---------------------------------------------------------------- the plane
 
 
-def chains(bodies: Bodies) -> list[Chain]:
+def contact_chains(bodies: Bodies) -> list[Chain]:
     """The contacts' pieces; a closed one is cut open where nothing touches."""
     table, found = bodies.table, []
     for contact, chain in sorted(set(zip(table["contact"].tolist(), table["chain"].tolist(), strict=True))):
@@ -266,18 +266,18 @@ def whole_window(bodies: Bodies) -> np.ndarray:
     return np.array([place.min(axis=0) - margin, place.max(axis=0) + margin])
 
 
-def zone_window(bodies: Bodies, contact: int) -> np.ndarray:
+def contact_window(bodies: Bodies, contact: int) -> np.ndarray:
     """The corners of a box around one contact, four by three."""
-    touched = reached_places(bodies, contact)
+    touched = loaded_points(bodies, contact)
     middle, half = 0.5 * (touched.min(axis=0) + touched.max(axis=0)), 0.5 * np.ptp(touched, axis=0).max()
     half = max(1.6 * half, 6 * np.sqrt(2 * plane_areas(bodies).min()))
     return np.array([middle - half * np.array([1, 0.75]), middle + half * np.array([1, 0.75])])
 
 
-def reached_places(bodies: Bodies, contact: int | None = None) -> np.ndarray:
+def loaded_points(bodies: Bodies, contact: int | None = None) -> np.ndarray:
     """The places (n, 2) over which the pressure of one contact, or of all, stands, and those beside, where it ends."""
     least = TOUCHING * bodies.greatest
-    found = [chain for chain in chains(bodies) if contact in (None, chain.contact)]
+    found = [chain for chain in contact_chains(bodies) if contact in (None, chain.contact)]
     return np.concatenate([chain.place[chain.reached(least)] for chain in found])
 
 
@@ -294,13 +294,13 @@ def stress_range(bodies: Bodies) -> float:
     The greatest outside singular places where the run tells it, else what one node in 1000 lies above; all where that
     is nearly the greatest.
     """
-    told = [body["vonMises"] for body in bodies.run.summary.get("stresses") or []]
+    stresses = [body["vonMises"] for body in bodies.run.summary.get("stresses") or []]
     most = bodies.grid.stress.max()
-    top = max(told) if told else np.percentile(bodies.grid.stress, 99.9)
+    top = max(stresses) if stresses else np.percentile(bodies.grid.stress, 99.9)
     return top if 0 < top < most / 1.3 else most
 
 
-def far_range(bodies: Bodies) -> float:
+def whole_stress_range(bodies: Bodies) -> float:
     """The same of the whole: what a fiftieth of the bodies' area, in space of their surface, lies above."""
     grid = bodies.grid
     cells = grid.skin if grid.space else grid.cells
@@ -314,10 +314,10 @@ def far_range(bodies: Bodies) -> float:
     return top if 0 < top < most / 1.3 else most
 
 
-def singular_places(bodies: Bodies) -> np.ndarray:
+def singular_points(bodies: Bodies) -> np.ndarray:
     """Deformed places (n, 3) where the stress has no bound, as the run says, or of the greatest where it lies above."""
-    said = [body["singular"] for body in bodies.run.summary.get("stresses") or [] if body["singular"]]
-    at = np.array([[*place, 0.0][:3] for place in said]).reshape(-1, 3)
+    stated = [body["singular"] for body in bodies.run.summary.get("stresses") or [] if body["singular"]]
+    at = np.array([[*place, 0.0][:3] for place in stated]).reshape(-1, 3)
     rows = [int(np.square(bodies.grid.points - place).sum(axis=1).argmin()) for place in at]
     if not rows and stress_range(bodies) < bodies.grid.stress.max():
         rows = [int(bodies.grid.stress.argmax())]
@@ -360,7 +360,7 @@ def fill_plane(axes: Axes, bodies: Bodies, top: float | None) -> Collection | No
         mesh = Triangulation(place[:, 0], place[:, 1], grid.cells)
         look: style.Look = {"shading": "gouraud", "cmap": "viridis", "vmin": 0, "vmax": top}
         colours = axes.tripcolor(mesh, grid.stress, rasterized=True, **look)
-        mark_singular(axes, singular_places(bodies)[:, :2])
+        mark_singular(axes, singular_points(bodies)[:, :2])
     else:
         for number, body in enumerate(np.unique(grid.body)):
             cells = place[grid.cells[grid.body == body], :2]
@@ -378,16 +378,16 @@ def mark_singular(axes: Axes, at: np.ndarray) -> None:
     axes.plot(*at.T, marker="o", color=style.VERMILION, **look)
 
 
-def stand_pressure(axes: Axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
+def draw_pressure_diagram(axes: Axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
     """The pressure on the surface of one contact, or of all, in a box; its scale; rigid obstacles.
 
     Where it is greatest it stands not higher than the contact is long.
     """
     touched = bodies.touching(contact)
     greatest = np.abs(bodies.table["pressure"][touched]).max()
-    long = np.ptp(reached_places(bodies, contact), axis=0).max()
+    long = np.ptp(loaded_points(bodies, contact), axis=0).max()
     scale = min(0.16 * np.ptp(box, axis=0).min(), 0.5 * long) / greatest
-    for chain in chains(bodies):
+    for chain in contact_chains(bodies):
         if chain.rigid:
             size = np.ptp(chain.place, axis=0).max()
             close = np.abs(chain.overlap) < FARTHEST * size
@@ -404,29 +404,29 @@ def stand_pressure(axes: Axes, bodies: Bodies, box: np.ndarray, contact: int | N
         axes.add_collection(LineCollection(crest, color=style.VERMILION, linewidth=0.9, zorder=5))
         if chain.origin == "middle" and chain.reached(TOUCHING * bodies.greatest).any():
             axes.plot(*chain.zero, marker="o", markersize=2.5, color=style.BLACK, zorder=6)
-    told = style.round_below(greatest)
+    marked = style.round_below(greatest)
     begin = box[0] + 0.05 * np.ptp(box, axis=0)
-    axes.plot(begin[0] + [0, scale * told], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
+    axes.plot(begin[0] + [0, scale * marked], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
     unit = "" if units.stress == style.Units.stress else f" {units.stress}"
     look: style.Look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
-    axes.annotate(f"pressure ${style.number(told)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
+    axes.annotate(f"pressure ${style.number(marked)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
 
 
-def place_words(bodies: Bodies, place: np.ndarray) -> str:
+def coordinates_text(bodies: Bodies, place: np.ndarray) -> str:
     """Coordinates, to a ten-thousandth of the bodies."""
     digits = 3 - int(np.floor(np.log10(np.ptp(bodies.grid.points, axis=0).max())))
     return "(" + ",\u00a0".join(f"{round(value, digits) + 0.0:g}" for value in place).replace("-", "\u2212") + ")"
 
 
-def origin_words(bodies: Bodies, contact: int) -> str:
+def origin_caption(bodies: Bodies, contact: int) -> str:
     """Where a contact's arc length begins, if that is the middle of its pressure."""
-    found = [chain for chain in chains(bodies) if chain.contact == contact and chain.pressure.any()]
+    found = [chain for chain in contact_chains(bodies) if chain.contact == contact and chain.pressure.any()]
     if len(found) != 1 or found[0].origin != "middle":
         return ""
-    return f"; arc length from \u2022\u00a0{place_words(bodies, found[0].zero)}"
+    return f"; arc length from \u2022\u00a0{coordinates_text(bodies, found[0].zero)}"
 
 
-def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]]:
+def slip_zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]]:
     """From where to where it sticks (1) or slips (2); each point stands for half of the way to its neighbours."""
     middle = 0.5 * (place[1:] + place[:-1])
     from_, to = np.concatenate([place[:1], middle]), np.concatenate([middle, place[-1:]])
@@ -435,7 +435,7 @@ def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]
     return [(from_[a], to[b], int(slide[a])) for a, b in zip(starts, ends, strict=True) if slide[a] > 0]
 
 
-def colour_zones(axes: Axes, found: list[Chain]) -> None:
+def draw_slip_zones(axes: Axes, found: list[Chain]) -> None:
     """Where it sticks and slips: behind the curves of a single piece; of several in a strip each below the curves."""
     height = 1.0 if len(found) == 1 else min(0.06, 0.4 / len(found))
     if len(found) > 1:
@@ -443,7 +443,7 @@ def colour_zones(axes: Axes, found: list[Chain]) -> None:
         axes.set_ylim(low - (high - low) * 1.3 * height * len(found), high)
     for number, chain in enumerate(found):
         bottom = 1.3 * height * (len(found) - 1 - number)
-        for start, end, slide in zones(chain.along, chain.slide):
+        for start, end, slide in slip_zones(chain.along, chain.slide):
             axes.axvspan(start, end, bottom, bottom + height, color=ZONES[slide], linewidth=0, zorder=0)
         if len(found) > 1:
             look = style.curve(chain.contact) | {"markersize": 2.5, "linestyle": "none", "clip_on": False}
@@ -464,15 +464,15 @@ def plot_pressure(axes: Axes, bodies: Bodies, units: style.Units, narrow: bool =
     """
     rubs = "shear" in bodies.table
     seen, shown, pulls, origins = set(), [], False, set()
-    found = [chain for chain in chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
+    found = [chain for chain in contact_chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
     for chain in found:
         reached = chain.reached(TOUCHING * bodies.greatest)
         first = chain.contact not in seen
         seen.add(chain.contact)
         origins.add(chain.origin)
         look = style.curve(chain.contact) | {"markersize": 2.2, "markeredgewidth": 0, "linewidth": 0.9}
-        name = style.folded(f"{chain.name} pressure".strip(), 24) if rubs else style.folded(chain.name, 44)
-        axes.plot(chain.along, chain.pressure, label=(first and style.plain(name)) or None, **look)
+        name = style.wrapped(f"{chain.name} pressure".strip(), 24) if rubs else style.wrapped(chain.name, 44)
+        axes.plot(chain.along, chain.pressure, label=(first and style.without_mathtext(name)) or None, **look)
         if rubs:
             axes.plot(chain.along, chain.shear, **(look | SHEAR))
             pulls = pulls or chain.shear[reached].min() < -TOUCHING * bodies.greatest
@@ -485,14 +485,14 @@ def plot_pressure(axes: Axes, bodies: Bodies, units: style.Units, narrow: bool =
     else:
         axes.set_ylim(0, None)
     if rubs:
-        colour_zones(axes, found)
+        draw_slip_zones(axes, found)
     axes.ticklabel_format(useOffset=False)
     begins = {"axis": " from the axis", "middle": " from the middle of the pressure"}
     origin = next(iter(origins)) if len(origins) == 1 else "middle"
     ways = {chain.towards for chain in found}
     way = {"x": ", to the right", "y": ", upwards"}.get(next(iter(ways)), "") if len(ways) == 1 and not narrow else ""
     words = f"arc length{begins[origin]}{way} [{units.length}]" if origin else f"$x$ [{units.length}]"
-    axes.set_xlabel(style.folded(words, 27 if narrow else 50))
+    axes.set_xlabel(style.wrapped(words, 27 if narrow else 50))
     axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
     if rubs:
         colour = style.curve(min(seen))["color"] if len(seen) == 1 else style.BLACK

@@ -93,7 +93,7 @@ def select(rows: list[Row], **wanted: str | float) -> list[Row]:
     return [row for row in rows if all(matches(row, name, asked) for name, asked in wanted.items())]
 
 
-def good(row: Row) -> bool:
+def is_converged(row: Row) -> bool:
     return row["status"] == CONVERGED
 
 
@@ -108,7 +108,7 @@ def law(row: Row) -> str:
     return " ".join([*parts, f"{number(row, 'beta'):g}"] if row["law"] == "exponential" else parts)
 
 
-def look(name: str) -> dict:
+def method_look(name: str) -> dict:
     """Colour and marker of a method, the same in every figure."""
     return style.curve(METHODS.index(name))
 
@@ -130,7 +130,7 @@ def name_meshes(figure: Figure, rows: list[Row]) -> None:
     texts = [f"P{order}" for order in orders]
     if sizes:
         texts.append(f"$h = {sizes[0]:g}$" + (f" to ${sizes[-1]:g}$" if len(sizes) > 1 else ""))
-    style.put_below(figure, ", ".join(texts))
+    style.write_below(figure, ", ".join(texts))
 
 
 def draw_failures(axes: Axes, x: np.ndarray, color: str) -> None:

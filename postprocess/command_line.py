@@ -9,7 +9,7 @@ import sys
 
 from postprocess import commands
 from postprocess.formatting import first_line
-from postprocess.results import ResultsError, brief
+from postprocess.results import ResultsError, one_line
 
 
 def parser() -> argparse.ArgumentParser:
@@ -40,7 +40,7 @@ def main(argv: list[str] | None = None) -> int:
         arguments.run(arguments)
         sys.stdout.flush()
     except ResultsError as error:
-        print(f"postprocess: {brief(str(error), 2000)}", file=sys.stderr)
+        print(f"postprocess: {one_line(str(error), 2000)}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # the reader of the output has had enough: `show RUN | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

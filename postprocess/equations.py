@@ -104,14 +104,14 @@ class Line:
 
     def is_text(self) -> bool:
         """Whether words begin here: of several letters, or a single one before or behind such."""
-        kind, said, _ = self.peek()
+        kind, characters, _ = self.peek()
         if kind in ("flag", "file"):
             return True
         if kind == "word":
-            return said not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(said)
+            return characters not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(characters)
         following = self.peek(1)
         return (
-            said == "a"
+            characters == "a"
             and following[0] == "word"
             and following[2]
             and following[1] not in FUNCTIONS | NAMES
@@ -139,31 +139,31 @@ class Line:
         return tag("mrow", tag("mo", opening), *inner, tag("mo", CLOSING[opening]), **{"class": "group"})
 
     def atom(self, flat: bool) -> str:
-        kind, said, _ = self.peek()
-        if kind == "sign" and said in CLOSING:
+        kind, characters, _ = self.peek()
+        if kind == "sign" and characters in CLOSING:
             return self.group(flat)
         self.take()
         if kind == "number":
-            return tag("mn", said)
-        if kind == "word" and DIFFERENTIAL.fullmatch(said):
-            return row([tag("mi", "d"), tag("mi", said[1])])
+            return tag("mn", characters)
+        if kind == "word" and DIFFERENTIAL.fullmatch(characters):
+            return row([tag("mi", "d"), tag("mi", characters[1])])
         if kind == "word":
-            return tag("mi", said)
+            return tag("mi", characters)
         if kind == "name":
-            return letter(said)
-        if (kind, said) == ("sign", "√"):
+            return letter(characters)
+        if (kind, characters) == ("sign", "√"):
             return tag("msqrt", self.bare(self.factor()))
-        if kind == "sign" and said in "∫Σ":
-            return tag("mo", said)
-        if kind == "sign" and said in "∇½∞…∂":
-            return tag("mi" if said in "∇∞∂" else "mn", said)
+        if kind == "sign" and characters in "∫Σ":
+            return tag("mo", characters)
+        if kind == "sign" and characters in "∇½∞…∂":
+            return tag("mi" if characters in "∇∞∂" else "mn", characters)
         raise Unreadable
 
     def factor(self, flat: bool = False) -> str:
         """An atom with its indices, and the bracket that it is applied to."""
-        kind, said, _ = self.peek()
+        kind, characters, _ = self.peek()
         base = self.atom(flat)
-        applicable = kind == "name" or (kind == "word" and said in FUNCTIONS)
+        applicable = kind == "name" or (kind == "word" and characters in FUNCTIONS)
         low: list[str] = []
         high: list[str] = []
         # d0, R1: the number is an index
@@ -192,9 +192,9 @@ class Line:
         if applicable and self.peek()[:2] == ("sign", "(") and not self.peek()[2]:
             argument = self.group(flat)
             return tag("mrow", base, tag("mo", "\u2061"), argument)
-        if kind == "word" and said in FUNCTIONS and self.peek()[2]:
+        if kind == "word" and characters in FUNCTIONS and self.peek()[2]:
             gap = '<mspace width="0.2em"/>'
-            return tag("mrow", gap if said == "mod" else "", base, gap)
+            return tag("mrow", gap if characters == "mod" else "", base, gap)
         return base
 
     @staticmethod
@@ -209,22 +209,22 @@ class Line:
         if self.peek()[:2] == ("sign", "−"):
             self.take()
             return row([tag("mo", "−"), self.script()])
-        kind, said, _ = self.take()
-        if kind not in ("number", "word", "name") and said not in "∞*":
+        kind, characters, _ = self.take()
+        if kind not in ("number", "word", "name") and characters not in "∞*":
             raise Unreadable
         if kind == "name" and self.peek()[0] == "number" and not self.peek()[2]:
-            said += self.take()[1]
-        if kind == "word" and len(said) == 2:
-            return row([tag("mi", each) for each in said])
-        return tag("mn" if kind == "number" else "mo" if said == "*" else "mi", said)
+            characters += self.take()[1]
+        if kind == "word" and len(characters) == 2:
+            return row([tag("mi", each) for each in characters])
+        return tag("mn" if kind == "number" else "mo" if characters == "*" else "mi", characters)
 
 
 def inline(text: str) -> str:
     """The MathML of a formula within a line, or "" where there are words in it: *p = κ s^m*, not *length*."""
     found = tokens(text)
-    words = [said for kind, said, _ in found if kind in ("word", "flag", "file")]
+    words = [characters for kind, characters, _ in found if kind in ("word", "flag", "file")]
     if not any(kind == "name" for kind, *_ in found) or any(
-        said not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(said) for said in words
+        characters not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(characters) for characters in words
     ):
         return ""
     try:

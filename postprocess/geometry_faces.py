@@ -33,10 +33,10 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
         figure.set_size_inches(style.COLUMN, 0.9 * style.COLUMN)
         draw_curves(figure.subplots(), at, face)
         return figure
-    rim = rims(at, face)
-    at, face, body = finer(at, face, body)
-    views = [bodies_3d.sight(azimuth, elevation), bodies_3d.sight(azimuth + 180, -elevation)]
-    places = [seen_places(at, face, view) for view in views]
+    rim = face_borders(at, face)
+    at, face, body = subdivided(at, face, body)
+    views = [bodies_3d.view_matrix(azimuth, elevation), bodies_3d.view_matrix(azimuth + 180, -elevation)]
+    places = [label_positions(at, face, view) for view in views]
     inner = sorted(set(face.tolist()) - set(places[0]) - set(places[1]))
     figure.set_size_inches(style.COLUMN, (2.25 if inner else 1.5) * style.COLUMN)
     axes = figure.subplots(3 if inner else 2, 1)
@@ -65,7 +65,7 @@ def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.add_collection(LineCollection(list(place), color=style.BLUE, linewidth=0.8))
     for number in np.unique(curve):
         own = place[curve == number]
-        write(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
+        write_number(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_xlabel("$x$")
@@ -73,7 +73,7 @@ def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.set_title("Curves", loc="left", fontsize=6.5)
 
 
-def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def subdivided(at: np.ndarray, face: np.ndarray, body: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Triangles cut until they are small beside the whole: each is drawn before or behind another as a whole."""
     for _ in range(5):
         large = (
@@ -90,7 +90,7 @@ def finer(at: np.ndarray, face: np.ndarray, body: np.ndarray) -> tuple[np.ndarra
     return at, face, body
 
 
-def shaded(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
+def shaded_colours(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
     """Colours of triangles, (triangles, 3): their bodies', darker where they look away from the light."""
     across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
     size = np.maximum(np.linalg.norm(across, axis=1), 1e-300)
@@ -99,7 +99,7 @@ def shaded(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
     return np.clip(fills[body % len(fills)] * bright[:, None], 0, 1)
 
 
-def seen_places(at: np.ndarray, face: np.ndarray, view: np.ndarray) -> dict[int, np.ndarray]:
+def label_positions(at: np.ndarray, face: np.ndarray, view: np.ndarray) -> dict[int, np.ndarray]:
     """Of each face that can be seen the place of its number: the middle of what is seen of it."""
     seen = at @ view.T
     towards = np.abs(np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])[:, 2])
@@ -107,7 +107,7 @@ def seen_places(at: np.ndarray, face: np.ndarray, view: np.ndarray) -> dict[int,
     for number in np.unique(face):
         own = np.flatnonzero(face == number)
         own = own[np.argsort(-towards[own])][:200]
-        free = own[~hidden(seen[own].mean(axis=1), seen)]
+        free = own[~is_hidden(seen[own].mean(axis=1), seen)]
         if free.size and towards[free[0]] > 0:
             places[int(number)] = middle_of(seen[free])
     return places
@@ -136,16 +136,16 @@ def draw_faces(
 ) -> None:
     """Far triangles first, in their bodies' colours, the faces' edges on them; the numbers at their places."""
     seen = at @ view.T
-    colours = shaded(seen, body)
-    order = np.lexsort((seen[:, :, 2].mean(axis=1), ~hidden(seen.mean(axis=1), seen)))
+    colours = shaded_colours(seen, body)
+    order = np.lexsort((seen[:, :, 2].mean(axis=1), ~is_hidden(seen.mean(axis=1), seen)))
     shown: style.Look = {"facecolor": colours[order], "edgecolor": colours[order], "linewidth": 0.1}
     axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **shown))
     edges = edges_of(rim, view)
-    visible = ~hidden(edges.mean(axis=1), seen)
+    visible = ~is_hidden(edges.mean(axis=1), seen)
     axes.add_collection(LineCollection(edges[visible][:, :, :2], color="#404040", linewidth=0.4))
     for number, place in places.items():
-        write(axes, place, number)
-    frame(axes)
+        write_number(axes, place, number)
+    set_plain_frame(axes)
 
 
 def draw_inner(
@@ -162,7 +162,7 @@ def draw_inner(
     axes.add_collection(LineCollection(list(edges_of(rim, view)[:, :, :2]), color="#B0B0B0", linewidth=0.3))
     own = np.isin(face, inner)
     depth = np.argsort(seen[own][:, :, 2].mean(axis=1))
-    fill: style.Look = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
+    fill: style.Look = {"facecolor": shaded_colours(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
     axes.add_collection(PolyCollection(seen[own][depth][:, :, :2], rasterized=True, **fill))
     places: list[tuple[np.ndarray, list[str]]] = []
     for number in inner:
@@ -171,17 +171,17 @@ def draw_inner(
         word = "cut" if number < 0 else str(number)
         near[0].append(word) if near else places.append((place, [word]))
     for place, words in places:
-        write(axes, place, ", ".join(dict.fromkeys(words)))
-    frame(axes)
+        write_number(axes, place, ", ".join(dict.fromkeys(words)))
+    set_plain_frame(axes)
 
 
-def frame(axes: Axes) -> None:
+def set_plain_frame(axes: Axes) -> None:
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_axis_off()
 
 
-def rims(at: np.ndarray, face: np.ndarray) -> np.ndarray:
+def face_borders(at: np.ndarray, face: np.ndarray) -> np.ndarray:
     """The sides of triangles that only one triangle of its face has, (sides, 2, 3)."""
     _, node = np.unique(np.round(at.reshape(-1, 3) / (np.ptp(at) + 1e-300), 9), axis=0, return_inverse=True)
     node = node.reshape(-1, 3)
@@ -191,7 +191,7 @@ def rims(at: np.ndarray, face: np.ndarray) -> np.ndarray:
     return places[first[times == 1]]
 
 
-def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
+def is_hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
     """Does a triangle lie between a place and the eye?"""
     a, ab, ac = seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
     twice = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
@@ -208,6 +208,6 @@ def hidden(points: np.ndarray, seen: np.ndarray) -> np.ndarray:
     return answer
 
 
-def write(axes: Axes, place: np.ndarray, number: int | str) -> None:
+def write_number(axes: Axes, place: np.ndarray, number: int | str) -> None:
     look: style.Look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
     axes.annotate(str(number), (place[0], place[1]), color=style.BLACK, **look)

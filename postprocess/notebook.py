@@ -40,7 +40,7 @@ def own_cells(lab: Path) -> dict[str, list[str]]:
     """The further cells of a lab by the section or the question that they follow."""
     path = lab / "cells.py"
     found: dict[str, list[str]] = {}
-    for part in re.split(r"^# %% ", teaching_kit.read(path), flags=re.M)[1:] if path.exists() else ():
+    for part in re.split(r"^# %% ", teaching_kit.read_page(path), flags=re.M)[1:] if path.exists() else ():
         after, _, source = part.partition("\n")
         found.setdefault(after.strip(), []).append(source)
     return found
@@ -48,7 +48,9 @@ def own_cells(lab: Path) -> dict[str, list[str]]:
 
 def of_page(lab: Path, place: Path) -> list[dict]:
     """The cells of the lab's page, its links leading from `place`."""
-    page = teaching_kit.plain(re.sub(r"<!--.*?-->\n?", "", teaching_kit.read(lab / "README.md"), flags=re.S))
+    page = teaching_kit.without_answers(
+        re.sub(r"<!--.*?-->\n?", "", teaching_kit.read_page(lab / "README.md"), flags=re.S)
+    )
     page = LINK.sub(lambda found: Path(os.path.relpath(lab / found[1], place)).as_posix(), page)
     own = own_cells(lab)
     (script,) = lab.glob("*.edp")
@@ -89,7 +91,7 @@ def of_section(body: str) -> list[dict]:
 def of_answers(lab: Path) -> list[dict]:
     """A table to fill in, and the command that checks it."""
     file = f"results/labs/notebook/answers-{lab.name}.csv"
-    table = teaching_kit.template(teaching_kit.read(lab / "ANSWERS.md"))
+    table = teaching_kit.template(teaching_kit.read_page(lab / "ANSWERS.md"))
     check = f".venv/bin/python -m postprocess check_lab {lab.name.split('-')[0]} {file}"
     lines = [f"answers = r'''{table}'''", f'file = Path("{file}")', "file.parent.mkdir(parents=True, exist_ok=True)"]
     lines += ["file.write_text(answers)", f'shell("{check}", codes=(0, 1, 2))']

@@ -10,12 +10,21 @@ import matplotlib
 import numpy as np
 
 from postprocess import doctor, figures, html_page, movie_player, style
-from postprocess.campaign import CONVERGED, Campaign, Row, good, number
+from postprocess.campaign import CONVERGED, Campaign, Row, is_converged, number
 from postprocess.figures import cost
-from postprocess.formatting import HISTORY_COLUMNS, captions, command, first_line, history_rows, place, run_words, short
+from postprocess.formatting import (
+    HISTORY_COLUMNS,
+    command,
+    figure_captions,
+    first_line,
+    history_rows,
+    path_in_package,
+    run_caption,
+    short_number,
+)
 from postprocess.html_page import Markup, element, folded, joined, section, table
 from postprocess.reference_values import PAPER, Check, checks, paper_test
-from postprocess.results import ResultsError, Run, brief, is_number
+from postprocess.results import ResultsError, Run, is_number, one_line
 from postprocess.results_folder import ResultsFolder, read_bytes, read_png
 
 NAMED = 6  # failures that the page's first lines name
@@ -37,7 +46,7 @@ def build(tree: ResultsFolder) -> str:
         raise ResultsError(
             tree.path, "holds no run and no figure; make run, make figures, make bench or make stability"
         )
-    order = list(captions())
+    order = list(figure_captions())
     own = [path for path in pictures if path.parent.name == "figures"]
     own.sort(key=lambda path: order.index(path.stem) if path.stem in order else len(order))
     parts = [
@@ -88,7 +97,13 @@ def header(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]], parts: 
                 element(
                     "p",
                     joined(
-                        ["Made from ", element("code", place(tree.path)), " by ", element("code", "make report"), "."],
+                        [
+                            "Made from ",
+                            element("code", path_in_package(tree.path)),
+                            " by ",
+                            element("code", "make report"),
+                            ".",
+                        ],
                         "",
                     ),
                 ),
@@ -101,7 +116,7 @@ def header(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]], parts: 
 def with_error(summary: dict, name: str) -> str:
     """A number of a run, and what the run says of its error."""
     error = ((summary.get("estimates") or {}).get(name) or {}).get("error")
-    return short(summary[name]) + (f" ± {error:.1g}" if error else "")
+    return short_number(summary[name]) + (f" ± {error:.1g}" if error else "")
 
 
 def scenes(tree: ResultsFolder) -> list[Markup]:
@@ -133,7 +148,7 @@ def overview(tree: ResultsFolder, scene: str, runs: list[tuple[int, Run]]) -> Ma
                 verdict(summary["converged"], "yes", "NO"),
                 verdict(not summary["warnings"], "0", str(len(summary["warnings"]))),
                 *(with_error(summary, name) for name in "force pressureMax halfWidth".split()),
-                *(summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
+                *(summary["method"], f"P{summary['order']}", short_number(summary["h"]), summary["ndof"]),
                 *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
                 f"{seconds:.2f}" if is_number(seconds) else "–",
             ]
@@ -147,7 +162,7 @@ def references(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]]) -> 
         [
             element("a", tree.name(run.path), href=f"#run-{index}"),
             verdict(check.passed, "pass", "FAIL"),
-            f"P{run.summary['order']}, h\u00a0=\u00a0{short(run.summary['h'])}",
+            f"P{run.summary['order']}, h\u00a0=\u00a0{short_number(run.summary['h'])}",
             check.name,
             check.source,
             f"{check.value:.8g}",
@@ -197,10 +212,10 @@ def accuracy(tree: ResultsFolder) -> list[Markup]:
     rows = [
         [
             tree.name(run.path),
-            *(run.summary["method"], f"P{run.summary['order']}", short(run.summary["h"]), run.summary["ndof"]),
+            *(run.summary["method"], f"P{run.summary['order']}", short_number(run.summary["h"]), run.summary["ndof"]),
             f"{cost.force_error(run):.1e}",
             f"{cost.seconds(run):.3f}",
-            *(short(run.summary["seconds"].get(name), 3) for name in ("total", "waited")),
+            *(short_number(run.summary["seconds"].get(name), 3) for name in ("total", "waited")),
         ]
         for run in found
     ]
@@ -219,7 +234,7 @@ def figure(path: Path, data: bytes) -> Markup:
     name = path.stem
     module = figures.modules().get(name)
     title = f"{first_line(module)}." if module else f"Picture {name}."
-    seen = captions().get(name, title[0].upper() + title[1:])
+    seen = figure_captions().get(name, title[0].upper() + title[1:])
     made = CAMPAIGNS[path.parent.name][1] if path.parent.name in CAMPAIGNS else f"make results/figures/{name}.pdf"
     return html_page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
 
@@ -241,8 +256,9 @@ def movie(tree: ResultsFolder, path: Path, part: str | None) -> Markup:
     name = tree.name(path.parent)
     runs = {run.path: run for run in tree.runs}
     run = runs.get(path.parent)
-    heading = element("h3", run_words(run) if run else name)
-    made = f"python -m postprocess movie --out {place(path.parent)} {place(path.parent) if run else 'RUN'}"
+    heading = element("h3", run_caption(run) if run else name)
+    folder = path_in_package(path.parent)
+    made = f"python -m postprocess movie --out {folder} {folder if run else 'RUN'}"
     shown = (
         Markup(part)
         if part is not None
@@ -278,7 +294,7 @@ def campaign_table(found: Campaign, name: str) -> list[Markup]:
         groups.setdefault(row["method"] + start, []).append(row)
     lines = []
     for method, group in groups.items():
-        fine = [row for row in group if good(row)]
+        fine = [row for row in group if is_converged(row)]
         lines.append(
             [
                 method,
@@ -325,7 +341,7 @@ def extent(rows: list[Row], column: str) -> str:
     values = values[np.isfinite(values)]
     if len(values) == 0:
         return "–"
-    low, high = short(float(values.min()), 2), short(float(values.max()), 2)
+    low, high = short_number(float(values.min()), 2), short_number(float(values.max()), 2)
     if (values == values.round()).all() and values.max() < 1e9:
         low, high = str(int(values.min())), str(int(values.max()))
     return low if low == high else f"{low} to {high}"
@@ -334,7 +350,7 @@ def extent(rows: list[Row], column: str) -> str:
 def middle(rows: list[Row], column: str) -> str:
     values = np.array([number(row, column) for row in rows if column in row])
     values = values[np.isfinite(values)]
-    return short(float(np.median(values)), 3) if len(values) else "–"
+    return short_number(float(np.median(values)), 3) if len(values) else "–"
 
 
 def details(tree: ResultsFolder, run: Run, index: int) -> Markup:
@@ -352,7 +368,7 @@ def details(tree: ResultsFolder, run: Run, index: int) -> Markup:
     steps = table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
     count = len(run.history["newton"])
     parts = [
-        element("h3", f"{tree.name(run.path)}: {run_words(run)}", id=f"run-{index}"),
+        element("h3", f"{tree.name(run.path)}: {run_caption(run)}", id=f"run-{index}"),
         element("pre", command(run)),
     ]
     if not summary["converged"]:
@@ -370,15 +386,15 @@ def picture_of_run(run: Run, name: str) -> Markup:
         "state": "the deformed bodies and the pressure along the contact",
         "stress": "the bodies by von Mises' stress",
     }
-    seen = f"{run_words(run)}: {what[name]}"
-    made = element("code", f".venv/bin/python -m postprocess {name} {place(run.path)}")
+    seen = f"{run_caption(run)}: {what[name]}"
+    made = element("code", f".venv/bin/python -m postprocess {name} {path_in_package(run.path)}")
     return html_page.picture(
         read_png(run.path / f"{name}.png"), seen, joined([f"{what[name].capitalize()}. ", made], "")
     )
 
 
 def cell(value: object) -> str:
-    return brief(short(value, 8), 200)
+    return one_line(short_number(value, 8), 200)
 
 
 def machine() -> Markup:

@@ -263,7 +263,7 @@ def read_summary(path: Path) -> dict:
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
     except UnicodeDecodeError:
         raise ResultsError(path, "is binary, not a JSON file") from None
     try:
@@ -322,7 +322,7 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
             file.seek(-1, 2)
             end = file.read(1)
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
     try:
         if b"\0" in start:
             raise UnicodeError
@@ -332,9 +332,9 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
     names = [name.strip() for name in header.split(",")]
     missing = [name for name in columns if name not in names]
     if missing:
-        raise ResultsError(path, f"wrong columns: no {', '.join(missing)} in the first line ({brief(header)})")
+        raise ResultsError(path, f"wrong columns: no {', '.join(missing)} in the first line ({one_line(header)})")
     if len(set(names)) < len(names):
-        raise ResultsError(path, f"wrong columns: a name appears twice in the first line ({brief(header)})")
+        raise ResultsError(path, f"wrong columns: a name appears twice in the first line ({one_line(header)})")
     if end != b"\n":
         raise ResultsError(path, "is truncated: the last line has no end")
     try:
@@ -342,17 +342,17 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
             warnings.simplefilter("ignore", UserWarning)  # no rows: for the caller to judge
             values = np.loadtxt(path, delimiter=",", skiprows=1, comments=None, ndmin=2, encoding="utf-8", dtype=float)
     except (ValueError, OSError) as error:
-        raise ResultsError(path, f"has an unreadable row: {brief(str(error))}") from None
+        raise ResultsError(path, f"has an unreadable row: {one_line(str(error))}") from None
     if values.size == 0:
         values = np.empty((0, len(names)))
     if values.shape[1] != len(names):
         raise ResultsError(path, f"has {values.shape[1]} values in a row for {len(names)} column names")
     for name in names:
-        checked(path, name, values[:, names.index(name)])
-    return {name: checked(path, name, values[:, names.index(name)]) for name in columns}
+        checked_column(path, name, values[:, names.index(name)])
+    return {name: checked_column(path, name, values[:, names.index(name)]) for name in columns}
 
 
-def checked(path: Path, name: str, column: np.ndarray) -> np.ndarray:
+def checked_column(path: Path, name: str, column: np.ndarray) -> np.ndarray:
     """The column of a table once its values are of the kind its name asks for."""
     bad = np.isnan(column) | (np.isinf(column) if name not in MAY_BE_INFINITE else column == -np.inf)
     if bad.any():
@@ -374,7 +374,7 @@ def check_file(path: Path, hint: str = "") -> None:
     except FileNotFoundError:
         raise ResultsError(path, f"no such file{hint}") from None
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
     if not path.is_file():
         raise ResultsError(path, "is not a file")
     if size == 0:
@@ -390,7 +390,7 @@ def column_names(path: Path) -> list[str]:
         with path.open(encoding="utf-8", errors="replace") as file:
             return file.readline().strip().split(",")
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
 
 
 def refuse_space(path: Path) -> None:
@@ -423,12 +423,12 @@ def refuse_constant(name: str) -> None:
     raise ValueError(f"holds {name}, which is not a number")
 
 
-def reason(error: OSError) -> str:
+def system_message(error: OSError) -> str:
     """The system's own words, on one line."""
     return (error.strerror or str(error)).lower()
 
 
-def brief(text: str, width: int = 120) -> str:
+def one_line(text: str, width: int = 120) -> str:
     """Text that may come from any file, as one printable line."""
     line = "".join(letter if letter.isprintable() else " " for letter in text).strip()
     return line if len(line) <= width else line[: width - 3] + "..."

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from postprocess.results import ResultsError, Run, check_file, read_run, reason
+from postprocess.results import ResultsError, Run, check_file, read_run, system_message
 
 PNG_START, PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB`\x82"
 FIGURES = ("figures", "bench", "stability")  # folders whose pictures are figures
@@ -33,7 +33,7 @@ def read_results_folder(folder: Path | str) -> ResultsFolder:
         pictures = [picture for name in FIGURES for picture in sorted((path / name).glob("*.png"))]
         movies = sorted(path.rglob("movie.html"))
     except OSError as error:
-        raise ResultsError(error.filename or path, reason(error)) from None
+        raise ResultsError(error.filename or path, system_message(error)) from None
     return ResultsFolder(path, [read_run(summary.parent) for summary in summaries], pictures, movies)
 
 
@@ -52,4 +52,4 @@ def read_bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None

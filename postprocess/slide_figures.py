@@ -37,7 +37,7 @@ DASHED, DOTTED = (0, (4, 2)), ":"
 BODY, OTHER = "#dfe5ec", "#eee6d8"  # the two bodies
 
 
-def drawn(draw: Callable[[Figure], None], slide: bool = True) -> Figure:
+def draw_picture(draw: Callable[[Figure], None], slide: bool = True) -> Figure:
     """A picture in the size of a slide, or of a page's width."""
     with mpl.rc_context(LARGE if slide else PAGE_SIZE):
         figure = Figure(figsize=SLIDE if slide else (style.PAGE, 0.42 * style.PAGE), layout="constrained")

@@ -116,7 +116,7 @@ def add_picture(parser: argparse.ArgumentParser, name: str, written: str = "") -
     add_units(parser)
 
 
-def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool) -> tuple[Figure, dict[str, Axes]]:
+def figure_with_panels(page: list[tuple[str, float]], slide: str, is_slide: bool) -> tuple[Figure, dict[str, Axes]]:
     """A figure and its panels by letter: rows on a page, a column wide, or a mosaic of 16:9.
 
     page: the letters side by side in a row, and its height over the width; slide: rows of letters as of matplotlib's
@@ -133,7 +133,7 @@ def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool) -> tuple[Fi
     return figure, figure.subplot_mosaic(cells, height_ratios=heights)
 
 
-def settled(figure: Figure) -> Figure:
+def finish_layout(figure: Figure) -> Figure:
     """A figure whose bars beside panels of a fixed shape have their room: one round of the layout does not see them.
 
     Ticks stay as they are after the first rounds: those of a panel that grows would take more room than was left.
@@ -237,14 +237,14 @@ def set_ticks(figure: Figure) -> None:
             near = 1e-9 * (high - low)
             ticks = [tick for tick in axis.get_majorticklocs() if low - near <= tick <= high + near]
             axis.set_major_locator(FixedLocator(ticks))
-            while len(ticks) > 1 and collide(axis):
+            while len(ticks) > 1 and tick_labels_overlap(axis):
                 # with the one at zero, where there is one
                 zero = next((k for k, tick in enumerate(ticks) if abs(tick) < near), 0)
                 ticks = ticks[zero % 2 :: 2]
                 axis.set_major_locator(FixedLocator(ticks))
 
 
-def collide(axis: Axis) -> bool:
+def tick_labels_overlap(axis: Axis) -> bool:
     """Does a tick's label touch the next one?"""
     boxes = [label.get_window_extent() for label in axis.get_majorticklabels() if label.get_text()]
     side = 0 if isinstance(axis, XAxis) else 1
@@ -267,10 +267,10 @@ def fold_titles(figure: Figure, titles: dict[Axes, str]) -> None:
         width = max(map(len, text.split("\n")))
         while drawn and width > 16 and drawn[0].get_window_extent().x1 > most:
             width -= 1
-            drawn[0].set_text(folded(text.replace("\n", " "), width))
+            drawn[0].set_text(wrapped(text.replace("\n", " "), width))
 
 
-def folded(text: str, width: int) -> str:
+def wrapped(text: str, width: int) -> str:
     """A title in lines of so many letters at most, none cut."""
     return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False)) or text
 
@@ -303,7 +303,7 @@ def number(value: float) -> str:
     return {"1": power, "-1": f"-{power}"}.get(mantissa, rf"{mantissa} \times {power}")
 
 
-def plain(text: str) -> str:
+def without_mathtext(text: str) -> str:
     """Text from a file or the command line, which is not to be read as mathtext."""
     return text.replace("$", r"\$")
 
@@ -320,22 +320,24 @@ def method(run: Run) -> str:
     if name == "incremental":
         steps = parameters.get("steps")
         return f"Newton, {count(int(steps), 'load step')}" if is_number(steps) else "Newton in load steps"
-    words = {"paper": "paper's scheme", "newton": "Newton", "signorini": "hard contact"}.get(name, plain(name))
+    words = {"paper": "paper's scheme", "newton": "Newton", "signorini": "hard contact"}.get(
+        name, without_mathtext(name)
+    )
     first = first_threshold(run)
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 
 
-def interface(run: Run) -> str:
+def law_text(run: Run) -> str:
     """The run's law in words: hard contact, or its name, or kappa and m of a power law."""
     law = run.summary["parameters"].get("law", "power")
     if run.summary["method"] == "signorini" or law == "signorini":
         return "hard contact"
     if law == "power":
         return rf"$\kappa = {number(run.parameter('kappa'))}$, $m = {number(run.parameter('m'))}$"
-    return plain(str(law))
+    return without_mathtext(str(law))
 
 
-def price(run: Run, noun: str) -> str:
+def cost_text(run: Run, noun: str) -> str:
     """What the run took: adaptations, where there was more than one, and steps; and whether that was enough."""
     words = count(run.summary["newton"], noun)
     if run.summary["adaptations"] > 1:
@@ -375,7 +377,7 @@ def labels(runs: list[Run]) -> list[str]:
                     text.append(describe(value))
     joined = [", ".join(text) for text in texts]
     return [
-        f"{text} ({plain(run.path.name)})" if joined.count(text) > 1 else text
+        f"{text} ({without_mathtext(run.path.name)})" if joined.count(text) > 1 else text
         for text, run in zip(joined, runs, strict=True)
     ]
 
@@ -392,20 +394,20 @@ def elements(runs: list[Run]) -> str:
 
 def name_elements(figure: Figure, runs: list[Run]) -> None:
     """Below the figure, at its right, element and size of the meshes."""
-    put_below(figure, elements(runs))
+    write_below(figure, elements(runs))
 
 
-def put_below(figure: Figure, text: str) -> None:
+def write_below(figure: Figure, text: str) -> None:
     """A text below the figure, at its right."""
     figure.supxlabel(text, x=0.995, ha="right", fontsize=8, color=GREY)
 
 
-def named(amount: int) -> set[int]:
+def labelled_indices(amount: int) -> set[int]:
     """Which curves of a sequence are named in a figure: all of a few, else the first, the last and some between."""
     return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
 
 
-def decades(axes: Axes, values: np.ndarray, most: int = 9) -> None:
+def set_decades(axes: Axes, values: np.ndarray, most: int = 9) -> None:
     """A logarithmic vertical axis over whole decades around the positive values, at most so many."""
     positive = values[values > 0]
     top = np.floor(np.log10(positive.max()) + 0.2) + 1
@@ -415,7 +417,7 @@ def decades(axes: Axes, values: np.ndarray, most: int = 9) -> None:
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-def surface(run: Run) -> Triangulation:
+def contact_triangulation(run: Run) -> Triangulation:
     """The contact points of a run in space, joined by triangles as they are seen along z."""
     try:
         return Triangulation(run.contact["x"], run.contact["y"])
@@ -428,6 +430,6 @@ def panel(index: int) -> str:
     return f"({ascii_lowercase[index]})"
 
 
-def shades(share: np.ndarray, name: str = "viridis") -> np.ndarray:
+def map_colours(share: np.ndarray, name: str = "viridis") -> np.ndarray:
     """(n, 3) colours of a map for numbers in [0, 1]."""
     return mpl.colormaps[name](np.clip(share, 0, 1))[:, :3]

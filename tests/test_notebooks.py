@@ -86,7 +86,7 @@ def test_answers_of_a_notebook(books, tmp_path):
         for before in ("", "7"):
             with file.open("w", newline="") as out:
                 csv.writer(out).writerows([head, *([*row[:2], before + row[2]] for row in filled[:4])])
-            found = check_lab.of_answers(answers(lab), file)
+            found = check_lab.check_answers(answers(lab), file)
             assert all(well for well, _ in found) == (before == ""), (lab, found)
 
 

@@ -20,10 +20,10 @@ from matplotlib.lines import Line2D
 
 from postprocess import bodies as drawn
 from postprocess import geometry_faces, style
-from postprocess.bodies_3d import VIEW, sight
-from postprocess.output import enter, write_figures
-from postprocess.results import ResultsError, brief, check_file, read_table
-from postprocess.vtu import CORNERS, corners, read_arrays
+from postprocess.bodies_3d import VIEW, view_matrix
+from postprocess.output import register_files_of_run, write_figures
+from postprocess.results import ResultsError, check_file, one_line, read_table
+from postprocess.vtu import CORNERS, cells_of_type, read_arrays
 
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8C510A", "#35978F")
 
@@ -41,25 +41,27 @@ def run(arguments: argparse.Namespace) -> None:
     with style.look():
         figures = {}
         if (folder / "check.json").exists() or not numbered.exists():
-            figures[out] = draw(folder, sight(*(arguments.view or VIEW)))
+            figures[out] = draw(folder, view_matrix(*(arguments.view or VIEW)))
         if numbered.exists():
             beside = out.with_name(f"{out.stem}-faces.pdf") if arguments.out else folder / "faces.pdf"
             figures[beside] = geometry_faces.draw(numbered, *(arguments.view or VIEW))
         if not arguments.out:
-            enter(folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")])
+            register_files_of_run(
+                folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")]
+            )
         for path in write_figures(figures):
             print(path)
 
 
 def draw(folder: Path, view: np.ndarray) -> Figure:
     """The figure, one column wide."""
-    said = read_said(folder / "check.json")
+    content = read_check(folder / "check.json")
     found = read_arrays(folder / "check-mesh.vtu")
     at, types = found["Points", None].reshape(-1, 3), found["Cells", "types"]
     label = found["CellData", "Label"]
     solid = 10 if np.any(types == 10) else 5
     shell = 5 if solid == 10 else 3
-    cells, sides = (corners(folder / "check-mesh.vtu", found, kind) for kind in (solid, shell))
+    cells, sides = (cells_of_type(folder / "check-mesh.vtu", found, kind) for kind in (solid, shell))
     points = read_table(folder / "check-points.csv", "contact x y z nx ny nz gap paired".split())
     plane = solid == 5
     figure = Figure(figsize=(style.COLUMN, (1.95 if plane else 1.35) * style.COLUMN), layout="constrained")
@@ -68,56 +70,56 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     colours = {int(group): COLOURS[k % len(COLOURS)] for k, group in enumerate(np.unique(groups[groups > 0]))}
     paint = draw_plane if plane else draw_solid
     for panel in (axes, *close):
-        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view, roles(said))
+        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view, line_widths(content))
         draw_points(panel, points, np.eye(3) if plane else view, size, panel in close or not plane)
     for panel in close:
         near = np.argmin(np.where(points["paired"] > 0, np.abs(points["gap"]), np.inf))
         reach = 8 * size + 2 * abs(points["gap"][near])
         panel.set_xlim(points["x"][near] - reach, points["x"][near] + reach)
         panel.set_ylim(points["y"][near] - 0.6 * reach, points["y"][near] + 0.6 * reach)
-    width = roles(said) if plane else {}
+    width = line_widths(content) if plane else {}
     entries = [
         Line2D([], [], color=colours[group], linewidth=width.get(group, 1.4 if plane else 2)) for group in colours
     ]
     entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
-    words = [style.plain(role(said, group)) for group in colours]
+    words = [style.without_mathtext(group_caption(content, group)) for group in colours]
     style.legend_outside(figure, "lower left", entries, [*words, "contact points and normals"], ncols=1)
     held = "\n".join(
-        f"{brief(str(body['name']))}: held by {brief(str(body['held']))}"
+        f"{one_line(str(body['name']))}: held by {one_line(str(body['held']))}"
         + ("; free: " + ", ".join(word.partition(": ")[2] for word in body["free"]) if body["free"] else "")
-        for body in said["bodies"]
+        for body in content["bodies"]
     )
-    axes.set_title(style.plain(held), loc="left", fontsize=6.5)
+    axes.set_title(style.without_mathtext(held), loc="left", fontsize=6.5)
     return figure
 
 
-def read_said(path: Path) -> dict:
+def read_check(path: Path) -> dict:
     """check.json, with the lists that are drawn."""
     check_file(path, "; run the case with -check 1")
     try:
-        said = json.loads(path.read_text(encoding="utf-8"))
-        if not all(isinstance(said[key], list) for key in ("groups", "statements", "bodies", "contacts")):
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if not all(isinstance(content[key], list) for key in ("groups", "statements", "bodies", "contacts")):
             raise ValueError
     except (ValueError, KeyError, TypeError):
         raise ResultsError(path, "is not what -check 1 writes") from None
-    return said
+    return content
 
 
-def role(said: dict, group: int) -> str:
+def group_caption(content: dict, group: int) -> str:
     """A group's name, and the statements about it."""
-    name = str(said["groups"][group - 1])
-    words = [each["word"] for each in said["statements"] if each.get("group") == group and each["word"] != "contact"]
-    for contact in said["contacts"]:
+    name = str(content["groups"][group - 1])
+    words = [each["word"] for each in content["statements"] if each.get("group") == group and each["word"] != "contact"]
+    for contact in content["contacts"]:
         slave, _, master = str(contact["name"]).partition(" ")
         words += [f"slave of {master}"] if slave == name else []
         words += [f"master of {slave}"] if master == name else []
     return f"{name}: {', '.join(dict.fromkeys(words))}" if words else name
 
 
-def roles(said: dict) -> dict[int, float]:
+def line_widths(content: dict) -> dict[int, float]:
     """The widths of the lines of slaves and of groups that are masters alone."""
-    numbers = {str(name): number for number, name in enumerate(said["groups"], 1)}
-    pairs = [str(contact["name"]).split(" ", 1) for contact in said["contacts"]]
+    numbers = {str(name): number for number, name in enumerate(content["groups"], 1)}
+    pairs = [str(contact["name"]).split(" ", 1) for contact in content["contacts"]]
     found = {numbers[pair[-1]]: 0.9 for pair in pairs if pair[-1] in numbers}
     return found | {numbers[pair[0]]: 2.4 for pair in pairs if pair[0] in numbers}
 

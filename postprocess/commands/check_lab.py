@@ -18,7 +18,7 @@ import tempfile
 from pathlib import Path
 
 from postprocess import markdown, teaching_kit
-from postprocess.results import ResultsError, reason
+from postprocess.results import ResultsError, system_message
 
 SHARE = 0.005
 SECONDS = 120  # a law that loops for ever
@@ -45,9 +45,9 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.file.suffix == ".idp":
         if arguments.lab != "4":
             raise ResultsError(arguments.file, "a law file is checked by lab 4 alone")
-        lines = of_a_law(arguments.file)
+        lines = check_law_file(arguments.file)
     else:
-        lines = of_answers(teaching_kit.read(found[0] / "ANSWERS.md"), arguments.file)
+        lines = check_answers(teaching_kit.read_page(found[0] / "ANSWERS.md"), arguments.file)
     good = sum(well for well, _ in lines)
     for well, words in lines:
         print(f"{'ok ' if well else 'OFF'}  {words}")
@@ -89,7 +89,7 @@ def tolerance(cell: str) -> float:
     return max(0.501 * last, SHARE * abs(number(cell)))
 
 
-def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
+def check_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
     """Of each row that has a value: whether it is well, and words."""
     known = expected(answers)
     try:
@@ -98,7 +98,7 @@ def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
         lines = csv.reader(io.StringIO(text, newline=""), delimiter=";" if ";" in text.partition("\n")[0] else ",")
         head, *cells = list(lines) or [[]]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ResultsError(file, reason(error) if isinstance(error, OSError) else "is not a CSV file") from None
+        raise ResultsError(file, system_message(error) if isinstance(error, OSError) else "is not a CSV file") from None
     names = [name.strip().lower() for name in head]
     rows = [dict(zip(names, [*row, "", "", ""], strict=False)) for row in cells]
     if not rows or not {"flags", "quantity", "value"} <= {*names}:
@@ -129,7 +129,7 @@ def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
 # ---------------------------------------------------------------- a law
 
 
-def of_a_law(file: Path) -> list[tuple[bool, str]]:
+def check_law_file(file: Path) -> list[tuple[bool, str]]:
     """The checks that lab 4 prints, of a law in place of its own."""
     if not file.is_file():
         raise ResultsError(file, "is not there")
@@ -150,16 +150,16 @@ def of_a_law(file: Path) -> list[tuple[bool, str]]:
             )
         except subprocess.TimeoutExpired:
             return [(False, f"the run does not end: stopped after {SECONDS} seconds")]
-    said = done.stdout.decode(errors="replace")
+    output = done.stdout.decode(errors="replace")
     found = []
     for words, allowed in CHECKS.items():
-        printed = re.findall(rf"{re.escape(words)} (\S+)", said)
+        printed = re.findall(rf"{re.escape(words)} (\S+)", output)
         value = float(printed[-1]) if printed else float("nan")
-        told = f"{value:.2g}" if printed else "not printed"
-        found.append((value <= allowed, f"{words}: {told}, at most {allowed:g}"))
-    below = re.findall(r"below s = 0: (\S+) (\S+) (\S+)", said)
+        shown = f"{value:.2g}" if printed else "not printed"
+        found.append((value <= allowed, f"{words}: {shown}, at most {allowed:g}"))
+    below = re.findall(r"below s = 0: (\S+) (\S+) (\S+)", output)
     found.append((bool(below) and all(float(v) == 0 for v in below[-1]), "pressure, slope, potential: 0 below s = 0"))
     if done.returncode != 0:
-        (why,) = ([line for line in said.splitlines() if "error" in line.lower()] or said.splitlines() or [""])[:1]
+        (why,) = ([line for line in output.splitlines() if "error" in line.lower()] or output.splitlines() or [""])[:1]
         found.append((False, f"the run ends with code {done.returncode}: {why.strip()}"))
     return found

@@ -33,6 +33,6 @@ def run(arguments: argparse.Namespace) -> None:
     read = getattr(module, "READ", read_run)
     runs = [read(folder) for folder in arguments.folders]
     with style.look():
-        figure = module.draw(runs, style.Units(*map(style.plain, arguments.units)))
+        figure = module.draw(runs, style.Units(*map(style.without_mathtext, arguments.units)))
         for path in write_figure(figure, arguments.out):
             print(path)

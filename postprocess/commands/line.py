@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.bodies import units_of
-from postprocess.output import write_own
+from postprocess.output import write_figure_of_run
 from postprocess.results import ResultsError, Run, Table, column_names, read_run, read_table
 
 SIZE = (style.PAGE, 0.42 * style.PAGE)
@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     path = table_of(chosen, arguments.name)
     with style.look():
-        write_own(drawn(path, units_of(chosen, arguments.units)), arguments.out, path.with_suffix(".pdf"))
+        write_figure_of_run(draw_line(path, units_of(chosen, arguments.units)), arguments.out, path.with_suffix(".pdf"))
 
 
 def table_of(chosen: Run, name: str | None) -> Path:
@@ -50,7 +50,7 @@ def read_line(path: Path) -> Table:
     return read_table(path, [*COLUMNS, *(["uz"] if space else [])], "; name it in the case: line NAME ...")
 
 
-def drawn(path: Path, units: style.Units) -> Figure:
+def draw_line(path: Path, units: style.Units) -> Figure:
     table = read_line(path)
     at = table["distance"]
     figure = Figure(figsize=SIZE, layout="constrained")

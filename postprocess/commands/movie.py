@@ -14,13 +14,13 @@ from pathlib import Path
 from matplotlib import rc_context
 
 from postprocess import html_page, style
-from postprocess.commands.show import cell
-from postprocess.formatting import HISTORY_COLUMNS, history_rows, run_words
+from postprocess.commands.show import value_text
+from postprocess.formatting import HISTORY_COLUMNS, history_rows, run_caption
 from postprocess.movie_player import render
 from postprocess.newton_movie import NewtonMovie
-from postprocess.output import enter, write_files
+from postprocess.output import register_files_of_run, write_files
 from postprocess.path_movie import PathMovie, along_path
-from postprocess.results import ResultsError, Run, brief, read_run
+from postprocess.results import ResultsError, Run, one_line, read_run
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,7 +39,7 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         with style.look():
             kind = PathMovie if along_path(chosen) else NewtonMovie
-            movie = kind(chosen, style.Units(*map(style.plain, arguments.units)))
+            movie = kind(chosen, style.Units(*map(style.without_mathtext, arguments.units)))
             if arguments.frame is not None:
                 contents = {
                     Path(arguments.out) / f"frame-{arguments.frame}.svg": one_frame(chosen, movie, arguments.frame)
@@ -47,12 +47,12 @@ def run(arguments: argparse.Namespace) -> None:
         if arguments.frame is None:
             player, picture, film = render(movie, description(chosen), arguments.speed)
     except (ValueError, OverflowError) as error:
-        raise ResultsError(chosen.path, f"cannot be drawn: {brief(str(error))}") from None
+        raise ResultsError(chosen.path, f"cannot be drawn: {one_line(str(error))}") from None
     folder = Path(arguments.out)
     if arguments.frame is None:
         contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
         contents |= {folder / "movie.mp4": film} if film else {}
-    enter(folder, [path.name for path in contents])
+    register_files_of_run(folder, [path.name for path in contents])
     for path in write_files(contents):
         print(path)
 
@@ -72,11 +72,11 @@ def description(run: Run) -> str:
     """What the movie shows, in words."""
     if along_path(run):
         return (
-            f"One picture per state of the run {run_words(run)}. Left: the force against the approach so far, "
+            f"One picture per state of the run {run_caption(run)}. Left: the force against the approach so far, "
             "with jumps. Right: the pressure along the contact."
         )
     return (
-        f"One picture per Newton step of the run {run_words(run)}. Left: each contact point's overlap and pressure, "
+        f"One picture per Newton step of the run {run_caption(run)}. Left: each contact point's overlap and pressure, "
         "beside the curve of the law and its wall. Right: the pressure along the contact, and the deformed bodies. "
         "The table of Newton steps tells the same in numbers."
     )
@@ -90,8 +90,10 @@ def web_page(run: Run, player: str) -> str:
     )
     if along_path(run):
         words = "A frame is a state of the path: what the surfaces do as they come together and part."
-    head = [html_page.element("h1", f"The method at work: {run_words(run)}"), html_page.element("p", words)]
+    head = [html_page.element("h1", f"The method at work: {run_caption(run)}"), html_page.element("p", words)]
     steps = html_page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
-    outcome = html_page.element("p", f"Force {cell(run.summary['force'])}, residual {cell(run.summary['residual'])}.")
+    outcome = html_page.element(
+        "p", f"Force {value_text(run.summary['force'])}, residual {value_text(run.summary['residual'])}."
+    )
     body = html_page.joined([*head, html_page.Markup(player), outcome, steps])
-    return html_page.document(f"Newton steps: {run_words(run)}", html_page.element("main", body, id="main"))
+    return html_page.document(f"Newton steps: {run_caption(run)}", html_page.element("main", body, id="main"))

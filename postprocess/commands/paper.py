@@ -36,7 +36,9 @@ def run(arguments: argparse.Namespace) -> None:
     runs = {path.parent.name: read_run(path.parent) for path in sorted(arguments.folder.glob("*/summary.json"))}
     wanted = [*(f"h-{h}{start}" for h in SIZES for start in ("", "-d0")), "newton"]
     wanted += ["stiff", "stiff-d0", "stiff-newton"]
-    wanted += [run_of(flag, value) for flag, values in (("tol", TOLERANCES), ("eps", MODEL_ERRORS)) for value in values]
+    wanted += [
+        run_name(flag, value) for flag, values in (("tol", TOLERANCES), ("eps", MODEL_ERRORS)) for value in values
+    ]
     missing = [name for name in wanted if name not in runs]
     if missing:
         raise ResultsError(arguments.folder, f"has no run {missing[0]}: make paper makes them")
@@ -46,17 +48,17 @@ def run(arguments: argparse.Namespace) -> None:
         print(path)
 
 
-def run_of(flag: str, value: str) -> str:
+def run_name(flag: str, value: str) -> str:
     """The name of the run with this value of -tol or -eps; the defaults are those of the run h-0.5."""
     return "h-0.5" if (flag, value) in (("tol", "1e-6"), ("eps", "1e-4")) else f"{flag}-{value}"
 
 
-def counts(run: Run) -> str:
+def counts_text(run: Run) -> str:
     """Adaptations / Newton steps."""
     return f"{run.summary['adaptations']} / {run.summary['newton']}"
 
 
-def never_falls(run: Run) -> bool:
+def thresholds_never_decrease(run: Run) -> bool:
     """Proposition 4.1: no threshold of a model is below that of the model before, at any point."""
     tau = np.array([table["tau"] for table in run.adaptations])
     return bool(np.all(np.diff(tau, axis=0) >= 0))
@@ -105,7 +107,9 @@ Claim = tuple[str, Run, str, bool, str]
 def claims_table(runs: dict[str, Run], figures: dict[str, Run]) -> Markup:
     """A row a claim: the command that tests it, its result, and whether that agrees with the paper."""
     claims = [*claims_on_counts(runs, figures), *claims_on_other_schemes(runs, figures)]
-    rows = [[claim, element("code", command(each)), out, verdict(well), why] for claim, each, out, well, why in claims]
+    rows = [
+        [claim, element("code", command(each)), out, verdict_mark(well), why] for claim, each, out, well, why in claims
+    ]
     return table("Claims", ["the paper", "command", "comes out", "agrees", "why, or on what"], rows)
 
 
@@ -117,8 +121,8 @@ def claims_on_counts(runs: dict[str, Run], figures: dict[str, Run]) -> list[Clai
         (
             "§5: the full-compliant solution after 3 adaptations with 12 Newton steps in total",
             base,
-            f"{counts(base)}; with both bodies meshed {counts(meshed)}",
-            counts(base) == counts(meshed) == "3 / 12",
+            f"{counts_text(base)}; with both bodies meshed {counts_text(meshed)}",
+            counts_text(base) == counts_text(meshed) == "3 / 12",
             "P1, h = 0.5, T⁰ = 0; the paper names neither mesh nor tolerance, and the count depends on both (below)",
         ),
         (
@@ -142,7 +146,7 @@ def claims_on_other_schemes(runs: dict[str, Run], figures: dict[str, Run]) -> li
     """Plain Newton and small load steps compared with the scheme, stiff laws, and the monotone thresholds."""
     base, meshed = runs["h-0.5"], figures["paper"]
     schemes = [each for name, each in runs.items() if "newton" not in name]
-    falls = [each for each in [*schemes, meshed] if not never_falls(each)]
+    falls = [each for each in [*schemes, meshed] if not thresholds_never_decrease(each)]
     small = figures["incremental"].summary["newton"]
     plain, stiff = runs["newton"].summary["newton"], runs["stiff-newton"].summary["newton"]
     return [
@@ -164,7 +168,8 @@ def claims_on_other_schemes(runs: dict[str, Run], figures: dict[str, Run]) -> li
         (
             "§1: the scheme is for stiff laws, which classical schemes hardly solve",
             runs["stiff-d0"],
-            f"κ = 1e12: plain Newton {stiff}; T⁰ = 0: {counts(runs['stiff'])}; T⁰ = d0: {counts(runs['stiff-d0'])}",
+            f"κ = 1e12: plain Newton {stiff}; T⁰ = 0: {counts_text(runs['stiff'])}; "
+            f"T⁰ = d0: {counts_text(runs['stiff-d0'])}",
             runs["stiff-d0"].summary["newton"] < stiff,
             "from T⁰ = d0; from T⁰ = 0 the wall is never met, and the scheme is plain Newton, which is slow, not lost",
         ),
@@ -185,7 +190,7 @@ def by_mesh(runs: dict[str, Run]) -> list[Markup]:
     meshes = table(
         "Adaptations / Newton steps by mesh",
         ["h, P1", "T⁰ = 0", "T⁰ = d0"],
-        [[h, counts(runs[f"h-{h}"]), counts(runs[f"h-{h}-d0"])] for h in SIZES],
+        [[h, counts_text(runs[f"h-{h}"]), counts_text(runs[f"h-{h}-d0"])] for h in SIZES],
         [1, 2],
     )
     words = (
@@ -197,12 +202,12 @@ def by_mesh(runs: dict[str, Run]) -> list[Markup]:
 
 def by_tolerance(runs: dict[str, Run]) -> list[Markup]:
     """Models and steps by the tolerances of the residual and of the model error: a text and two tables."""
-    needed = [runs[run_of("tol", value)].summary["newton"] for value in TOLERANCES]
+    needed = [runs[run_name("tol", value)].summary["newton"] for value in TOLERANCES]
     tables = [
         table(
             f"Adaptations / Newton steps by {words}",
             [f"-{flag}", "h = 0.5, T⁰ = 0"],
-            [[value, counts(runs[run_of(flag, value)])] for value in values],
+            [[value, counts_text(runs[run_name(flag, value)])] for value in values],
             [1],
         )
         for flag, values, words in (
@@ -249,5 +254,5 @@ def every_claim() -> Markup:
     return table("Every claim of the paper", head, rows)
 
 
-def verdict(well: bool) -> Markup:
+def verdict_mark(well: bool) -> Markup:
     return element("span", "yes" if well else "NO", class_="pass" if well else "fail")

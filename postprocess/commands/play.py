@@ -47,8 +47,8 @@ def run(arguments: argparse.Namespace) -> None:
             f'<svg id="{name}Law" viewBox="0 0 300 190" role="img" aria-label="{words}: points and law"></svg>',
             f'<svg id="{name}Line" viewBox="0 0 300 170" role="img" aria-label="{words}: overlap along x"></svg>',
         ]
-        said = [f'<p><strong id="{name}End"></strong></p>', f'<p id="{name}Said"></p>']
-        columns.append("\n".join([f'<section class="{name}"><h3>{words}</h3>', *said, *pictures, "</section>"]))
+        texts = [f'<p><strong id="{name}End"></strong></p>', f'<p id="{name}Said"></p>']
+        columns.append("\n".join([f'<section class="{name}"><h3>{words}</h3>', *texts, *pictures, "</section>"]))
     text = string.Template(teaching_kit.template_file("play.html")).substitute(
         style=teaching_kit.template_file("page.css"),
         methods="\n".join(columns),
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def influence(h: float) -> dict[str, list[float]]:
     """Points x, weights w, and row by row up to the diagonal the displacement c that a unit force leaves, at this h."""
-    text = teaching_kit.read(teaching_kit.LABS / teaching_kit.PAGE)
+    text = teaching_kit.read_page(teaching_kit.LABS / teaching_kit.PAGE)
     meshes = teaching_kit.LABS.parent.parent / "meshes"
     text = text[: text.index("int newton = 0")] + WRITES
     text = text.replace('here + "/../../../meshes/"', json.dumps(f"{meshes}/"))

@@ -23,6 +23,6 @@ def run(arguments: argparse.Namespace) -> None:
     """Draws the picture, writes it and prints the paths."""
     with style.look():
         for path in write_figure(
-            slide_figures.drawn(slide_figures.PICTURES[arguments.name], arguments.slide), arguments.out
+            slide_figures.draw_picture(slide_figures.PICTURES[arguments.name], arguments.slide), arguments.out
         ):
             print(path)

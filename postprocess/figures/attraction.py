@@ -74,7 +74,7 @@ def draw_path(axes: Axes, rows: dict, colour: str, name: str, whole: bool) -> No
         joined = begin - 1 if begin and not jumped[begin] else begin
         piece = slice(joined, end)
         line = "-" if stable[begin] else (0, (0.6, 0.6) if whole else (1, 1.5))
-        points = smooth(*(rows[column][piece] for column in ("approach", "force", "stiffness")))
+        points = smooth_curve(*(rows[column][piece] for column in ("approach", "force", "stiffness")))
         axes.plot(*points, color=colour, linestyle=line, label=name if begin == 0 else None, **broad)
     for row in np.nonzero(jumped)[0]:
         arrow = {
@@ -88,7 +88,7 @@ def draw_path(axes: Axes, rows: dict, colour: str, name: str, whole: bool) -> No
         axes.annotate("", (approach[row], force[row]), (approach[row - 1], force[row - 1]), arrowprops=arrow)
 
 
-def smooth(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def smooth_curve(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The cubic between neighbours where it is near their chord; up to a fold, of infinite slope, a root and a line."""
     t = np.linspace(0, 1, 21)[:, None]
     step = np.diff(x)

@@ -7,7 +7,17 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Cells, Row, contact_seconds, good, name_meshes, number, read_campaign, select
+from postprocess.campaign import (
+    Campaign,
+    Cells,
+    Row,
+    contact_seconds,
+    is_converged,
+    name_meshes,
+    number,
+    read_campaign,
+    select,
+)
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
@@ -32,11 +42,11 @@ PEERS = "script flags status scene kappa m forceError seconds_assembly seconds_f
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """A panel per problem: of each run the true error, filled, and what it said, open; NGSolve's best as a line."""
-    rows = [row for row in runs[0].rows("accuracy", COLUMNS) if good(row) and number(row, "forceError") > 0]
+    rows = [row for row in runs[0].rows("accuracy", COLUMNS) if is_converged(row) and number(row, "forceError") > 0]
     if not rows:
         raise ResultsError(runs[0].path / "accuracy.csv", "no run of it converged")
     peers = runs[0].rows("peers", PEERS) if (runs[0].path / "peers.csv").exists() else []
-    peers = [row for row in peers if good(row) and row["script"].endswith(".py")]
+    peers = [row for row in peers if is_converged(row) and row["script"].endswith(".py")]
     figure = Figure(figsize=(style.COLUMN, 1.3 * style.COLUMN), layout="constrained")
     grid = figure.subplots(3, 2)
     for axes, (title, wanted) in zip(grid.flat, PROBLEMS.items(), strict=False):
@@ -65,9 +75,9 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
 def draw_series(axes: Axes, rows: list[Row], looks: dict) -> None:
     """Of each run a stroke from the true error to what was said; the true ones joined from the coarse to the fine."""
     for row in rows:
-        x, true, said = (number(row, name) for name in ("seconds", "forceError", "said"))
-        axes.plot([x, x], [true, said], color=looks["color"], linewidth=0.7)
-        axes.plot(x, said, **looks, markersize=3.2, markerfacecolor="white", markeredgewidth=0.7, zorder=3)
+        x, true, estimate = (number(row, name) for name in ("seconds", "forceError", "said"))
+        axes.plot([x, x], [true, estimate], color=looks["color"], linewidth=0.7)
+        axes.plot(x, estimate, **looks, markersize=3.2, markerfacecolor="white", markeredgewidth=0.7, zorder=3)
     rows = sorted(rows, key=lambda row: (-number(row, "asked") if row["asked"] else 0, number(row, "ndof")))
     points = [(number(row, "seconds"), number(row, "forceError")) for row in rows]
     if points:

@@ -12,9 +12,9 @@ from postprocess.campaign import (
     Cells,
     Row,
     contact_seconds,
-    good,
-    look,
+    is_converged,
     method,
+    method_look,
     name_meshes,
     number,
     numbers,
@@ -44,7 +44,7 @@ COLUMNS = "flags status method T0 scene kappa m order h seconds_assembly seconds
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """A row per problem, a panel per quantity: a curve per element, a point per mesh; the rivals' runs as points."""
-    rows = [row for row in runs[0].rows("meshes", f"{COLUMNS} {' '.join(ERRORS)}") if good(row)]
+    rows = [row for row in runs[0].rows("meshes", f"{COLUMNS} {' '.join(ERRORS)}") if is_converged(row)]
     if not rows:
         raise ResultsError(runs[0].path / "meshes.csv", "no run of it converged")
     figure = Figure(figsize=(style.PAGE, 0.85 * style.PAGE), layout="constrained")
@@ -103,7 +103,7 @@ def seconds(rows: list[Row]) -> np.ndarray:
 def rival_look(name: str) -> dict:
     """A method's marker, open and grey: the colours are the elements'."""
     return {
-        "marker": look(name)["marker"],
+        "marker": method_look(name)["marker"],
         "linestyle": "",
         "color": style.GREY,
         "markerfacecolor": "white",

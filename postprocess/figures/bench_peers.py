@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Row, contact_seconds, good, name_meshes, number, read_campaign
+from postprocess.campaign import Campaign, Row, contact_seconds, is_converged, name_meshes, number, read_campaign
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
@@ -28,7 +28,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     Runs that came to nothing are counted in words, code by code.
     """
     every = runs[0].rows("peers", COLUMNS)
-    rows = [row for row in every if good(row) and number(row, "forceError") > 0]
+    rows = [row for row in every if is_converged(row) and number(row, "forceError") > 0]
     problems = list(dict.fromkeys(map(problem, rows)))
     if not problems:
         raise ResultsError(runs[0].path / "peers.csv", "no run of it converged")
@@ -37,12 +37,12 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     grid = figure.subplots(lines, 2, sharey=True, sharex=True, squeeze=False)
     for axes, which in zip(grid.flat, problems, strict=False):
         for code, color in enumerate(COLORS):
-            draw_code(axes, [row for row in rows if problem(row) == which and of(row) == code], color)
-        name_lost(axes, [row for row in every if not good(row) and problem(row) == which])
+            draw_code(axes, [row for row in rows if problem(row) == which and code_index(row) == code], color)
+        annotate_failures(axes, [row for row in every if not is_converged(row) and problem(row) == which])
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
-        axes.set_title(name_of(*which), loc="left", fontsize=8)
+        axes.set_title(panel_title(*which), loc="left", fontsize=8)
         axes.grid(color="0.9", linewidth=0.5)
         axes.margins(0.08)
     for axes in grid.flat[len(problems) :]:
@@ -71,23 +71,23 @@ def problem(row: Row) -> tuple[str, float, float]:
     return flags.get("-problem", row["scene"]), number(row, "kappa"), number(row, "m")
 
 
-def name_lost(axes: Axes, rows: list[Row]) -> None:
+def annotate_failures(axes: Axes, rows: list[Row]) -> None:
     """How many cases of each code came to nothing, and how."""
     lines = []
     for code, name in enumerate(CODES):
-        lost = {row["flags"]: row["status"] for row in rows if of(row) == code}
+        lost = {row["flags"]: row["status"] for row in rows if code_index(row) == code}
         lines += [f"{name}: {list(lost.values()).count(how)} {how}" for how in sorted(set(lost.values()))]
     axes.text(
         0.97, 0.97, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=7, color=style.GREY
     )
 
 
-def of(row: Row) -> int:
+def code_index(row: Row) -> int:
     """The code that a row is of: its place in CODES."""
     return int(row["script"].endswith(".py"))
 
 
-def name_of(scene: str, kappa: float, m: float) -> str:
+def panel_title(scene: str, kappa: float, m: float) -> str:
     law = rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
     return SCENES.get(scene, "") + law
 

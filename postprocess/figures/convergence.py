@@ -28,7 +28,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     axes = figure.subplots()
     axes.set_yscale("log")
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
-        draw_curve(axes, run, index, f"{label}: {style.price(run, 'step')}", floor)
+        draw_curve(axes, run, index, f"{label}: {style.cost_text(run, 'step')}", floor)
     draw_tolerances(axes, runs)
     if len(runs) == 1:
         mark_adaptations(axes, runs[0])
@@ -100,7 +100,7 @@ def mark_adaptations(axes: Axes, run: Run) -> None:
         begin = history["newton"][row] - 0.5
         if order > 0:
             axes.axvline(begin, color=style.GREY, linewidth=0.6, linestyle=":", zorder=1)
-        if order not in style.named(len(numbers)):
+        if order not in style.labelled_indices(len(numbers)):
             continue
         axes.annotate(
             f"$T^{{{order}}}$",

@@ -47,7 +47,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             left.plot([d0, *steps], [0, *carried], color=look["color"], linewidth=0.9)
             right.plot(steps - d0, carried, color=look["color"], linewidth=0.9)
         dot: style.Look = {**look, "linestyle": "none", "markersize": 5, "zorder": 4}
-        left.plot(overlap, pressure, label=style.interface(run), clip_on=False, **dot)
+        left.plot(overlap, pressure, label=style.law_text(run), clip_on=False, **dot)
         if reached >= s[0]:
             right.plot(reached, pressure, **dot)
     left.set_xlim(d0 - 0.05 * (end - d0), end)

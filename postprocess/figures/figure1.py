@@ -42,7 +42,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     )
     if len(edges.block) == 0:
         raise ResultsError(run.path / "triangles.csv", "has no triangle of region 1, the block")
-    whole, close = windows(run)
+    whole, close = axes_limits(run)
 
     figure = Figure(figsize=(style.PAGE, 0.64 * style.PAGE), layout="constrained")
     grid = figure.subplots(3, len(chosen), sharex="row", squeeze=False, height_ratios=[1, 0.85, 0.85])
@@ -55,7 +55,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         grid[0, column].set_title(f"{style.panel(column)} {words}", loc="left", linespacing=1.0, fontsize=8)
         corner, size = close[::2], np.subtract(close[1::2], close[::2])
         grid[0, column].add_patch(Rectangle(corner, *size, fill=False, linewidth=0.6, zorder=5))
-        grid[1, column].set_title(separation(run, state), fontsize=8)
+        grid[1, column].set_title(overlap_caption(run, state), fontsize=8)
         draw_overlap(grid[2, column], run, state)
         grid[2, column].set_xlim(close[:2])
         grid[2, column].set_xlabel(f"$x$ [{units.length}]")
@@ -118,10 +118,10 @@ def choose_states(run: Run) -> list[tuple[int, str]]:
     if len(later):
         names[int(first_model + later[0] - 1)] = "first model solved"
     names[last] = "converged" if run.summary["converged"] else "last step, not converged"
-    return [(state, f"{name}\n{position(run, state)}") for state, name in sorted(names.items())]
+    return [(state, f"{name}\n{state_caption(run, state)}") for state, name in sorted(names.items())]
 
 
-def position(run: Run, state: int) -> str:
+def state_caption(run: Run, state: int) -> str:
     """Where in the scheme a state stands."""
     states = run.states
     if state == 0:
@@ -213,7 +213,7 @@ def load_share(run: Run, state: int) -> float:
     return float(step[0] / history["step"].max()) if len(step) else 1.0
 
 
-def separation(run: Run, state: int) -> str:
+def overlap_caption(run: Run, state: int) -> str:
     """The greatest overlap in a state, or the gap before any contact."""
     if state == 0:
         overlap = -run.parameter("gap")
@@ -228,7 +228,7 @@ def separation(run: Run, state: int) -> str:
     return f"greatest overlap {overlap:.3g}" if overlap >= 0 else f"gap {-overlap:.3g}"
 
 
-def windows(run: Run) -> tuple[tuple, tuple]:
+def axes_limits(run: Run) -> tuple[tuple, tuple]:
     """The axes' limits (left, right, bottom, top) for the whole bodies and for the contact zone."""
     states = run.states
     radius = run.parameter("R")

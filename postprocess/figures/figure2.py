@@ -74,7 +74,7 @@ def draw_difference(axes: Axes, x: np.ndarray, difference: np.ndarray) -> None:
     seen = np.where(difference > 0, difference, np.nan)
     axes.plot(x, seen, color=style.BLUE, marker=".", markersize=3, linewidth=0.7)
     greatest = difference.max()
-    style.decades(axes, np.append(difference, 10 * greatest))
+    style.set_decades(axes, np.append(difference, 10 * greatest))
     axes.annotate(
         f"greatest: ${style.number(float(f'{greatest:.2g}'))}$",
         (0.5, 0.97),
@@ -88,7 +88,7 @@ def draw_difference(axes: Axes, x: np.ndarray, difference: np.ndarray) -> None:
 
 def legend_entries(runs: list[Run]) -> list[str]:
     """Each run's name and price, on two lines where they do not fit into one."""
-    entries = list(zip(style.labels(runs), [style.price(run, "Newton step") for run in runs], strict=True))
+    entries = list(zip(style.labels(runs), [style.cost_text(run, "Newton step") for run in runs], strict=True))
     longest = max(len(label) + len(price) for label, price in entries)
     separator = ": " if longest < LINE else ":\n"
     return [separator.join(entry) for entry in entries]

@@ -22,7 +22,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
         error = errors(run)
         look = style.curve(index) | {"markersize": 3, "linewidth": 0.8, "markerfacecolor": "white"}
-        left.plot(np.arange(len(error)), error, label=f"{label}: {style.price(run, 'step')}", **look)
+        left.plot(np.arange(len(error)), error, label=f"{label}: {style.cost_text(run, 'step')}", **look)
         ratio = error[1:] / error[:-1]
         right.plot(1 + np.arange(len(ratio)), ratio, **look)
         m = run.summary["parameters"].get("m")

@@ -36,7 +36,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
     for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
         look: style.Look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
-        colours = axes.tripcolor(style.surface(run), error, shading="gouraud", **look)
+        colours = axes.tripcolor(style.contact_triangulation(run), error, shading="gouraud", **look)
         axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
         axes.set_aspect("equal")
         axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}".replace(": ", ":\n"))
@@ -46,18 +46,18 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.9)
     for index, axes in enumerate(maps, start=bool(plane)):
         axes.set_title(f"{style.panel(index)} space", loc="left")
-    style.put_below(figure, meshes(runs))
+    style.write_below(figure, meshes(runs))
     return figure
 
 
 def meshes(runs: list[Run]) -> str:
     """The runs' element, and how many of them the two bodies have along a side, in the plane and in space."""
     sides = [tuple(run.summary["parameters"].get(name) for name in ("lower", "upper")) for run in runs]
-    told = [f"{low} and {high}" for low, high in dict.fromkeys(sides) if low and high]
-    return f"P{runs[0].summary['order']}" + (f", {' / '.join(told)} elements a side" if told else "")
+    kinds = [f"{low} and {high}" for low, high in dict.fromkeys(sides) if low and high]
+    return f"P{runs[0].summary['order']}" + (f", {' / '.join(kinds)} elements a side" if kinds else "")
 
 
 def words(run: Run, error: np.ndarray) -> str:
     """How the overlaps are taken, and the greatest error (per cent)."""
-    points = style.plain(str(run.summary["parameters"].get("points", "")))
+    points = style.without_mathtext(str(run.summary["parameters"].get("points", "")))
     return f"{points}: at most ${style.number(float(f'{np.abs(error).max():.2g}'))}$ %"

@@ -27,7 +27,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         closed = punch_pressure(run, a * across) / mean
         x, pressure = run.contact["x"] / a, run.contact["pressure"] / mean
         look = style.curve(index) | {"markersize": 2.5, "linewidth": 0.8, "markerfacecolor": "white"}
-        left.plot(x, pressure, label=style.interface(run), markevery=0.04, **look)
+        left.plot(x, pressure, label=style.law_text(run), markevery=0.04, **look)
         half = (x >= 0) & (x < 1 - 1e-9)
         right.plot(1 - x[half], pressure[half], markevery=0.04, **look)
     line: style.Look = {"color": style.BLACK, "linewidth": 1.0, "zorder": 4}

@@ -9,7 +9,7 @@ from matplotlib.tri import Triangulation
 from postprocess import style
 from postprocess.reference_values import hertz
 from postprocess.results import ResultsError, Run, read_table
-from postprocess.vtu import bodies_file, cut, read_grid
+from postprocess.vtu import bodies_file, cut_grid, read_grid
 
 RUNS = (1, 1)
 
@@ -131,7 +131,7 @@ def draw_cut(axes: Axes, run: Run, middle: tuple, height: float, a: float) -> Co
     grid = read_grid(path)
     if not grid.space:
         raise ResultsError(path, "is not a grid of tetrahedra; the run is not one in space")
-    pieces, stress, outline = cut(grid, middle[1] + 1e-3 * run.value("h"))
+    pieces, stress, outline = cut_grid(grid, middle[1] + 1e-3 * run.value("h"))
     near = np.hypot(*(pieces.mean(axis=1) - (middle[0], height)).T) < 4 * a
     if not near.any():
         raise ResultsError(path, "has no element at the middle of the contact")
