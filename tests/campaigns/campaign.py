@@ -121,7 +121,7 @@ def sources_digest(root: Path) -> str:
 
 def source_files(root: Path) -> list[Path]:
     below = [f"edp/**/*.{kind}" for kind in "edp idp sh awk txt cpp".split()]
-    below += ["edp/examples/**/*.geo", "edp/examples/**/*.case", "edp/case/**/*.py", "meshes/*.geo"]
+    below += ["edp/examples/**/*.geo", "edp/examples/**/*.case", "edp/input/**/*.py", "meshes/*.geo"]
     below += ["*.py", "*.geo", "*.case"]  # of a copy: what is added
     found = {path for pattern in below for path in root.glob(pattern)}
     return sorted(path for path in found if path.is_file())
