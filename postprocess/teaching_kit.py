@@ -26,8 +26,8 @@ LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
 PAGE = "0-algorithm/algorithm1.edp"
 # Of lab 0's page: what a slide has no room for
 LEFT_OUT = re.compile(
-    r"\s*([{}].*|(cout|plot|set|matrix D|int (changes|newton|j)|real (residual|off|modelError)).*|\w+\+\+;|[TSf] = \w+;"
-    r"|(diagonal|changes|modelError) = 0;)"
+    r"\s*([{}].*|(cout|plot|set|matrix D|int (newton|j)|real (residual|modelError)).*|\w+\+\+;|[TSf] = \w+;"
+    r"|(diagonal|changeCount|modelError) = 0;)"
 )
 
 
@@ -123,11 +123,14 @@ def algorithm() -> Markup:
     text = read_page(LABS / PAGE)
     lines = text[text.index("while (modelError") : text.index("cout.precision")].splitlines()
     kept = [line for line in lines if line.strip() and not LEFT_OUT.fullmatch(line)]
-    out = []
+    out, number = [], ""
     for line in kept:
         code, _, words = line.partition("//")
-        number = re.match(r" line (\d+)", words)
-        out.append(f"{f'{number[1]:>2} ' if number else '   '}{code.rstrip()}")
+        found = re.match(r" line (\d+)", words)
+        number = found[1] if found else number
+        if code.strip():  # a comment's number stands before the line after it
+            out.append(f"{number:>2} {code.rstrip()}")
+            number = ""
     return Markup(f'<pre class="algorithm" tabindex="0">{html.escape(chr(10).join(out))}</pre>')
 
 
