@@ -202,13 +202,13 @@ test-systems: | system ## in bare Debian 12, Debian 13, Ubuntu 24.04: the README
 lint: $(VENV)/dev.stamp ## check the style of the Python and FreeFEM sources
 	@$(PYTHON) -m ruff check postprocess tests edp/input
 	@$(PYTHON) -m ruff format --check postprocess tests edp/input
-	@MYPYPATH=edp/input $(PYTHON) -m mypy --strict -p reader
+	@$(PYTHON) -m mypy
 	@$(PYTHON) tests/lint_edp.py edp
 pages: ## write the pages' tables from heads, -help, a few short runs and a case file's grammar
 uses: MODULE ?= solver/problem/problem.idp
 uses: ## print which names MODULE (solver/problem/problem.idp, say) uses of which others, and who uses it
 pages uses: $(VENV)/run.stamp | system
-	@$(PYTHON) tests/pages.py $(if $(filter uses,$@),$(MODULE))
+	@PYTHONPATH=.:tests:edp/input $(PYTHON) tests/pages.py $(if $(filter uses,$@),$(MODULE))
 numbers: pages $(VENV)/dev.stamp | system ## run the commands of the pages' numbers anew, write those that have changed, show them
 	@for made in page_numbers screens campaigns/newton_step; do \
 	  PYTHONPATH=.:tests:tests/campaigns $(PYTHON) tests/$$made.py || exit 1; done

@@ -1,53 +1,24 @@
-"""`python -m postprocess SUBCOMMAND ...`: one subcommand per file of the folder commands/.
+"""`python -m postprocess SUBCOMMAND ...`: starts command_line.main in Python's safe-path mode.
 
-Exit code 0 on success, 2 when an argument or a result file is refused; the reason is one line on stderr.
+Python puts the present folder first on its path of modules. A user's numpy.py or csv.py there would take the place of
+the real one, so Python starts again with -P, which leaves that folder out; PYTHONPATH names the package's folder.
 """
 
-import argparse
 import os
 import sys
 
-from postprocess import commands
-from postprocess.results import ResultsError, brief
 
-
-def parser() -> argparse.ArgumentParser:
-    """The command line of the package, assembled from the modules in commands/."""
-    top = argparse.ArgumentParser(
-        prog="python -m postprocess",
-        description="Figures and tables from the result folders of contact runs.",
-        epilog="`python -m postprocess SUBCOMMAND --help` describes the arguments of a subcommand.",
-    )
-    subparsers = top.add_subparsers(title="subcommands", metavar="SUBCOMMAND", required=True)
-    for name, module in commands.modules().items():
-        summary = module.__doc__.splitlines()[0]
-        sub = subparsers.add_parser(
-            name,
-            help=summary,
-            description=module.__doc__,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )
-        module.add_arguments(sub)
-        sub.set_defaults(run=module.run)
-    return top
-
-
-def main(argv: list[str] | None = None) -> int:
-    """Runs one subcommand and returns the exit code of the process."""
-    arguments = parser().parse_args(argv)
-    try:
-        arguments.run(arguments)
-        sys.stdout.flush()
-    except ResultsError as error:
-        print(f"postprocess: {brief(str(error), 2000)}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:  # the reader of the output has had enough: `show RUN | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
-    except KeyboardInterrupt:
-        return 130
-    return 0
+def restart_in_safe_path_mode() -> None:
+    """Replaces this process by the same command with -P."""
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    folders = [package, *filter(None, [os.environ.get("PYTHONPATH")])]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(folders)}
+    os.execve(sys.executable, [sys.executable, "-P", *sys.orig_argv[1:]], environment)
 
 
 if __name__ == "__main__":
+    if not sys.flags.safe_path:
+        restart_in_safe_path_mode()
+    from postprocess.command_line import main
+
     sys.exit(main())

@@ -1,27 +1,30 @@
 """Bodies under their loads, for the commands `state` and `stress`: what the files hold, and how a part of it is drawn.
 
 In the plane bodies are filled triangles, and the pressure stands on the contact's surface as a curve; what is drawn of
-bodies in space is in space.py.
+bodies in space is in bodies_3d.py.
 """
 
 import argparse
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import Collection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
-from postprocess.vtu import Grid, Surface, bodies_file, read_grid, read_surface
+from postprocess.output import write_figure_of_run
+from postprocess.results import ResultsError, Run, column_names, one_line, read_run, read_table
+from postprocess.vtu import NONE, Grid, Surface, bodies_file, read_grid, read_surface
 
 FILLS = ("#DCE9F3", "#E9E6E1", "#DFF0E4", "#F7E9D7", "#F0E3EE", "#E0E0F0")
 ZONES = {1: "#CFE8DC", 2: "#FBE3C4"}  # behind curves: sticks, slips
-SHEAR = {"marker": "", "linestyle": (0, (4, 1.5))}
+SHEAR: style.Look = {"marker": "", "linestyle": (0, (4, 1.5))}
 LIGHT = np.array([-0.35, -0.5, 0.79])
 FARTHEST = 1.5  # an obstacle is drawn as far from the surface as that times the contact's size
 TOUCHING = 1e-3  # of the greatest pressure: what is shown of a contact
@@ -40,8 +43,10 @@ class Chain:
     along: np.ndarray  # from the origin on, or x
     rigid: bool
     origin: str  # what the arc length begins at: "axis", "middle" of the pressure; "" for x
-    shear: np.ndarray | None = None  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
-    slide: np.ndarray | None = None
+    shear: np.ndarray = field(
+        default_factory=lambda: NONE
+    )  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
+    slide: np.ndarray = field(default_factory=lambda: NONE)
 
     @property
     def joined(self) -> np.ndarray:
@@ -110,15 +115,15 @@ class Bodies:
     def coloured(self) -> float:
         """A scale's end: of pressures without bound what a fiftieth of the contact's force lies above."""
         table, tops = self.table, []
-        told = (self.run.summary.get("estimates") or {}).get("contacts") or []
+        estimates = (self.run.summary.get("estimates") or {}).get("contacts") or []
         for contact in set(table["contact"].tolist()):
             strength = np.sort(np.abs(table["pressure"][table["contact"] == contact]))
             order = np.argsort(np.abs(table["pressure"][table["contact"] == contact]))
             force = np.cumsum(strength * table["weight"][table["contact"] == contact][order])
             most = strength[np.searchsorted(force, 0.98 * force[-1])] if force[-1] > 0 else 0
             # where the run does not tell, it stands out
-            known = contact < len(told)
-            bound = told[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
+            known = contact < len(estimates)
+            bound = estimates[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
             tops.append(strength[-1] if bound or not most > 0 else most)
         return max(tops) if max(tops) > 0 else self.greatest
 
@@ -151,7 +156,7 @@ def read_bodies(run: Run, scale: float | None = 1.0) -> Bodies:
     table["contact"] = table["contact"].astype(int)
     stated = run.summary.get("contacts") or []
     last = table["contact"].max(initial=0)
-    titles = [brief(str(each.get("name", ""))) for each in stated] or [""]
+    titles = [one_line(str(each.get("name", ""))) for each in stated] or [""]
     rigid = [each.get("master") is None for each in stated] or [
         not any(key.startswith("masterForce") for key in run.summary)
     ]
@@ -174,23 +179,23 @@ def write_picture(arguments: argparse.Namespace, name: str, draw: Callable) -> N
     with style.look():
         bodies = read_bodies(chosen, arguments.scale)
         figure = draw(bodies, units_of(chosen, arguments.units), arguments.view, arguments.slide)
-        write_own(figure, arguments.out, chosen.path / f"{name}.pdf")
+        write_figure_of_run(figure, arguments.out, chosen.path / f"{name}.pdf")
 
 
 def units_of(run: Run, given: tuple[str, str]) -> style.Units:
     """The units named on the command line, or those that the run's case file names."""
     stated = run.summary.get("units")
     if tuple(given) == (style.Units.length, style.Units.stress) and isinstance(stated, list) and len(stated) == 2:
-        given = [brief(str(name), 20) for name in stated]
-    return style.Units(*map(style.plain, given))
+        return style.Units(*(style.without_mathtext(one_line(str(name), 20)) for name in stated))
+    return style.Units(*map(style.without_mathtext, given))
 
 
-def title(axes, index: int, words: str = "", width: int = 56) -> None:
+def set_panel_title(axes: Axes, index: int, words: str = "", width: int = 56) -> None:
     """A panel's letter, and what it shows, in lines of so many letters."""
-    axes.set_title(style.folded(f"{style.panel(index)} {words}", width), loc="left", fontsize=8)
+    axes.set_title(style.wrapped(f"{style.panel(index)} {words}", width), loc="left", fontsize=8)
 
 
-def motion(bodies: Bodies, units: style.Units) -> str:
+def displacement_caption(bodies: Bodies, units: style.Units) -> str:
     """What the displacements in a picture are."""
     most = np.sqrt((bodies.grid.move**2).sum(axis=1).max())
     drawn = "true scale" if bodies.scale == 1 else f"drawn {style.number(bodies.scale)} times"
@@ -201,7 +206,7 @@ def motion(bodies: Bodies, units: style.Units) -> str:
 # ---------------------------------------------------------------- the plane
 
 
-def chains(bodies: Bodies) -> list[Chain]:
+def contact_chains(bodies: Bodies) -> list[Chain]:
     """The contacts' pieces; a closed one is cut open where nothing touches."""
     table, found = bodies.table, []
     for contact, chain in sorted(set(zip(table["contact"].tolist(), table["chain"].tolist(), strict=True))):
@@ -261,18 +266,18 @@ def whole_window(bodies: Bodies) -> np.ndarray:
     return np.array([place.min(axis=0) - margin, place.max(axis=0) + margin])
 
 
-def zone_window(bodies: Bodies, contact: int) -> np.ndarray:
+def contact_window(bodies: Bodies, contact: int) -> np.ndarray:
     """The corners of a box around one contact, four by three."""
-    touched = reached_places(bodies, contact)
+    touched = loaded_points(bodies, contact)
     middle, half = 0.5 * (touched.min(axis=0) + touched.max(axis=0)), 0.5 * np.ptp(touched, axis=0).max()
     half = max(1.6 * half, 6 * np.sqrt(2 * plane_areas(bodies).min()))
     return np.array([middle - half * np.array([1, 0.75]), middle + half * np.array([1, 0.75])])
 
 
-def reached_places(bodies: Bodies, contact: int | None = None) -> np.ndarray:
+def loaded_points(bodies: Bodies, contact: int | None = None) -> np.ndarray:
     """The places (n, 2) over which the pressure of one contact, or of all, stands, and those beside, where it ends."""
     least = TOUCHING * bodies.greatest
-    found = [chain for chain in chains(bodies) if contact in (None, chain.contact)]
+    found = [chain for chain in contact_chains(bodies) if contact in (None, chain.contact)]
     return np.concatenate([chain.place[chain.reached(least)] for chain in found])
 
 
@@ -289,13 +294,13 @@ def stress_range(bodies: Bodies) -> float:
     The greatest outside singular places where the run tells it, else what one node in 1000 lies above; all where that
     is nearly the greatest.
     """
-    told = [body["vonMises"] for body in bodies.run.summary.get("stresses") or []]
+    stresses = [body["vonMises"] for body in bodies.run.summary.get("stresses") or []]
     most = bodies.grid.stress.max()
-    top = max(told) if told else np.percentile(bodies.grid.stress, 99.9)
+    top = max(stresses) if stresses else np.percentile(bodies.grid.stress, 99.9)
     return top if 0 < top < most / 1.3 else most
 
 
-def far_range(bodies: Bodies) -> float:
+def whole_stress_range(bodies: Bodies) -> float:
     """The same of the whole: what a fiftieth of the bodies' area, in space of their surface, lies above."""
     grid = bodies.grid
     cells = grid.skin if grid.space else grid.cells
@@ -309,35 +314,42 @@ def far_range(bodies: Bodies) -> float:
     return top if 0 < top < most / 1.3 else most
 
 
-def singular_places(bodies: Bodies) -> np.ndarray:
+def singular_points(bodies: Bodies) -> np.ndarray:
     """Deformed places (n, 3) where the stress has no bound, as the run says, or of the greatest where it lies above."""
-    said = [body["singular"] for body in bodies.run.summary.get("stresses") or [] if body["singular"]]
-    at = np.array([[*place, 0.0][:3] for place in said]).reshape(-1, 3)
+    stated = [body["singular"] for body in bodies.run.summary.get("stresses") or [] if body["singular"]]
+    at = np.array([[*place, 0.0][:3] for place in stated]).reshape(-1, 3)
     rows = [int(np.square(bodies.grid.points - place).sum(axis=1).argmin()) for place in at]
     if not rows and stress_range(bodies) < bodies.grid.stress.max():
         rows = [int(bodies.grid.stress.argmax())]
     return bodies.place[rows]
 
 
-def colour_bar(figure: Figure, colours, axes, bodies: Bodies, units: style.Units, what: str = "von Mises") -> None:
+def colour_bar(
+    figure: Figure,
+    colours: ScalarMappable | Collection,
+    axes: list[Axes],
+    bodies: Bodies,
+    units: style.Units,
+    what: str = "von Mises",
+) -> None:
     """Beside one panel, below several; its end is an arrow where the greatest lies above, which is said."""
     most = bodies.grid.stress.max() if what == "von Mises" else bodies.greatest
-    above = colours.norm.vmax < most * (1 - 1e-9)
+    above = colours.get_clim()[1] < most * (1 - 1e-9)
     words = f"up to ${style.number(float(f'{most:.3g}'))}$" if above else ""
     upright = len(axes) == 1 and np.ptp(axes[0].get_ylim()) > 0.4 * np.ptp(axes[0].get_xlim())
     label = f"{what} [{units.stress}]"
     if above:  # in two lines beside a panel: a short bar's label would stand out above it
         label = f"{label}\n{words}" if upright else f"{what}, {words} [{units.stress}]"
-    look = {"extend": "max" if above else "neither", "label": label}
+    look: style.Look = {"extend": "max" if above else "neither", "label": label}
     if upright:
         axes[0].set_anchor("W")
-        look |= {"cax": axes[0].inset_axes([1.03, 0, 0.045, 1])}
+        look |= {"cax": axes[0].inset_axes((1.03, 0, 0.045, 1))}
     else:
         look |= {"ax": axes, "location": "bottom", "aspect": 40, "pad": 0.02}
     figure.colorbar(colours, **look)
 
 
-def fill_plane(axes, bodies: Bodies, top: float | None):
+def fill_plane(axes: Axes, bodies: Bodies, top: float | None) -> Collection | None:
     """The bodies, each in its colour or all by von Mises' stress up to `top`, with their outlines.
 
     Returns what a colour bar is for.
@@ -346,34 +358,36 @@ def fill_plane(axes, bodies: Bodies, top: float | None):
     colours = None
     if top is not None:
         mesh = Triangulation(place[:, 0], place[:, 1], grid.cells)
-        look = {"shading": "gouraud", "cmap": "viridis", "vmin": 0, "vmax": top}
+        look: style.Look = {"shading": "gouraud", "cmap": "viridis", "vmin": 0, "vmax": top}
         colours = axes.tripcolor(mesh, grid.stress, rasterized=True, **look)
-        mark_singular(axes, singular_places(bodies)[:, :2])
+        mark_singular(axes, singular_points(bodies)[:, :2])
     else:
         for number, body in enumerate(np.unique(grid.body)):
             cells = place[grid.cells[grid.body == body], :2]
             colour = FILLS[number % len(FILLS)]
-            axes.add_collection(PolyCollection(cells, facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
+            axes.add_collection(
+                PolyCollection(list(cells), facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1)
+            )
     lines = place[grid.skin][:, :, :2]
     axes.add_collection(LineCollection(lines, color=style.BLACK, linewidth=0.5, zorder=3))
     return colours
 
 
-def mark_singular(axes, at: np.ndarray) -> None:
-    look = {"markersize": 6, "markeredgewidth": 0.9, "fillstyle": "none", "linestyle": "none", "zorder": 7}
+def mark_singular(axes: Axes, at: np.ndarray) -> None:
+    look: style.Look = {"markersize": 6, "markeredgewidth": 0.9, "fillstyle": "none", "linestyle": "none", "zorder": 7}
     axes.plot(*at.T, marker="o", color=style.VERMILION, **look)
 
 
-def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
+def draw_pressure_diagram(axes: Axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
     """The pressure on the surface of one contact, or of all, in a box; its scale; rigid obstacles.
 
     Where it is greatest it stands not higher than the contact is long.
     """
     touched = bodies.touching(contact)
     greatest = np.abs(bodies.table["pressure"][touched]).max()
-    long = np.ptp(reached_places(bodies, contact), axis=0).max()
+    long = np.ptp(loaded_points(bodies, contact), axis=0).max()
     scale = min(0.16 * np.ptp(box, axis=0).min(), 0.5 * long) / greatest
-    for chain in chains(bodies):
+    for chain in contact_chains(bodies):
         if chain.rigid:
             size = np.ptp(chain.place, axis=0).max()
             close = np.abs(chain.overlap) < FARTHEST * size
@@ -390,29 +404,29 @@ def stand_pressure(axes, bodies: Bodies, box: np.ndarray, contact: int | None, u
         axes.add_collection(LineCollection(crest, color=style.VERMILION, linewidth=0.9, zorder=5))
         if chain.origin == "middle" and chain.reached(TOUCHING * bodies.greatest).any():
             axes.plot(*chain.zero, marker="o", markersize=2.5, color=style.BLACK, zorder=6)
-    told = style.round_below(greatest)
+    marked = style.round_below(greatest)
     begin = box[0] + 0.05 * np.ptp(box, axis=0)
-    axes.plot(begin[0] + [0, scale * told], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
+    axes.plot(begin[0] + [0, scale * marked], begin[[1, 1]], color=style.VERMILION, linewidth=2.5, zorder=8)
     unit = "" if units.stress == style.Units.stress else f" {units.stress}"
-    look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
-    axes.annotate(f"pressure ${style.number(told)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
+    look: style.Look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
+    axes.annotate(f"pressure ${style.number(marked)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
 
 
-def place_words(bodies: Bodies, place: np.ndarray) -> str:
+def coordinates_text(bodies: Bodies, place: np.ndarray) -> str:
     """Coordinates, to a ten-thousandth of the bodies."""
     digits = 3 - int(np.floor(np.log10(np.ptp(bodies.grid.points, axis=0).max())))
     return "(" + ",\u00a0".join(f"{round(value, digits) + 0.0:g}" for value in place).replace("-", "\u2212") + ")"
 
 
-def origin_words(bodies: Bodies, contact: int) -> str:
+def origin_caption(bodies: Bodies, contact: int) -> str:
     """Where a contact's arc length begins, if that is the middle of its pressure."""
-    found = [chain for chain in chains(bodies) if chain.contact == contact and chain.pressure.any()]
+    found = [chain for chain in contact_chains(bodies) if chain.contact == contact and chain.pressure.any()]
     if len(found) != 1 or found[0].origin != "middle":
         return ""
-    return f"; arc length from \u2022\u00a0{place_words(bodies, found[0].zero)}"
+    return f"; arc length from \u2022\u00a0{coordinates_text(bodies, found[0].zero)}"
 
 
-def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]]:
+def slip_zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]]:
     """From where to where it sticks (1) or slips (2); each point stands for half of the way to its neighbours."""
     middle = 0.5 * (place[1:] + place[:-1])
     from_, to = np.concatenate([place[:1], middle]), np.concatenate([middle, place[-1:]])
@@ -421,7 +435,7 @@ def zones(place: np.ndarray, slide: np.ndarray) -> list[tuple[float, float, int]
     return [(from_[a], to[b], int(slide[a])) for a, b in zip(starts, ends, strict=True) if slide[a] > 0]
 
 
-def colour_zones(axes, found: list[Chain]) -> None:
+def draw_slip_zones(axes: Axes, found: list[Chain]) -> None:
     """Where it sticks and slips: behind the curves of a single piece; of several in a strip each below the curves."""
     height = 1.0 if len(found) == 1 else min(0.06, 0.4 / len(found))
     if len(found) > 1:
@@ -429,36 +443,36 @@ def colour_zones(axes, found: list[Chain]) -> None:
         axes.set_ylim(low - (high - low) * 1.3 * height * len(found), high)
     for number, chain in enumerate(found):
         bottom = 1.3 * height * (len(found) - 1 - number)
-        for start, end, slide in zones(chain.along, chain.slide):
+        for start, end, slide in slip_zones(chain.along, chain.slide):
             axes.axvspan(start, end, bottom, bottom + height, color=ZONES[slide], linewidth=0, zorder=0)
         if len(found) > 1:
             look = style.curve(chain.contact) | {"markersize": 2.5, "linestyle": "none", "clip_on": False}
             axes.plot(0.0, bottom + 0.5 * height, transform=axes.transAxes, **look)
 
 
-def name_zones(axes, where, **look) -> None:
-    """A legend of the axes, in them or in the figure: curves with names, and the colours of what sticks and slips."""
+def zone_legend(axes: Axes) -> tuple[list[Artist], list[str]]:
+    """Handles and labels of a legend: the curves of the axes with names, and the colours of what sticks and slips."""
     handles, names = axes.get_legend_handles_labels()
-    handles += [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
-    where.legend(handles, [*names, "sticks", "slips"], fontsize=7, **look)
+    zones: list[Artist] = [Rectangle((0, 0), 1, 1, color=ZONES[slide], linewidth=0) for slide in (1, 2)]
+    return [*handles, *zones], [*names, "sticks", "slips"]
 
 
-def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
+def plot_pressure(axes: Axes, bodies: Bodies, units: style.Units, narrow: bool = False) -> None:
     """The pressure over the arc length, a curve a contact, as far as they touch; the origin is stated.
 
     With friction the shear stands beside it, and what sticks and slips is coloured.
     """
     rubs = "shear" in bodies.table
     seen, shown, pulls, origins = set(), [], False, set()
-    found = [chain for chain in chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
+    found = [chain for chain in contact_chains(bodies) if np.any(np.abs(chain.pressure) > TOUCHING * bodies.greatest)]
     for chain in found:
         reached = chain.reached(TOUCHING * bodies.greatest)
         first = chain.contact not in seen
         seen.add(chain.contact)
         origins.add(chain.origin)
         look = style.curve(chain.contact) | {"markersize": 2.2, "markeredgewidth": 0, "linewidth": 0.9}
-        name = style.folded(f"{chain.name} pressure".strip(), 24) if rubs else style.folded(chain.name, 44)
-        axes.plot(chain.along, chain.pressure, label=(first and style.plain(name)) or None, **look)
+        name = style.wrapped(f"{chain.name} pressure".strip(), 24) if rubs else style.wrapped(chain.name, 44)
+        axes.plot(chain.along, chain.pressure, label=(first and style.without_mathtext(name)) or None, **look)
         if rubs:
             axes.plot(chain.along, chain.shear, **(look | SHEAR))
             pulls = pulls or chain.shear[reached].min() < -TOUCHING * bodies.greatest
@@ -471,26 +485,27 @@ def plot_pressure(axes, bodies: Bodies, units: style.Units, narrow: bool = False
     else:
         axes.set_ylim(0, None)
     if rubs:
-        colour_zones(axes, found)
+        draw_slip_zones(axes, found)
     axes.ticklabel_format(useOffset=False)
     begins = {"axis": " from the axis", "middle": " from the middle of the pressure"}
     origin = next(iter(origins)) if len(origins) == 1 else "middle"
     ways = {chain.towards for chain in found}
     way = {"x": ", to the right", "y": ", upwards"}.get(next(iter(ways)), "") if len(ways) == 1 and not narrow else ""
     words = f"arc length{begins[origin]}{way} [{units.length}]" if origin else f"$x$ [{units.length}]"
-    axes.set_xlabel(style.folded(words, 27 if narrow else 50))
+    axes.set_xlabel(style.wrapped(words, 27 if narrow else 50))
     axes.set_ylabel(f"{'traction' if rubs else 'pressure'} [{units.stress}]")
     if rubs:
         colour = style.curve(min(seen))["color"] if len(seen) == 1 else style.BLACK
         axes.plot([], [], label="shear", linewidth=0.9, color=colour, **SHEAR)
-        above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
-        under = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 2}
+        above: style.Look = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2}
+        under: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 7, "ncols": 2}
         if narrow and len(seen) > 1:
-            name_zones(axes, axes.figure, loc="outside lower right", ncols=3)
+            style.legend_outside(style.figure_of(axes), "lower right", *zone_legend(axes), fontsize=7, ncols=3)
         else:
-            name_zones(axes, axes, **(under if narrow else above))
+            handles, names = zone_legend(axes)
+            legend = axes.legend(handles, names, fontsize=7, **(under if narrow else above))
             # on a slide there is room below a narrow panel, which is not to be taken from the other ones
-            axes.get_legend().set_in_layout(not narrow)
+            legend.set_in_layout(not narrow)
         axes.set_anchor("N" if narrow else "C")
     elif axes.get_legend_handles_labels()[0]:
         below, above = (

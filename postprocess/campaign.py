@@ -8,8 +8,11 @@ import csv
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -34,6 +37,7 @@ LAWS = {
 }
 
 Row = dict[str, str]
+Cells = dict[str, Any]  # cells that a row is chosen by: texts and numbers
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,7 @@ def numbers(rows: list[Row], name: str) -> np.ndarray:
     return np.array([number(row, name) for row in rows])
 
 
-def select(rows: list[Row], **wanted) -> list[Row]:
+def select(rows: list[Row], **wanted: str | float) -> list[Row]:
     """The rows with these cells: a text as it is, a number as a number."""
 
     def matches(row: Row, name: str, asked: object) -> bool:
@@ -89,7 +93,7 @@ def select(rows: list[Row], **wanted) -> list[Row]:
     return [row for row in rows if all(matches(row, name, asked) for name, asked in wanted.items())]
 
 
-def good(row: Row) -> bool:
+def is_converged(row: Row) -> bool:
     return row["status"] == CONVERGED
 
 
@@ -104,7 +108,7 @@ def law(row: Row) -> str:
     return " ".join([*parts, f"{number(row, 'beta'):g}"] if row["law"] == "exponential" else parts)
 
 
-def look(name: str) -> dict:
+def method_look(name: str) -> dict:
     """Colour and marker of a method, the same in every figure."""
     return style.curve(METHODS.index(name))
 
@@ -126,10 +130,10 @@ def name_meshes(figure: Figure, rows: list[Row]) -> None:
     texts = [f"P{order}" for order in orders]
     if sizes:
         texts.append(f"$h = {sizes[0]:g}$" + (f" to ${sizes[-1]:g}$" if len(sizes) > 1 else ""))
-    style.put_below(figure, ", ".join(texts))
+    style.write_below(figure, ", ".join(texts))
 
 
-def draw_failures(axes, x: np.ndarray, color: str) -> None:
+def draw_failures(axes: Axes, x: np.ndarray, color: str) -> None:
     """Runs that failed: crosses on the upper edge, at what they cost."""
     if len(x):
         axes.plot(
@@ -145,7 +149,9 @@ def draw_failures(axes, x: np.ndarray, color: str) -> None:
         )
 
 
-def heat_map(axes, counts: np.ndarray, failed: np.ndarray, colors, size: float = 7) -> None:
+def heat_map(
+    axes: Axes, counts: np.ndarray, failed: np.ndarray, colors: tuple[Colormap, Normalize], size: float = 7
+) -> None:
     """A cell a count, annotated; a cell where a run failed is hatched, one without a run has a dot.
 
     counts: (rows, columns), NaN where there is no run; failed: (rows, columns) bool. colors: (colormap, norm).

@@ -98,7 +98,7 @@ class Finding(NamedTuple):
 # ---------------------------------------------------------------- what others use too
 
 
-def answer(command: list, cwd: Path | str = ROOT) -> tuple[int, str]:
+def program_output(command: list, cwd: Path | str = ROOT) -> tuple[int, str]:
     """(exit code, output) of a program; (-1, reason) where it cannot be started or does not answer."""
     try:
         done = subprocess.run(
@@ -116,28 +116,28 @@ def answer(command: list, cwd: Path | str = ROOT) -> tuple[int, str]:
     return done.returncode, done.stdout.decode(errors="replace")
 
 
-def snippet(text: str, verbosity: int = 0) -> tuple[int, str]:
+def run_freefem_lines(text: str, verbosity: int = 0) -> tuple[int, str]:
     """A few lines run by FreeFEM in the repository's root, as the scenes are."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "doctor.edp"
         path.write_text(text)
-        return answer(["FreeFem++", "-nw", "-v", str(verbosity), path])
+        return program_output(["FreeFem++", "-nw", "-v", str(verbosity), path])
 
 
 def freefem_version() -> str:
     """What FreeFEM calls itself, and what Debian calls it; empty when it does not run."""
-    _, output = snippet("exit(0);\n", 1)
+    _, output = run_freefem_lines("exit(0);\n", 1)
     found = re.search(r"FreeFem\+\+ +v?(\d[\w.]*)", output)
     if not found:
         return ""
     code, package = (
-        answer(["dpkg-query", "-W", "-f", "${Version}", "freefem++"]) if shutil.which("dpkg-query") else (1, "")
+        program_output(["dpkg-query", "-W", "-f", "${Version}", "freefem++"]) if shutil.which("dpkg-query") else (1, "")
     )
     return found.group(1) + (f" (Debian's package {package.strip()})" if code == 0 and package.strip() else "")
 
 
 def gmsh_version() -> str:
-    code, output = answer(["gmsh", "--version"])
+    code, output = program_output(["gmsh", "--version"])
     words = output.split()
     return words[-1] if code == 0 and words else ""
 
@@ -146,7 +146,7 @@ def blas() -> str:
     """Which BLAS the system's alternatives point to; empty where that is not known."""
     if not shutil.which("update-alternatives"):
         return ""
-    _, names = answer(["update-alternatives", "--get-selections"])
+    _, names = program_output(["update-alternatives", "--get-selections"])
     for line in names.splitlines():
         words = line.split()
         if words and words[0].startswith("libblas.so.3"):
@@ -206,7 +206,7 @@ def find_freefem() -> list:
     findings = [Finding("FreeFem++", True, f"{version}, {shutil.which('FreeFem++')}", True)]
     for plugins, needed in ((PLUGINS, True), (FURTHER_PLUGINS, False)):
         for name, use in plugins.items():
-            code, _ = snippet(f'load "{name}"\n')
+            code, _ = run_freefem_lines(f'load "{name}"\n')
             words = use if code == 0 else f"cannot be loaded ({use})"
             findings.append(Finding(f"  plugin {name}", code == 0, words, needed, plugin_hint(name)))
     return [*findings, *plugin_path(all(finding.there for finding in findings if finding.needed))]
@@ -245,7 +245,7 @@ def plugin_path(works: bool) -> list:
 def find_gmsh() -> list:
     version = gmsh_version() if shutil.which("gmsh") else ""
     found = f"{version}, {shutil.which('gmsh')}" if version else "not on the PATH, or does not run"
-    code, _ = answer(["sh", str(ROOT / "edp/input/read.sh"), "0", "ready"])
+    code, _ = program_output(["sh", str(ROOT / "edp/input/read.sh"), "0", "ready"])
     module = Finding("  its module", code == 0, "for Python, with numpy: reads cases", False, hint("gmsh's module"))
     return [Finding("gmsh", bool(version), found, True, hint("gmsh")), module]
 
@@ -257,7 +257,10 @@ def numbers(version: str) -> tuple:
 def within_bounds() -> bool:
     """Are there, in this Python itself, the packages that requirements.txt asks for?"""
     for line in (ROOT / "requirements.txt").read_text().split():
-        name, least, below = re.fullmatch(r"(\w+)>=([\d.]+),<([\d.]+)", line).groups()
+        stated = re.fullmatch(r"(\w+)>=([\d.]+),<([\d.]+)", line)
+        if not stated:
+            return False
+        name, least, below = stated.groups()
         try:
             version = numbers(importlib.metadata.version(name))
         except importlib.metadata.PackageNotFoundError:
@@ -267,7 +270,7 @@ def within_bounds() -> bool:
     return True
 
 
-def can(what: str) -> bool:
+def python_is_able(what: str) -> bool:
     """Is this Python new enough, and can it draw by its own packages, or make a virtual environment with pip in it?"""
     modules = {"own": ("venv",), "venv": ("venv", "ensurepip")}.get(what)
     if sys.version_info < (3, 11) or not modules or not all(map(importlib.util.find_spec, modules)):
@@ -282,9 +285,9 @@ def find_python() -> list:
         name
         for what in ("own", "venv")
         for name in ("python3", "/usr/bin/python3")
-        if answer([name, __file__, "--can", what])[0] == 0
+        if program_output([name, __file__, "--can", what])[0] == 0
     ]
-    version = answer([able[0], "--version"])[1].strip() if able else platform.python_version()
+    version = program_output([able[0], "--version"])[1].strip() if able else platform.python_version()
     words = (
         f"{version}, {shutil.which(able[0])}" if able else f"{version}; needed: 3.11 or newer, with venv and ensurepip"
     )
@@ -302,7 +305,7 @@ def module_version(python: Path | None, name: str) -> str:
     """The version of a package of the virtual environment; empty where there is none."""
     if python is None:
         return ""
-    code, output = answer([python, "-c", f"import importlib.metadata as m; print(m.version({name!r}))"])
+    code, output = program_output([python, "-c", f"import importlib.metadata as m; print(m.version({name!r}))"])
     return output.strip() if code == 0 else ""
 
 
@@ -338,10 +341,10 @@ def find_multigrid() -> list:
     petsc = next((folder for folder in folders if (folder / "include/petsc.h").exists()), None)
     words = str(petsc or "not found; needed for -solver multigrid only")
     findings.append(Finding("PETSc", bool(petsc), words, False, hint("petsc")))
-    return [*findings, own_plugin("multigrid", "make mpi")]
+    return [*findings, find_built_plugin("multigrid", "make mpi")]
 
 
-def own_plugin(name: str, how: str) -> Finding:
+def find_built_plugin(name: str, how: str) -> Finding:
     """A plugin that `make` builds: under the name that the scripts ask for, from the present source."""
     asked = next((ROOT / "edp/input/without").glob(f"{name}-plugin-*.idp"), Path("none"))
     plugin, source, log = BUILD / asked.name, ROOT / f"edp/solver/plugins/{name}.cpp", BUILD / f"{name}.log"
@@ -355,7 +358,7 @@ def own_plugin(name: str, how: str) -> Finding:
         elif log.exists():
             words = f"could not be built: {log} says why; runs go on without it"
         return Finding(f"  plugin {name}", False, words, False, how)
-    if snippet(f'load "{plugin.stem}"\n')[0] != 0:
+    if run_freefem_lines(f'load "{plugin.stem}"\n')[0] != 0:
         return Finding(f"  plugin {name}", False, "built, but cannot be loaded", False, f"rm {plugin}; {how}")
     old = source.exists() and source.stat().st_mtime > plugin.stat().st_mtime
     return Finding(f"  plugin {name}", not old, "built, older than its source" if old else "built", False, how)
@@ -378,14 +381,14 @@ def lines(findings: list) -> list:
 
 def main() -> int:
     if sys.argv[1:2] == ["--can"]:
-        return 0 if can(sys.argv[2]) else 1
+        return 0 if python_is_able(sys.argv[2]) else 1
     print(f"{system_name()}, {processor()}, {cores()} cores")
     findings = [
         *find_freefem(),
         *find_gmsh(),
         *find_python(),
         *find_others(),
-        own_plugin("fast", "make fast"),
+        find_built_plugin("fast", "make fast"),
         *find_multigrid(),
     ]
     print("\n".join(lines(findings)))

@@ -30,47 +30,52 @@ class Unreadable(Exception):
     """A line that is no equation."""
 
 
-def tokens(text):
+Token = tuple[str | None, str, bool]  # kind (None behind the last one), characters, whether a space stands before
+
+
+def tokens(text: str) -> list[Token]:
     """(kind, characters, whether a space stands before) of each piece."""
     return [
-        (found.lastgroup, found[found.lastgroup], bool(found["space"]))
+        (found.lastgroup, found[found.lastgroup or 0], bool(found["space"]))
         for found in TOKEN.finditer(unicodedata.normalize("NFD", text.strip()))
     ]
 
 
-def tag(name, *inner, **attributes):
-    said = "".join(f' {key}="{value}"' for key, value in attributes.items())
-    return f"<{name}{said}>{''.join(inner)}</{name}>"
+def tag(name: str, *inner: str, **attributes: str) -> str:
+    """An element of MathML with its content and attributes."""
+    written = "".join(f' {key}="{value}"' for key, value in attributes.items())
+    return f"<{name}{written}>{''.join(inner)}</{name}>"
 
 
-def letter(said):
+def letter(characters: str) -> str:
     """A letter, with the mark above it."""
-    if len(said) == 1:
-        return tag("mi", said)
-    return tag("mover", tag("mi", said[0]), tag("mo", MARKS[said[1]]), accent="true")
+    if len(characters) == 1:
+        return tag("mi", characters)
+    return tag("mover", tag("mi", characters[0]), tag("mo", MARKS[characters[1]]), accent="true")
 
 
-def row(inner):
+def row(inner: list[str]) -> str:
     return inner[0] if len(inner) == 1 else tag("mrow", *inner)
 
 
 class Line:
     """A reader of one piece of a line; `flat` writes quotients with a stroke, as in exponents."""
 
-    def __init__(self, text):
+    def __init__(self, text: str) -> None:
         self.tokens = tokens(text)
         self.at = 0
 
-    def peek(self, ahead=0):
-        return self.tokens[self.at + ahead] if self.at + ahead < len(self.tokens) else (None, None, False)
+    def peek(self, ahead: int = 0) -> Token:
+        return self.tokens[self.at + ahead] if self.at + ahead < len(self.tokens) else (None, "", False)
 
-    def take(self):
+    def take(self) -> Token:
         self.at += 1
         return self.tokens[self.at - 1]
 
-    def sequence(self, end=None, flat=False):
+    def sequence(self, end: str | None = None, flat: bool = False) -> list[str]:
         """Everything up to the closing bracket `end`, as MathML's elements."""
-        out, product = [], 0  # product: where in `out` the factors of the present product begin
+        out: list[str] = []
+        product = 0  # product: where in `out` the factors of the present product begin
         while (token := self.peek())[1] != end or token[0] != "sign":
             if token[0] is None:
                 if end:
@@ -97,30 +102,30 @@ class Line:
             self.take()
         return out
 
-    def is_text(self):
+    def is_text(self) -> bool:
         """Whether words begin here: of several letters, or a single one before or behind such."""
-        kind, said, _ = self.peek()
+        kind, characters, _ = self.peek()
         if kind in ("flag", "file"):
             return True
         if kind == "word":
-            return said not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(said)
+            return characters not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(characters)
         following = self.peek(1)
         return (
-            said == "a"
+            characters == "a"
             and following[0] == "word"
             and following[2]
             and following[1] not in FUNCTIONS | NAMES
             and len(following[1]) > 2
         )
 
-    def text(self, behind):
+    def text(self, behind: bool) -> str:
         words = []
         while self.peek()[0] is not None and self.is_text():
             words.append(self.take()[1])
         follows = self.peek()[2]
         return tag("mtext", ("\u00a0" if behind else "") + html.escape(" ".join(words)) + ("\u00a0" if follows else ""))
 
-    def bare(self, *inner):
+    def bare(self, *inner: str) -> str:
         """A numerator or denominator, without brackets around all of it."""
         if len(inner) == 1 and (
             found := re.fullmatch(r'<mrow class="group"><mo>\(</mo>(.*)<mo>\)</mo></mrow>', inner[0])
@@ -128,38 +133,39 @@ class Line:
             return tag("mrow", found[1])
         return row(list(inner))
 
-    def group(self, flat):
+    def group(self, flat: bool) -> str:
         opening = self.take()[1]
         inner = self.sequence(CLOSING[opening], flat)
         return tag("mrow", tag("mo", opening), *inner, tag("mo", CLOSING[opening]), **{"class": "group"})
 
-    def atom(self, flat):
-        kind, said, _ = self.peek()
-        if kind == "sign" and said in CLOSING:
+    def atom(self, flat: bool) -> str:
+        kind, characters, _ = self.peek()
+        if kind == "sign" and characters in CLOSING:
             return self.group(flat)
         self.take()
         if kind == "number":
-            return tag("mn", said)
-        if kind == "word" and DIFFERENTIAL.fullmatch(said):
-            return row([tag("mi", "d"), tag("mi", said[1])])
+            return tag("mn", characters)
+        if kind == "word" and DIFFERENTIAL.fullmatch(characters):
+            return row([tag("mi", "d"), tag("mi", characters[1])])
         if kind == "word":
-            return tag("mi", said)
+            return tag("mi", characters)
         if kind == "name":
-            return letter(said)
-        if (kind, said) == ("sign", "√"):
+            return letter(characters)
+        if (kind, characters) == ("sign", "√"):
             return tag("msqrt", self.bare(self.factor()))
-        if kind == "sign" and said in "∫Σ":
-            return tag("mo", said)
-        if kind == "sign" and said in "∇½∞…∂":
-            return tag("mi" if said in "∇∞∂" else "mn", said)
+        if kind == "sign" and characters in "∫Σ":
+            return tag("mo", characters)
+        if kind == "sign" and characters in "∇½∞…∂":
+            return tag("mi" if characters in "∇∞∂" else "mn", characters)
         raise Unreadable
 
-    def factor(self, flat=False):
+    def factor(self, flat: bool = False) -> str:
         """An atom with its indices, and the bracket that it is applied to."""
-        kind, said, _ = self.peek()
+        kind, characters, _ = self.peek()
         base = self.atom(flat)
-        applicable = kind == "name" or (kind == "word" and said in FUNCTIONS)
-        low, high = [], []
+        applicable = kind == "name" or (kind == "word" and characters in FUNCTIONS)
+        low: list[str] = []
+        high: list[str] = []
         # d0, R1: the number is an index
         if kind == "name" and self.peek()[0] == "number" and not self.peek()[2]:
             low.append(tag("mn", self.take()[1]))
@@ -186,39 +192,39 @@ class Line:
         if applicable and self.peek()[:2] == ("sign", "(") and not self.peek()[2]:
             argument = self.group(flat)
             return tag("mrow", base, tag("mo", "\u2061"), argument)
-        if kind == "word" and said in FUNCTIONS and self.peek()[2]:
+        if kind == "word" and characters in FUNCTIONS and self.peek()[2]:
             gap = '<mspace width="0.2em"/>'
-            return tag("mrow", gap if said == "mod" else "", base, gap)
+            return tag("mrow", gap if characters == "mod" else "", base, gap)
         return base
 
     @staticmethod
-    def raised(said):
+    def raised(characters: str) -> list[str]:
         """Characters above the line; figures together."""
-        return re.findall(r"\d+|\D", "".join(UPPER[c] for c in said))
+        return re.findall(r"\d+|\D", "".join(UPPER[c] for c in characters))
 
-    def script(self):
+    def script(self) -> str:
         if self.peek()[:2] == ("sign", "("):
             self.take()
             return row(self.sequence(")", flat=True))
         if self.peek()[:2] == ("sign", "−"):
             self.take()
             return row([tag("mo", "−"), self.script()])
-        kind, said, _ = self.take()
-        if kind not in ("number", "word", "name") and said not in "∞*":
+        kind, characters, _ = self.take()
+        if kind not in ("number", "word", "name") and characters not in "∞*":
             raise Unreadable
         if kind == "name" and self.peek()[0] == "number" and not self.peek()[2]:
-            said += self.take()[1]
-        if kind == "word" and len(said) == 2:
-            return row([tag("mi", each) for each in said])
-        return tag("mn" if kind == "number" else "mo" if said == "*" else "mi", said)
+            characters += self.take()[1]
+        if kind == "word" and len(characters) == 2:
+            return row([tag("mi", each) for each in characters])
+        return tag("mn" if kind == "number" else "mo" if characters == "*" else "mi", characters)
 
 
-def inline(text):
+def inline(text: str) -> str:
     """The MathML of a formula within a line, or "" where there are words in it: *p = κ s^m*, not *length*."""
     found = tokens(text)
-    words = [said for kind, said, _ in found if kind in ("word", "flag", "file")]
+    words = [characters for kind, characters, _ in found if kind in ("word", "flag", "file")]
     if not any(kind == "name" for kind, *_ in found) or any(
-        said not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(said) for said in words
+        characters not in FUNCTIONS | NAMES and not DIFFERENTIAL.fullmatch(characters) for characters in words
     ):
         return ""
     try:
@@ -227,7 +233,7 @@ def inline(text):
         return ""
 
 
-def display(lines):
+def display(lines: list[str]) -> str:
     """The MathML of a block's lines, a `math` for each piece between wide gaps, or "" where they are no equation."""
     if not any(RELATIONS & set(text) for text in lines) or any(
         re.match(r"\[ |\w+: ?$", text.strip()) for text in lines

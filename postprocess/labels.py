@@ -5,9 +5,11 @@ nearest free place; `beside` puts labels into the margins at the left and at the
 """
 
 import functools
+from collections.abc import Sequence
 from itertools import chain
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
@@ -15,6 +17,8 @@ from postprocess import style
 
 FONT = 6.0
 PAD = 0.8  # around letters
+
+Place = np.ndarray | tuple[float, float]
 
 
 @functools.cache
@@ -26,7 +30,7 @@ def size(text: str) -> tuple[float, float]:
     return float(wide) + 2 * PAD, 1.2 * FONT * len(lines) + 2 * PAD - 1
 
 
-def box_of(place, text: str) -> np.ndarray:
+def box_of(place: np.ndarray, text: str) -> np.ndarray:
     """Lower left and upper right corner of a label about its middle."""
     half = np.array(size(text)) / 2
     return np.array([place - half, place + half])
@@ -36,7 +40,7 @@ def meet(box: np.ndarray, others: np.ndarray) -> np.ndarray:
     return (box[0] < others[:, 1]).all(axis=1) & (others[:, 0] < box[1]).all(axis=1)
 
 
-def put(axes, place, text: str, anchor=None) -> None:
+def put(axes: Axes, place: np.ndarray, text: str, anchor: np.ndarray | None = None) -> None:
     """Writes a label about a place; a line goes to its anchor."""
     if anchor is not None:
         box = box_of(place, text)
@@ -44,16 +48,22 @@ def put(axes, place, text: str, anchor=None) -> None:
         axes.plot(*np.array([end, anchor]).T, color=style.BLACK, linewidth=0.35, zorder=5)
         axes.plot(*anchor, marker="o", markersize=1.1, markeredgewidth=0, color=style.BLACK, zorder=5)
     halo = {**style.HALO, "boxstyle": "square,pad=0.05"}
-    axes.text(*place, text, ha="center", va="center", fontsize=FONT, linespacing=1.0, bbox=halo, zorder=6)
+    axes.text(place[0], place[1], text, ha="center", va="center", fontsize=FONT, linespacing=1.0, bbox=halo, zorder=6)
 
 
-def around(axes, anchors, texts: list[str], rooms: list[float], room) -> None:
-    """Labels at their anchors or near them; rooms: the distances from the anchors to the edges of what they name.
+def around(
+    axes: Axes,
+    places: Sequence[Place],
+    texts: list[str],
+    rooms: list[float],
+    room: tuple[float, float],
+) -> None:
+    """Labels at their places or near them; rooms: the distances from the places to the edges of what they name.
 
-    Those with most room are put first. No label lies on another one, or on the anchor of another one; none hides
+    Those with most room are put first. No label lies on another one, or on the place of another one; none hides
     what it names.
     """
-    anchors = np.array(anchors, float).reshape(-1, 2)
+    anchors = np.array(places, float).reshape(-1, 2)
     middle = np.array(room) / 2
     taken = np.zeros((0, 2, 2))
     for k in sorted(range(len(texts)), key=lambda k: -rooms[k]):
@@ -78,8 +88,9 @@ def around(axes, anchors, texts: list[str], rooms: list[float], room) -> None:
         put(axes, spot, texts[k], None if at_place else anchors[k])
 
 
-def beside(axes, anchors, texts: list[str], room) -> None:
-    """Labels in two columns at both sides, in the order of their anchors from above, and lines to these."""
+def beside(axes: Axes, places: Sequence[Place], texts: list[str], room: tuple[float, float]) -> None:
+    """Labels in two columns at both sides, in the order of their places from above, and lines to these."""
+    anchors = np.array(places, float).reshape(-1, 2)
     order = sorted(range(len(texts)), key=lambda k: anchors[k][0])
     half = (len(order) + 1) // 2
     for column, right in ((order[:half], False), (order[half:], True)):

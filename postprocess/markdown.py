@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 
 from postprocess import equations
-from postprocess.page import Markup
+from postprocess.html_page import Markup
 
 INLINE = re.compile(
     r"(?P<code>`[^`]+`)|!\[(?P<alt>[^]]*)\]\((?P<source>[^)]+)\)|\[(?P<words>[^]]+)\]\((?P<target>[^)]+)\)"

@@ -10,7 +10,7 @@ import os
 import re
 from pathlib import Path
 
-from postprocess import kit
+from postprocess import teaching_kit
 
 FENCE = re.compile(r"^```sh\n(.*?)^```\n?", re.M | re.S)
 QUESTION = re.compile(r"^(?=\d+\. )", re.M)
@@ -40,7 +40,7 @@ def own_cells(lab: Path) -> dict[str, list[str]]:
     """The further cells of a lab by the section or the question that they follow."""
     path = lab / "cells.py"
     found: dict[str, list[str]] = {}
-    for part in re.split(r"^# %% ", kit.read(path), flags=re.M)[1:] if path.exists() else ():
+    for part in re.split(r"^# %% ", teaching_kit.read_page(path), flags=re.M)[1:] if path.exists() else ():
         after, _, source = part.partition("\n")
         found.setdefault(after.strip(), []).append(source)
     return found
@@ -48,13 +48,15 @@ def own_cells(lab: Path) -> dict[str, list[str]]:
 
 def of_page(lab: Path, place: Path) -> list[dict]:
     """The cells of the lab's page, its links leading from `place`."""
-    page = kit.plain(re.sub(r"<!--.*?-->\n?", "", kit.read(lab / "README.md"), flags=re.S))
+    page = teaching_kit.without_answers(
+        re.sub(r"<!--.*?-->\n?", "", teaching_kit.read_page(lab / "README.md"), flags=re.S)
+    )
     page = LINK.sub(lambda found: Path(os.path.relpath(lab / found[1], place)).as_posix(), page)
     own = own_cells(lab)
     (script,) = lab.glob("*.edp")
     head, *sections = re.split(r"^## ", page, flags=re.M)
     names = f'lab = "{lab.name}"\nscript = "edp/labs/{lab.name}/{script.name}"\n'
-    cells = [text(head), code(names + kit.template_file("notebook.py"))]
+    cells = [text(head), code(names + teaching_kit.template_file("notebook.py"))]
     for section in sections:
         name, body = section.partition("\n")[0], f"## {section}"
         if name == "Questions":
@@ -89,7 +91,7 @@ def of_section(body: str) -> list[dict]:
 def of_answers(lab: Path) -> list[dict]:
     """A table to fill in, and the command that checks it."""
     file = f"results/labs/notebook/answers-{lab.name}.csv"
-    table = kit.template(kit.read(lab / "ANSWERS.md"))
+    table = teaching_kit.template(teaching_kit.read_page(lab / "ANSWERS.md"))
     check = f".venv/bin/python -m postprocess check_lab {lab.name.split('-')[0]} {file}"
     lines = [f"answers = r'''{table}'''", f'file = Path("{file}")', "file.parent.mkdir(parents=True, exist_ok=True)"]
     lines += ["file.write_text(answers)", f'shell("{check}", codes=(0, 1, 2))']

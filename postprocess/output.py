@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from postprocess.results import ResultsError, reason
+from postprocess.results import ResultsError, system_message
 
 # No dates and no versions: the same results give the same bytes.
 METADATA = {"pdf": {"CreationDate": None, "Producer": None, "Creator": None}, "png": {"Software": None}}
@@ -18,10 +18,10 @@ def write_figure(figure: Figure, out: Path | str) -> list[Path]:
     return write_figures({Path(out): figure})
 
 
-def write_own(figure: Figure, out: Path | str | None, usual: Path) -> None:
+def write_figure_of_run(figure: Figure, out: Path | str | None, usual: Path) -> None:
     """Writes the figure as `out`, or without it as the run's own file `usual`; prints the paths."""
     if not out:
-        enter(usual.parent, [usual.with_suffix(f".{kind}").name for kind in METADATA])
+        register_files_of_run(usual.parent, [usual.with_suffix(f".{kind}").name for kind in METADATA])
     for path in write_figure(figure, out or usual):
         print(path)
 
@@ -33,20 +33,24 @@ def write_figures(figures: dict[Path, Figure]) -> list[Path]:
         if out.suffix != ".pdf":
             raise ResultsError(out, "the name of a figure ends in .pdf (the PNG is written beside it)")
         for kind, metadata in METADATA.items():
-            writers[out.with_suffix(f".{kind}")] = save_figure(figure, kind, metadata)
-    return write_whole(writers)
+            writers[out.with_suffix(f".{kind}")] = figure_writer(figure, kind, metadata)
+    return write_all_or_none(writers)
 
 
-def save_figure(figure: Figure, kind: str, metadata: dict) -> Callable[[Path], object]:
+def figure_writer(figure: Figure, kind: str, metadata: dict) -> Callable[[Path], object]:
     return lambda path: figure.savefig(path, format=kind, metadata=metadata)
 
 
 def write_files(contents: dict[Path, bytes]) -> list[Path]:
     """Writes each content under its name: all of them, or none."""
-    return write_whole({path: (lambda part, data=data: part.write_bytes(data)) for path, data in contents.items()})
+    return write_all_or_none({path: bytes_writer(data) for path, data in contents.items()})
 
 
-def enter(folder: Path, names: list[str]) -> None:
+def bytes_writer(data: bytes) -> Callable[[Path], object]:
+    return lambda path: path.write_bytes(data)
+
+
+def register_files_of_run(folder: Path, names: list[str]) -> None:
     """Names files drawn from the run in a folder as the run's own: the next run into it removes them with the rest."""
     listed = folder / ".run" / ".written"
     if listed.exists():
@@ -54,7 +58,7 @@ def enter(folder: Path, names: list[str]) -> None:
             file.writelines(f"{name}\n" for name in names)
 
 
-def write_whole(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
+def write_all_or_none(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
     """Calls each path's writer with a temporary name in the same folder, then renames them all; returns the paths.
 
     Folders are created when they are missing. When a writer fails nothing is left behind.
@@ -69,7 +73,7 @@ def write_whole(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
         for path, temporary in written.items():
             os.replace(temporary, path)
     except OSError as error:
-        raise ResultsError(error.filename2 or error.filename or first, reason(error)) from None
+        raise ResultsError(error.filename2 or error.filename or first, system_message(error)) from None
     finally:
         for temporary in written.values():
             with contextlib.suppress(OSError):

@@ -4,18 +4,28 @@ import datetime
 import io
 import platform
 from dataclasses import replace
+from pathlib import Path
 
 import matplotlib
 import numpy as np
 
-from postprocess import doctor, figures, page, player, style
-from postprocess.campaign import CONVERGED, Campaign, Row, good, number
+from postprocess import doctor, figures, html_page, movie_player, style
+from postprocess.campaign import CONVERGED, Campaign, Row, is_converged, number
 from postprocess.figures import cost
-from postprocess.page import Markup, element, folded, joined, section, table
-from postprocess.references import PAPER, Check, checks, paper_test
-from postprocess.results import ResultsError, Run, brief, is_number
-from postprocess.tree import Tree, read_bytes, read_png
-from postprocess.words import HISTORY_COLUMNS, captions, command, history_rows, place, run_words, short
+from postprocess.formatting import (
+    HISTORY_COLUMNS,
+    command,
+    figure_captions,
+    first_line,
+    history_rows,
+    path_in_package,
+    run_caption,
+    short_number,
+)
+from postprocess.html_page import Markup, element, folded, joined, section, table
+from postprocess.reference_values import PAPER, Check, checks, paper_test
+from postprocess.results import ResultsError, Run, is_number, one_line
+from postprocess.results_folder import ResultsFolder, read_bytes, read_png
 
 NAMED = 6  # failures that the page's first lines name
 HEAVY = 10**7  # bytes of a movie's page above which it is linked to, not shown
@@ -26,7 +36,7 @@ CAMPAIGNS = {
 }
 
 
-def build(tree: Tree) -> str:
+def build(tree: ResultsFolder) -> str:
     """The whole page."""
     verdicts = [(run, checks(run)) for run in tree.runs]
     pictures = {path: read_png(path) for path in tree.figures}
@@ -36,7 +46,7 @@ def build(tree: Tree) -> str:
         raise ResultsError(
             tree.path, "holds no run and no figure; make run, make figures, make bench or make stability"
         )
-    order = list(captions())
+    order = list(figure_captions())
     own = [path for path in pictures if path.parent.name == "figures"]
     own.sort(key=lambda path: order.index(path.stem) if path.stem in order else len(order))
     parts = [
@@ -49,10 +59,10 @@ def build(tree: Tree) -> str:
         section("machine", "Machine and versions", machine()),
     ]
     body = joined([header(tree, verdicts, parts), element("main", joined(filter(None, parts)), id="main")])
-    return page.document("Stiff normal contact: report", body)
+    return html_page.document("Stiff normal contact: report", body)
 
 
-def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> Markup:
+def header(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]], parts: list) -> Markup:
     """What the page holds, in a few lines, and links to its parts."""
     converged = sum(run.summary["converged"] for run in tree.runs)
     found = [check for _, several in verdicts for check in several]
@@ -87,7 +97,13 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
                 element(
                     "p",
                     joined(
-                        ["Made from ", element("code", place(tree.path)), " by ", element("code", "make report"), "."],
+                        [
+                            "Made from ",
+                            element("code", path_in_package(tree.path)),
+                            " by ",
+                            element("code", "make report"),
+                            ".",
+                        ],
                         "",
                     ),
                 ),
@@ -100,10 +116,10 @@ def header(tree: Tree, verdicts: list[tuple[Run, list[Check]]], parts: list) -> 
 def with_error(summary: dict, name: str) -> str:
     """A number of a run, and what the run says of its error."""
     error = ((summary.get("estimates") or {}).get(name) or {}).get("error")
-    return short(summary[name]) + (f" ± {error:.1g}" if error else "")
+    return short_number(summary[name]) + (f" ± {error:.1g}" if error else "")
 
 
-def scenes(tree: Tree) -> list[Markup]:
+def scenes(tree: ResultsFolder) -> list[Markup]:
     """The runs scene by scene, folded: a table, then each run."""
     groups: dict[str, list[tuple[int, Run]]] = {}
     for index, run in enumerate(tree.runs, 1):
@@ -116,7 +132,7 @@ def scenes(tree: Tree) -> list[Markup]:
     return found
 
 
-def overview(tree: Tree, scene: str, runs: list[tuple[int, Run]]) -> Markup:
+def overview(tree: ResultsFolder, scene: str, runs: list[tuple[int, Run]]) -> Markup:
     """A row per run of a scene."""
     columns = (
         "run,converged,warnings,force,greatest pressure,half-width,method,element,h,dofs,adaptations,Newton steps,"
@@ -132,7 +148,7 @@ def overview(tree: Tree, scene: str, runs: list[tuple[int, Run]]) -> Markup:
                 verdict(summary["converged"], "yes", "NO"),
                 verdict(not summary["warnings"], "0", str(len(summary["warnings"]))),
                 *(with_error(summary, name) for name in "force pressureMax halfWidth".split()),
-                *(summary["method"], f"P{summary['order']}", short(summary["h"]), summary["ndof"]),
+                *(summary["method"], f"P{summary['order']}", short_number(summary["h"]), summary["ndof"]),
                 *(summary[name] for name in "adaptations newton factorisations backsolves".split()),
                 f"{seconds:.2f}" if is_number(seconds) else "–",
             ]
@@ -140,13 +156,13 @@ def overview(tree: Tree, scene: str, runs: list[tuple[int, Run]]) -> Markup:
     return table(f"Runs of {scene}", columns, rows, [2, 3, 4, 5, *range(8, 15)])
 
 
-def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
+def references(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]]) -> list[Markup]:
     """A row per comparison, and what is compared with what."""
     rows = [
         [
             element("a", tree.name(run.path), href=f"#run-{index}"),
             verdict(check.passed, "pass", "FAIL"),
-            f"P{run.summary['order']}, h\u00a0=\u00a0{short(run.summary['h'])}",
+            f"P{run.summary['order']}, h\u00a0=\u00a0{short_number(run.summary['h'])}",
             check.name,
             check.source,
             f"{check.value:.8g}",
@@ -173,7 +189,7 @@ def references(tree: Tree, verdicts: list[tuple[Run, list[Check]]]) -> list[Mark
     return [words, table("Comparisons", columns, rows, [5, 6, 7, 8])]
 
 
-def accuracy(tree: Tree) -> list[Markup]:
+def accuracy(tree: ResultsFolder) -> list[Markup]:
     """The paper's test: the force's error over run times, a curve a method and order; a row a run."""
     found = []
     for run in tree.runs:
@@ -196,16 +212,16 @@ def accuracy(tree: Tree) -> list[Markup]:
     rows = [
         [
             tree.name(run.path),
-            *(run.summary["method"], f"P{run.summary['order']}", short(run.summary["h"]), run.summary["ndof"]),
+            *(run.summary["method"], f"P{run.summary['order']}", short_number(run.summary["h"]), run.summary["ndof"]),
             f"{cost.force_error(run):.1e}",
             f"{cost.seconds(run):.3f}",
-            *(short(run.summary["seconds"].get(name), 3) for name in ("total", "waited")),
+            *(short_number(run.summary["seconds"].get(name), 3) for name in ("total", "waited")),
         ]
         for run in found
     ]
     columns = "run,method,element,h,unknowns,error of the force,CPU s of the solution,CPU s in all,s waited".split(",")
     seen = "Error of the contact force over CPU seconds and over the seconds waited"
-    picture = page.picture(file.getvalue(), seen, Markup(f"{seen}, a curve a method and element."))
+    picture = html_page.picture(file.getvalue(), seen, Markup(f"{seen}, a curve a method and element."))
     return [words, picture, folded(style.count(len(rows), "run"), table("Runs", columns, rows, range(3, 9)))]
 
 
@@ -213,21 +229,21 @@ def verdict(passed: bool, good_word: str, bad_word: str) -> Markup:
     return element("span", good_word if passed else bad_word, class_="pass" if passed else "fail")
 
 
-def figure(path, data: bytes) -> Markup:
+def figure(path: Path, data: bytes) -> Markup:
     """A picture, what is seen in it, and the command that makes it."""
     name = path.stem
     module = figures.modules().get(name)
-    title = f"{module.__doc__.splitlines()[0]}." if module else f"Picture {name}."
-    seen = captions().get(name, title[0].upper() + title[1:])
+    title = f"{first_line(module)}." if module else f"Picture {name}."
+    seen = figure_captions().get(name, title[0].upper() + title[1:])
     made = CAMPAIGNS[path.parent.name][1] if path.parent.name in CAMPAIGNS else f"make results/figures/{name}.pdf"
-    return page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
+    return html_page.picture(data, seen, joined([element("strong", name), ": ", seen, " ", element("code", made)], ""))
 
 
-def read_movie(path) -> str | None:
+def read_movie(path: Path) -> str | None:
     """The player in a movie's page; None when it is too heavy to be shown here."""
     data = read_bytes(path)
     try:
-        part = player.extract(data.decode("utf-8"))
+        part = movie_player.extract(data.decode("utf-8"))
     except UnicodeDecodeError:
         part = None
     if part is None:
@@ -235,13 +251,14 @@ def read_movie(path) -> str | None:
     return part if len(data) <= HEAVY else None
 
 
-def movie(tree: Tree, path, part: str | None) -> Markup:
+def movie(tree: ResultsFolder, path: Path, part: str | None) -> Markup:
     """A movie with its player, or a link to it."""
     name = tree.name(path.parent)
     runs = {run.path: run for run in tree.runs}
     run = runs.get(path.parent)
-    heading = element("h3", run_words(run) if run else name)
-    made = f"python -m postprocess movie --out {place(path.parent)} {place(path.parent) if run else 'RUN'}"
+    heading = element("h3", run_caption(run) if run else name)
+    folder = path_in_package(path.parent)
+    made = f"python -m postprocess movie --out {folder} {folder if run else 'RUN'}"
     shown = (
         Markup(part)
         if part is not None
@@ -250,7 +267,7 @@ def movie(tree: Tree, path, part: str | None) -> Markup:
     return joined([heading, element("pre", made), shown])
 
 
-def campaign(tree: Tree, name: str, pictures: dict) -> Markup | str:
+def campaign(tree: ResultsFolder, name: str, pictures: dict) -> Markup | str:
     """The figures of a campaign and its tables in brief; nothing when it has not been run."""
     title, made, tables = CAMPAIGNS[name]
     folder = tree.path / name
@@ -277,7 +294,7 @@ def campaign_table(found: Campaign, name: str) -> list[Markup]:
         groups.setdefault(row["method"] + start, []).append(row)
     lines = []
     for method, group in groups.items():
-        fine = [row for row in group if good(row)]
+        fine = [row for row in group if is_converged(row)]
         lines.append(
             [
                 method,
@@ -324,7 +341,7 @@ def extent(rows: list[Row], column: str) -> str:
     values = values[np.isfinite(values)]
     if len(values) == 0:
         return "–"
-    low, high = short(float(values.min()), 2), short(float(values.max()), 2)
+    low, high = short_number(float(values.min()), 2), short_number(float(values.max()), 2)
     if (values == values.round()).all() and values.max() < 1e9:
         low, high = str(int(values.min())), str(int(values.max()))
     return low if low == high else f"{low} to {high}"
@@ -333,10 +350,10 @@ def extent(rows: list[Row], column: str) -> str:
 def middle(rows: list[Row], column: str) -> str:
     values = np.array([number(row, column) for row in rows if column in row])
     values = values[np.isfinite(values)]
-    return short(float(np.median(values)), 3) if len(values) else "–"
+    return short_number(float(np.median(values)), 3) if len(values) else "–"
 
 
-def details(tree: Tree, run: Run, index: int) -> Markup:
+def details(tree: ResultsFolder, run: Run, index: int) -> Markup:
     """One run: how to make it again, what it was given, what it gave, step by step."""
     summary = run.summary
     results = {**{name: value for name, value in summary.items() if not isinstance(value, dict | list)}}
@@ -351,7 +368,7 @@ def details(tree: Tree, run: Run, index: int) -> Markup:
     steps = table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
     count = len(run.history["newton"])
     parts = [
-        element("h3", f"{tree.name(run.path)}: {run_words(run)}", id=f"run-{index}"),
+        element("h3", f"{tree.name(run.path)}: {run_caption(run)}", id=f"run-{index}"),
         element("pre", command(run)),
     ]
     if not summary["converged"]:
@@ -369,13 +386,15 @@ def picture_of_run(run: Run, name: str) -> Markup:
         "state": "the deformed bodies and the pressure along the contact",
         "stress": "the bodies by von Mises' stress",
     }
-    seen = f"{run_words(run)}: {what[name]}"
-    made = element("code", f".venv/bin/python -m postprocess {name} {place(run.path)}")
-    return page.picture(read_png(run.path / f"{name}.png"), seen, joined([f"{what[name].capitalize()}. ", made], ""))
+    seen = f"{run_caption(run)}: {what[name]}"
+    made = element("code", f".venv/bin/python -m postprocess {name} {path_in_package(run.path)}")
+    return html_page.picture(
+        read_png(run.path / f"{name}.png"), seen, joined([f"{what[name].capitalize()}. ", made], "")
+    )
 
 
 def cell(value: object) -> str:
-    return brief(short(value, 8), 200)
+    return one_line(short_number(value, 8), 200)
 
 
 def machine() -> Markup:

@@ -14,6 +14,7 @@ import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any, NoReturn, TypeGuard
 
 import numpy as np
 
@@ -55,14 +56,14 @@ class ResultsError(Exception):
         super().__init__(f"{path}: {what}")
 
 
-class Said(dict):
+class JsonObject(dict[str, Any]):
     """An object of a JSON file; what is looked for and not there is a fault of that file."""
 
-    def __init__(self, path: Path, content: dict):
+    def __init__(self, path: Path, content: dict[str, Any]):
         super().__init__(content)
         self.path = path
 
-    def __missing__(self, key: str):
+    def __missing__(self, key: str) -> NoReturn:
         raise ResultsError(self.path, f"has no key {key} where one is needed")
 
 
@@ -262,11 +263,11 @@ def read_summary(path: Path) -> dict:
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
     except UnicodeDecodeError:
         raise ResultsError(path, "is binary, not a JSON file") from None
     try:
-        summary = json.loads(text, parse_constant=refuse_constant, object_hook=lambda found: Said(path, found))
+        summary = json.loads(text, parse_constant=refuse_constant, object_hook=lambda found: JsonObject(path, found))
     except json.JSONDecodeError as error:
         raise ResultsError(path, f"is not JSON, or is truncated, at line {error.lineno}: {error.msg}") from None
     except (ValueError, RecursionError) as error:
@@ -321,7 +322,7 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
             file.seek(-1, 2)
             end = file.read(1)
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
     try:
         if b"\0" in start:
             raise UnicodeError
@@ -331,9 +332,9 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
     names = [name.strip() for name in header.split(",")]
     missing = [name for name in columns if name not in names]
     if missing:
-        raise ResultsError(path, f"wrong columns: no {', '.join(missing)} in the first line ({brief(header)})")
+        raise ResultsError(path, f"wrong columns: no {', '.join(missing)} in the first line ({one_line(header)})")
     if len(set(names)) < len(names):
-        raise ResultsError(path, f"wrong columns: a name appears twice in the first line ({brief(header)})")
+        raise ResultsError(path, f"wrong columns: a name appears twice in the first line ({one_line(header)})")
     if end != b"\n":
         raise ResultsError(path, "is truncated: the last line has no end")
     try:
@@ -341,17 +342,17 @@ def read_table(path: Path, columns: list[str], hint: str = "") -> Table:
             warnings.simplefilter("ignore", UserWarning)  # no rows: for the caller to judge
             values = np.loadtxt(path, delimiter=",", skiprows=1, comments=None, ndmin=2, encoding="utf-8", dtype=float)
     except (ValueError, OSError) as error:
-        raise ResultsError(path, f"has an unreadable row: {brief(str(error))}") from None
+        raise ResultsError(path, f"has an unreadable row: {one_line(str(error))}") from None
     if values.size == 0:
         values = np.empty((0, len(names)))
     if values.shape[1] != len(names):
         raise ResultsError(path, f"has {values.shape[1]} values in a row for {len(names)} column names")
     for name in names:
-        checked(path, name, values[:, names.index(name)])
-    return {name: checked(path, name, values[:, names.index(name)]) for name in columns}
+        checked_column(path, name, values[:, names.index(name)])
+    return {name: checked_column(path, name, values[:, names.index(name)]) for name in columns}
 
 
-def checked(path: Path, name: str, column: np.ndarray) -> np.ndarray:
+def checked_column(path: Path, name: str, column: np.ndarray) -> np.ndarray:
     """The column of a table once its values are of the kind its name asks for."""
     bad = np.isnan(column) | (np.isinf(column) if name not in MAY_BE_INFINITE else column == -np.inf)
     if bad.any():
@@ -373,7 +374,7 @@ def check_file(path: Path, hint: str = "") -> None:
     except FileNotFoundError:
         raise ResultsError(path, f"no such file{hint}") from None
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
     if not path.is_file():
         raise ResultsError(path, "is not a file")
     if size == 0:
@@ -389,7 +390,7 @@ def column_names(path: Path) -> list[str]:
         with path.open(encoding="utf-8", errors="replace") as file:
             return file.readline().strip().split(",")
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None
 
 
 def refuse_space(path: Path) -> None:
@@ -412,7 +413,7 @@ def check_status(path: Path, status: np.ndarray) -> None:
         raise ResultsError(path, f"column status has {status[np.argmax(bad)]}, not {words}")
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[int | float]:
     """True for a finite JSON number; true and false are none."""
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
@@ -422,12 +423,12 @@ def refuse_constant(name: str) -> None:
     raise ValueError(f"holds {name}, which is not a number")
 
 
-def reason(error: OSError) -> str:
+def system_message(error: OSError) -> str:
     """The system's own words, on one line."""
     return (error.strerror or str(error)).lower()
 
 
-def brief(text: str, width: int = 120) -> str:
+def one_line(text: str, width: int = 120) -> str:
     """Text that may come from any file, as one printable line."""
     line = "".join(letter if letter.isprintable() else " " for letter in text).strip()
     return line if len(line) <= width else line[: width - 3] + "..."

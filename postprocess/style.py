@@ -1,26 +1,30 @@
 """One look for all figures: fonts, colours, widths, and the words for methods, runs and units."""
 
+import argparse
 import contextlib
 import re
 import textwrap
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from string import ascii_lowercase
+from typing import Any
 
 import matplotlib as mpl
 import matplotlib.style
 import numpy as np
-from matplotlib.figure import Figure
+from cycler import cycler
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis, XAxis
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.legend import Legend
 from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, NullFormatter
 from matplotlib.tri import Triangulation
 
 from postprocess.results import ResultsError, Run, is_number
-
-if mpl.__version_info__ < (3, 7):
-    from postprocess import matplotlib36
-
-    matplotlib36.install()
 
 COLUMN = 85 / 25.4  # inches: one column of a journal page
 PAGE = 180 / 25.4  # inches: two columns
@@ -33,10 +37,12 @@ PURPLE, SKY = "#CC79A7", "#56B4E9"
 CURVES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
-# behind text that stands on a picture
-HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+Look = dict[str, Any]  # keyword arguments of matplotlib's drawing functions
 
-RC = {
+# behind text that stands on a picture
+HALO: Look = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+
+RC: Look = {
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
     "font.size": 9,
@@ -48,7 +54,7 @@ RC = {
     "axes.linewidth": 0.6,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.prop_cycle": mpl.cycler(color=CURVES),
+    "axes.prop_cycle": cycler(color=CURVES),
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
     "xtick.minor.width": 0.4,
@@ -70,7 +76,7 @@ class Units:
     stress: str = "force/area unit"
 
 
-def add_units(parser) -> None:
+def add_units(parser: argparse.ArgumentParser) -> None:
     """The flag --units LENGTH STRESS of every command that draws."""
     parser.add_argument(
         "--units",
@@ -81,14 +87,14 @@ def add_units(parser) -> None:
     )
 
 
-def add_output(parser, name: str, written: str = "") -> None:
+def add_output(parser: argparse.ArgumentParser, name: str, written: str = "") -> None:
     """The run, and --out, of a command that draws it into its own folder."""
     parser.add_argument("folder", metavar="RUN", help="a run's result folder")
     written = written or f"{name}.pdf"
     parser.add_argument("--out", metavar=written.replace(name, "FILE"), help=f"where to write (default: RUN/{written})")
 
 
-def add_picture(parser, name: str, written: str = "") -> None:
+def add_picture(parser: argparse.ArgumentParser, name: str, written: str = "") -> None:
     """The arguments of a command that draws one run's bodies into its own folder."""
     add_output(parser, name, written)
     parser.add_argument(
@@ -110,7 +116,7 @@ def add_picture(parser, name: str, written: str = "") -> None:
     add_units(parser)
 
 
-def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
+def figure_with_panels(page: list[tuple[str, float]], slide: str, is_slide: bool) -> tuple[Figure, dict[str, Axes]]:
     """A figure and its panels by letter: rows on a page, a column wide, or a mosaic of 16:9.
 
     page: the letters side by side in a row, and its height over the width; slide: rows of letters as of matplotlib's
@@ -118,7 +124,7 @@ def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
     """
     mosaic = slide.split() if is_slide else [row for row, _ in page]
     across = np.lcm.reduce([len(row) for row in mosaic])
-    cells = [[letter for letter in row for _ in range(across // len(row))] for row in mosaic]
+    cells: list[Any] = [[letter for letter in row for _ in range(across // len(row))] for row in mosaic]
     if is_slide:
         figure = Figure(figsize=(PAGE, PAGE * 9 / 16), layout="constrained")
         return figure, figure.subplot_mosaic(cells)
@@ -127,25 +133,85 @@ def sheet(page: list[tuple[str, float]], slide: str, is_slide: bool):
     return figure, figure.subplot_mosaic(cells, height_ratios=heights)
 
 
-def settled(figure: Figure) -> Figure:
+def finish_layout(figure: Figure) -> Figure:
     """A figure whose bars beside panels of a fixed shape have their room: one round of the layout does not see them.
 
     Ticks stay as they are after the first rounds: those of a panel that grows would take more room than was left.
     """
     for _ in range(4):
-        figure.get_layout_engine().execute(figure)
+        layout_of(figure).execute(figure)
     titles = {axes: axes.get_title(loc="left") for axes in figure.axes}
     for _ in range(3):
         set_ticks(figure)
         name_powers(figure)
         fold_titles(figure, titles)
-        figure.get_layout_engine().execute(figure)
+        layout_of(figure).execute(figure)
     return figure
 
 
-def every_axes(figure: Figure) -> list:
+def legend_outside(
+    figure: Figure | SubFigure,
+    place: str,
+    handles: Iterable[Artist] | None = None,
+    labels: Iterable[str] | None = None,
+    **options: Any,
+) -> Legend:
+    """A figure's legend beyond all axes, for which the constrained layout leaves room.
+
+    place: the side first, as "upper center", "lower left", "right upper". handles, labels: as of Figure.legend; without
+    them all curves with labels. matplotlib has such legends from 3.7 on. Before, the layout's rectangle leaves room.
+    """
+    given = {"handles": handles, "labels": labels}
+    entries: Look = options | {name: value for name, value in given.items() if value is not None}
+    if mpl.__version_info__ >= (3, 7):
+        entries["loc"] = f"outside {place}"
+        return figure.legend(**entries)
+    root = figure.figure  # of a part of a figure the whole: the rectangle is the whole figure's
+    side, along = place.split()
+    if handles is None:
+        entries["handles"], entries["labels"] = curves_of(figure)
+    entries["loc"] = f"{along} {side}" if side == "right" else place
+    legend = root.legend(**entries)
+    engine = layout_of(root)
+    box, pads = legend.get_window_extent().transformed(root.transFigure.inverted()), engine.get()
+    across, up = root.get_size_inches()  # the layout's pads are in inches
+    room = box.width + 2 * pads["w_pad"] / across if side == "right" else box.height + 2 * pads["h_pad"] / up
+    left, bottom, width, height = pads["rect"]
+    right, top = left + width, bottom + height
+    right = min(right, 1 - room) if side == "right" else right
+    top = min(top, 1 - room) if side == "upper" else top
+    bottom = max(bottom, room) if side == "lower" else bottom
+    engine.set(rect=(left, bottom, right - left, top - bottom))
+    return legend
+
+
+def layout_of(figure: Figure) -> ConstrainedLayoutEngine:
+    """The layout engine of a figure that was made with layout="constrained"."""
+    engine = figure.get_layout_engine()
+    if not isinstance(engine, ConstrainedLayoutEngine):
+        raise TypeError(f"the figure has no constrained layout, but {engine!r}")
+    return engine
+
+
+def figure_of(axes: Axes) -> Figure:
+    """The whole figure that a panel belongs to."""
+    figure = axes.figure
+    return figure.figure if isinstance(figure, SubFigure) else figure
+
+
+def curves_of(figure: Figure | SubFigure) -> tuple[list[Artist], list[str]]:
+    """The curves with labels of all panels of a figure, or of a part of one, and these labels."""
+    handles: list[Artist] = []
+    labels: list[str] = []
+    for axes in figure.axes:
+        found = axes.get_legend_handles_labels()
+        handles, labels = handles + found[0], labels + found[1]
+    return handles, labels
+
+
+def every_axes(figure: Figure) -> list[Axes]:
     """Panels and bars, with those that stand beside a panel."""
-    return [each for axes in figure.axes for each in (axes, *axes.child_axes) if each.axison]
+    return [each for axes in figure.axes for each in (axes, *axes.child_axes) if isinstance(each, Axes) and each.axison]
 
 
 def name_powers(figure: Figure) -> None:
@@ -171,22 +237,22 @@ def set_ticks(figure: Figure) -> None:
             near = 1e-9 * (high - low)
             ticks = [tick for tick in axis.get_majorticklocs() if low - near <= tick <= high + near]
             axis.set_major_locator(FixedLocator(ticks))
-            while len(ticks) > 1 and collide(axis):
+            while len(ticks) > 1 and tick_labels_overlap(axis):
                 # with the one at zero, where there is one
                 zero = next((k for k, tick in enumerate(ticks) if abs(tick) < near), 0)
                 ticks = ticks[zero % 2 :: 2]
                 axis.set_major_locator(FixedLocator(ticks))
 
 
-def collide(axis) -> bool:
+def tick_labels_overlap(axis: Axis) -> bool:
     """Does a tick's label touch the next one?"""
     boxes = [label.get_window_extent() for label in axis.get_majorticklabels() if label.get_text()]
-    side = 0 if axis.axis_name == "x" else 1
+    side = 0 if isinstance(axis, XAxis) else 1
     ends = sorted((box.min[side], box.max[side]) for box in boxes)
     return any(a[1] + 2 * axis.figure.dpi / 100 > b[0] for a, b in pairwise(ends))
 
 
-def fold_titles(figure: Figure, titles: dict) -> None:
+def fold_titles(figure: Figure, titles: dict[Axes, str]) -> None:
     """Titles at the left of panels in more lines, where they would leave the figure or reach the panel beside."""
     for axes in figure.axes:
         place, text, before = axes.get_position(), titles[axes], axes.get_title(loc="left")
@@ -194,17 +260,17 @@ def fold_titles(figure: Figure, titles: dict) -> None:
         ends = [row.x0 for row in rows if row.x0 > place.x0 + 0.02 and row.y0 < place.y1 and place.y0 < row.y1]
         most = figure.bbox.width * min([1.0, *ends]) - figure.dpi / 40
         own = [bar.get_tightbbox() for bar in axes.child_axes]
-        most = min([most, *(bar.x0 for bar in own if bar.y1 > axes.bbox.y1 + figure.dpi / 12)])
+        most = min([most, *(bar.x0 for bar in own if bar is not None and bar.y1 > axes.bbox.y1 + figure.dpi / 12)])
         drawn = [each for each in axes.findobj(Text) if before and each.get_text() == before]
         for each in drawn:
             each.set_text(text)
         width = max(map(len, text.split("\n")))
         while drawn and width > 16 and drawn[0].get_window_extent().x1 > most:
             width -= 1
-            drawn[0].set_text(folded(text.replace("\n", " "), width))
+            drawn[0].set_text(wrapped(text.replace("\n", " "), width))
 
 
-def folded(text: str, width: int) -> str:
+def wrapped(text: str, width: int) -> str:
     """A title in lines of so many letters at most, none cut."""
     return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False)) or text
 
@@ -216,13 +282,13 @@ def round_below(value: float) -> float:
 
 
 @contextlib.contextmanager
-def look():
+def look() -> Iterator[None]:
     """Within this context figures are drawn and saved in the package's style, whatever the user's own settings."""
     with matplotlib.style.context(["default", RC]):
         yield
 
 
-def curve(index: int) -> dict:
+def curve(index: int) -> Look:
     """Colour and marker of the curve with this number, both different from its neighbours'."""
     return {"color": CURVES[index % len(CURVES)], "marker": MARKERS[index % len(MARKERS)]}
 
@@ -237,7 +303,7 @@ def number(value: float) -> str:
     return {"1": power, "-1": f"-{power}"}.get(mantissa, rf"{mantissa} \times {power}")
 
 
-def plain(text: str) -> str:
+def without_mathtext(text: str) -> str:
     """Text from a file or the command line, which is not to be read as mathtext."""
     return text.replace("$", r"\$")
 
@@ -254,22 +320,24 @@ def method(run: Run) -> str:
     if name == "incremental":
         steps = parameters.get("steps")
         return f"Newton, {count(int(steps), 'load step')}" if is_number(steps) else "Newton in load steps"
-    words = {"paper": "paper's scheme", "newton": "Newton", "signorini": "hard contact"}.get(name, plain(name))
+    words = {"paper": "paper's scheme", "newton": "Newton", "signorini": "hard contact"}.get(
+        name, without_mathtext(name)
+    )
     first = first_threshold(run)
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 
 
-def interface(run: Run) -> str:
+def law_text(run: Run) -> str:
     """The run's law in words: hard contact, or its name, or kappa and m of a power law."""
     law = run.summary["parameters"].get("law", "power")
     if run.summary["method"] == "signorini" or law == "signorini":
         return "hard contact"
     if law == "power":
         return rf"$\kappa = {number(run.parameter('kappa'))}$, $m = {number(run.parameter('m'))}$"
-    return plain(str(law))
+    return without_mathtext(str(law))
 
 
-def price(run: Run, noun: str) -> str:
+def cost_text(run: Run, noun: str) -> str:
     """What the run took: adaptations, where there was more than one, and steps; and whether that was enough."""
     words = count(run.summary["newton"], noun)
     if run.summary["adaptations"] > 1:
@@ -309,7 +377,7 @@ def labels(runs: list[Run]) -> list[str]:
                     text.append(describe(value))
     joined = [", ".join(text) for text in texts]
     return [
-        f"{text} ({plain(run.path.name)})" if joined.count(text) > 1 else text
+        f"{text} ({without_mathtext(run.path.name)})" if joined.count(text) > 1 else text
         for text, run in zip(joined, runs, strict=True)
     ]
 
@@ -326,20 +394,20 @@ def elements(runs: list[Run]) -> str:
 
 def name_elements(figure: Figure, runs: list[Run]) -> None:
     """Below the figure, at its right, element and size of the meshes."""
-    put_below(figure, elements(runs))
+    write_below(figure, elements(runs))
 
 
-def put_below(figure: Figure, text: str) -> None:
+def write_below(figure: Figure, text: str) -> None:
     """A text below the figure, at its right."""
     figure.supxlabel(text, x=0.995, ha="right", fontsize=8, color=GREY)
 
 
-def named(amount: int) -> set[int]:
+def labelled_indices(amount: int) -> set[int]:
     """Which curves of a sequence are named in a figure: all of a few, else the first, the last and some between."""
     return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
 
 
-def decades(axes, values: np.ndarray, most: int = 9) -> None:
+def set_decades(axes: Axes, values: np.ndarray, most: int = 9) -> None:
     """A logarithmic vertical axis over whole decades around the positive values, at most so many."""
     positive = values[values > 0]
     top = np.floor(np.log10(positive.max()) + 0.2) + 1
@@ -349,7 +417,7 @@ def decades(axes, values: np.ndarray, most: int = 9) -> None:
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-def surface(run: Run) -> Triangulation:
+def contact_triangulation(run: Run) -> Triangulation:
     """The contact points of a run in space, joined by triangles as they are seen along z."""
     try:
         return Triangulation(run.contact["x"], run.contact["y"])
@@ -362,6 +430,6 @@ def panel(index: int) -> str:
     return f"({ascii_lowercase[index]})"
 
 
-def shades(share: np.ndarray, name: str = "viridis") -> np.ndarray:
+def map_colours(share: np.ndarray, name: str = "viridis") -> np.ndarray:
     """(n, 3) colours of a map for numbers in [0, 1]."""
     return mpl.colormaps[name](np.clip(share, 0, 1))[:, :3]

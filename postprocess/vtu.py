@@ -70,13 +70,13 @@ def bodies_file(folder: Path) -> Path:
 def read_grid(path: Path) -> Grid:
     """solution.vtu or solution.pvtu; ResultsError for a file that is missing, truncated, or no grid of bodies."""
     found = read_arrays(path)
-    points, move, stress, types = wanted(path, found, "a run's solution", MOVE, STRESS)
+    points, move, stress, types = check_fields(path, found, "a run's solution", MOVE, STRESS)
     pressure = found.get(("PointData", PRESSURE), np.zeros(len(points)))
     solid = 10 if np.any(types == 10) else 5
     shell = 5 if solid == 10 else 3
     if not np.isin(types, (solid, shell)).all() or not np.any(types == solid):
         raise ResultsError(path, "is not a grid of bodies and their surface")
-    cells, surface = (corners(path, found, kind) for kind in (solid, shell))
+    cells, surface = (cells_of_type(path, found, kind) for kind in (solid, shell))
     label = found.get(("CellData", "Label"), np.zeros(len(types), int))
     if len(label) != len(types):
         raise ResultsError(path, "is truncated: its labels are not as many as its cells")
@@ -86,13 +86,15 @@ def read_grid(path: Path) -> Grid:
 def read_surface(path: Path) -> Surface:
     """contact.vtu; ResultsError for a file that is missing, truncated, or no contact surface."""
     found = read_arrays(path)
-    points, move, pressure, overlap, types = wanted(path, found, "a contact surface", MOVE, PRESSURE, "overlap[length]")
+    points, move, pressure, overlap, types = check_fields(
+        path, found, "a contact surface", MOVE, PRESSURE, "overlap[length]"
+    )
     if len(types) == 0 or len(set(types)) > 1:
         raise ResultsError(path, "is not one surface")
     contact = found.get(("CellData", "Label"), np.zeros(len(types), int))
     if len(contact) != len(types):
         raise ResultsError(path, "is truncated: its labels are not as many as its cells")
-    return Surface(points, move, corners(path, found, types[0]), contact, pressure, overlap)
+    return Surface(points, move, cells_of_type(path, found, types[0]), contact, pressure, overlap)
 
 
 def read_names(path: Path) -> dict[str, list[str]]:
@@ -101,14 +103,14 @@ def read_names(path: Path) -> dict[str, list[str]]:
     found = {}
     for element in root.iterfind("UnstructuredGrid/FieldData/Array"):
         letters = bytes(int(letter) for letter in (element.text or "").split())
-        found[element.get("Name")] = [text.decode("utf-8", "replace") for text in letters.split(b"\0")[:-1]]
+        found[element.get("Name", "")] = [text.decode("utf-8", "replace") for text in letters.split(b"\0")[:-1]]
     return found
 
 
 def read_arrays(path: Path) -> dict:
     """All arrays of a file, or of the pieces of an index, by part and name; the points by their part alone."""
     if path.suffix == ".pvtu":
-        return joined(path, [read_arrays(piece) for piece in pieces(path)])
+        return join_pieces(path, [read_arrays(piece) for piece in pieces(path)])
     root, numbers = read_xml(path)
     found = {}
     for part in ("Points", "Cells", "PointData", "CellData"):
@@ -127,7 +129,7 @@ def pieces(path: Path) -> list[Path]:
     return [path.parent / name for name in names]
 
 
-def joined(path: Path, parts: list[dict]) -> dict:
+def join_pieces(path: Path, parts: list[dict]) -> dict:
     """The arrays of all pieces as those of one file: points with the same number are one point."""
     names = set(parts[0])
     needed = {
@@ -172,7 +174,7 @@ def read_xml(path: Path) -> tuple[ElementTree.Element, bytes]:
     return root, numbers.lstrip()[1:]
 
 
-def wanted(path: Path, found: dict, what: str, *fields: str) -> list[np.ndarray]:
+def check_fields(path: Path, found: dict, what: str, *fields: str) -> list[np.ndarray]:
     """The points, the fields at them, the displacement (n, 3), and the cells' types; all of the right length."""
     names = [("Points", None), *(("PointData", name) for name in fields)]
     cells = [("Cells", name) for name in ("connectivity", "offsets", "types")]
@@ -192,7 +194,7 @@ def wanted(path: Path, found: dict, what: str, *fields: str) -> list[np.ndarray]
     return [*values, types]
 
 
-def corners(path: Path, found: dict, kind: int) -> np.ndarray:
+def cells_of_type(path: Path, found: dict, kind: int) -> np.ndarray:
     """The cells of one kind (n, corners)."""
     ends = found["Cells", "offsets"][found["Cells", "types"] == kind]
     return found["Cells", "connectivity"][ends[:, None] + np.arange(-CORNERS[kind], 0)].astype(int)
@@ -216,7 +218,7 @@ def array(path: Path, element: ElementTree.Element, numbers: bytes) -> np.ndarra
     return found
 
 
-def cut(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def cut_grid(grid: Grid, level: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The section by the plane y = level of the undeformed grid, in its deformed place, as corners in (x, z).
 
     Polygons (n, 4, 2), a triangle's last corner given twice; the stress (n, 4) there; the outline's lines (m, 2, 2).

@@ -63,13 +63,13 @@ def run_store(tmp_path_factory):
 @pytest.fixture(autouse=True)
 def legible_figures(monkeypatch):
     """No figure shall be written with a text on another one or beyond its edge."""
-    save = output.save_figure
+    save = output.figure_writer
 
     def measured(figure, kind, metadata):
         assert kind != "png" or faults(figure) == []
         return save(figure, kind, metadata)
 
-    monkeypatch.setattr(output, "save_figure", measured)
+    monkeypatch.setattr(output, "figure_writer", measured)
 
 
 @pytest.fixture

@@ -21,7 +21,6 @@ import test_contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"
-sys.path.append(str(EDP / "input"))  # the reader of cases
 FOLDERS = re.findall(r"^\| `(\w+)/` \|", (EDP / "README.md").read_text(), re.M)  # as data goes
 OPTION_FILES = dict(
     re.findall(r'^macro (\w+)File\(\) include "([\w/-]+\.idp)"', (EDP / "input/hooks.idp").read_text(), re.M)

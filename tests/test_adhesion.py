@@ -21,7 +21,7 @@ from test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 
 from postprocess import style
 from postprocess.figures import attraction, attraction_profiles
-from postprocess.loop import Loop, along_path
+from postprocess.path_movie import PathMovie, along_path
 from postprocess.results import read_run
 
 E, NU, R, GAP = 100, 0.3, 10, 1e-3  # the scene's defaults, GAP the gap at rest
@@ -403,7 +403,7 @@ def test_figures_and_movie(tmp_path):
     assert drawn.min() == pytest.approx(done.pullOff / unit, rel=2e-3)
     profiles = attraction_profiles.draw([read_run(done.folder)], style.Units())
     assert all(len(axes.lines) > 3 for axes in profiles.axes)
-    movie = Loop(read_run(done.folder), style.Units())
+    movie = PathMovie(read_run(done.folder), style.Units())
     assert along_path(read_run(done.folder))
     assert movie.count == len(rows)
     movie.draw(int(np.nonzero(rows["jump"])[0][0]))

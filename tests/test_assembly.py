@@ -11,7 +11,7 @@ from text_boxes import faults
 
 from postprocess import labels, raster, style
 from postprocess.commands import check
-from postprocess.faces import WIDE, arranged, draw
+from postprocess.geometry_faces import WIDE, arrange_rows, draw
 
 # ---------------------------------------------------------------- pixels
 
@@ -111,9 +111,9 @@ def test_labels_beside():
         assert faults(figure) == []
 
 
-def test_arranged():
+def test_arrange_rows():
     """Bodies of many faces have a half or a whole row."""
-    rows = arranged({1: 16, 2: 6, 3: 12, 4: 41, 5: 4, 6: 4, 7: 4, 8: 4})
+    rows = arrange_rows({1: 16, 2: 6, 3: 12, 4: 41, 5: 4, 6: 4, 7: 4, 8: 4})
     assert [[number for number, _, _ in row] for row in rows] == [[1, 2], [3], [4], [5, 6, 7], [8]]
     assert rows[0] == [(1, 0, WIDE / 2), (2, WIDE / 2, WIDE / 3)] and rows[2] == [(4, 0, WIDE)]
 
@@ -147,7 +147,7 @@ def test_check_of_an_assembly(checked):
 
 def test_picture_of_an_assembly(checked, capsys, monkeypatch):
     """Every name and the number of every face, none on another one or outside; lines tell of the progress."""
-    monkeypatch.setattr("postprocess.faces.PATIENCE", 0.0)
+    monkeypatch.setattr("postprocess.geometry_faces.PATIENCE", 0.0)
     with style.look():
         figure = draw(checked[1] / "check-faces.csv", -60, 25)
         assert faults(figure) == []
@@ -182,10 +182,9 @@ def test_pairs_with_blanks():
     assert check.pair("Base plate plane 0 1", groups[:1]) == ("Base plate", "plane 0 1")
     assert check.pair("rail", groups) == ("rail", "")
     said = {"groups": groups, "contacts": [{"name": "Hex nut Base plate"}], "statements": []}
-    assert (
-        check.role(said, 5) == "Hex nut: slave of Base plate" and check.role(said, 1) == "Base plate: master of Hex nut"
-    )
-    assert check.role(said, 3) == "Hex" and check.roles(said) == {1: 0.9, 5: 2.4}
+    assert check.group_caption(said, 5) == "Hex nut: slave of Base plate"
+    assert check.group_caption(said, 1) == "Base plate: master of Hex nut"
+    assert check.group_caption(said, 3) == "Hex" and check.line_widths(said) == {1: 0.9, 5: 2.4}
 
 
 def test_held_together():

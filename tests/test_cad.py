@@ -12,7 +12,7 @@ from test_parts import Mesh, cube
 from test_zoo import gmsh, measure, readable
 
 from postprocess import style
-from postprocess.faces import draw
+from postprocess.geometry_faces import draw
 
 OCC = 'SetFactory("OpenCASCADE");\n'
 TURN = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)

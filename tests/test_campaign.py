@@ -21,9 +21,9 @@ from freefem import cases_of
 from text_boxes import faults
 
 from postprocess import figures, style
-from postprocess.__main__ import main
 from postprocess.campaign import read_campaign
-from postprocess.references import PAPER
+from postprocess.command_line import main
+from postprocess.reference_values import PAPER
 from postprocess.results import ResultsError
 
 

@@ -9,7 +9,7 @@ import screens
 from freefem import MULTIGRID, ROOT, environment, execute
 from test_readme import PAGES, fences
 
-from postprocess.__main__ import parser
+from postprocess.command_line import parser
 
 # a page, and the test that runs its commands as they stand or on a coarser mesh
 RUN_BY = {

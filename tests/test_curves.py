@@ -10,11 +10,11 @@ from test_friction import case, series
 from test_parts import Mesh, block
 
 from postprocess import style
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.commands import hysteresis
+from postprocess.formatting import Units
+from postprocess.load_series import driving_load, load_curves, read_series
 from postprocess.results import read_run
-from postprocess.series import curves, driving, read_series
-from postprocess.words import Units
 
 PUNCH = data("curves/punch.geo")
 ONE = (
@@ -39,7 +39,7 @@ move head -0.01 -0.01
 
 def area(run, *names):
     """The areas under the curves of these loads and motions, added up; of all without a name."""
-    found = {each.name: each for each in curves(read_series(read_run(run.folder)))}
+    found = {each.name: each for each in load_curves(read_series(read_run(run.folder)))}
     return sum(found[name].work()[-1] for name in names or found)
 
 
@@ -58,7 +58,7 @@ def test_columns_of_a_path(tmp_path, capsys):
     assert run.summary["prescribed"][0]["force"] != 0 and rows["move head x reaction"][7] > 1
     assert area(run) == pytest.approx(rows["work"][-1], rel=2e-3)
     assert rows["work"] == pytest.approx(rows["stored"] + rows["dissipated"], rel=1e-3)
-    assert driving(read_series(read_run(run.folder))).name == "move head x"
+    assert driving_load(read_series(read_run(run.folder))).name == "move head x"
     assert main(["hysteresis", str(run.folder)]) == 0 and main(["curve", str(run.folder)]) == 0
     assert "move head x: greatest 1." in capsys.readouterr().out
     assert main(["hysteresis", str(run.folder), "--along", "move"]) == 2
@@ -132,7 +132,7 @@ def test_a_load_that_reverses(tmp_path, load):
     assert rows[f"{name} reaction"] == pytest.approx(reaction * values, rel=1e-6)
     energy = 0.5 * way * reaction * values**2
     assert rows["work"] == pytest.approx(energy, rel=1e-6) and rows["stored"] == pytest.approx(energy, rel=1e-6)
-    (curve,) = curves(read_series(read_run(run.folder)))
+    (curve,) = load_curves(read_series(read_run(run.folder)))
     assert curve.work()[1:] == pytest.approx(energy, rel=1e-6)
     told = abs(values[1]) if not name.startswith("pressure") else values[1]
     (entry,) = run.summary["prescribed"]

@@ -14,7 +14,7 @@ from freefem import ROOT, cases_of, data, part, run_in
 from PIL import Image
 from test_parts import read
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.vtu import read_arrays
 
 RING = data("engineer/ring.geo")

@@ -23,7 +23,7 @@ from freefem import (
 from shapes import moved, polygon
 from test_parts import UNTURNED, Mesh, block, turn
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.commands.hysteresis import last_loop
 
 HARD = {"-gap": 0, "-law": "signorini", "-d0": 0}

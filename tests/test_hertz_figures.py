@@ -6,8 +6,8 @@ from freefem import run
 from test_scene_figures import draw
 from text_boxes import faults
 
-from postprocess.__main__ import main
-from postprocess.references import hertz
+from postprocess.command_line import main
+from postprocess.reference_values import hertz
 from postprocess.results import read_run
 
 HERTZ = [

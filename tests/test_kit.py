@@ -11,8 +11,8 @@ from page_numbers import printed
 from test_labs import BARE, LABS, answers
 from test_readme import fences
 
-from postprocess import lecture, markdown
-from postprocess.__main__ import main
+from postprocess import markdown, slide_figures
+from postprocess.command_line import main
 from postprocess.commands import check_lab
 
 CHECK = "check_lab"
@@ -55,7 +55,7 @@ def test_slides(made):
     assert "<math" in text and not re.search(r"<em>[^<]*[=κ][^<]*</em>", text)
 
 
-@pytest.mark.parametrize("name", cases_of(["cut", "four_five"], lecture.PICTURES))
+@pytest.mark.parametrize("name", cases_of(["cut", "four_five"], slide_figures.PICTURES))
 def test_sketches(name, tmp_path):
     """Each picture of the lecture is drawn without a run, in both sizes."""
     assert main(["sketch", name, "--out", str(tmp_path / "page.pdf")]) == 0

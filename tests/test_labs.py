@@ -13,8 +13,8 @@ from freefem import FREEFEM, ROOT, cases_of, environment, execute, listing, run,
 from page_numbers import agrees, printed
 from test_readme import fences, is_rule, quoted, section
 
-from postprocess import words
-from postprocess.__main__ import main
+from postprocess import formatting
+from postprocess.command_line import main
 from postprocess.results import read_run
 
 FOLDERS = sorted(
@@ -436,7 +436,7 @@ def test_help_and_refusals(lab, tmp_path):
 def test_the_command_of_a_run(lab, flags, tmp_path):
     """The command that a page of runs gives for a lab's run shall make that run again."""
     result = run_in(ROOT, lab_script(lab), *flags, out=tmp_path / "a")
-    command = shlex.split(words.command(read_run(result.folder)))
+    command = shlex.split(formatting.command(read_run(result.folder)))
     assert lab_script(lab) in command
     command[command.index("-out") + 1] = str(tmp_path / "b")
     code, stdout = execute(command, ROOT, environment())

@@ -23,13 +23,13 @@ from matplotlib.animation import FFMpegWriter
 from test_scene_figures import WAVY
 from text_boxes import faults
 
-from postprocess import doctor, player, style
-from postprocess.__main__ import main
-from postprocess.frames import Movie, line_words, off_law
+from postprocess import doctor, movie_player, style
+from postprocess.command_line import main
+from postprocess.formatting import command, figure_captions
 from postprocess.laws import law_of
-from postprocess.references import PAPER, checks
+from postprocess.newton_movie import NewtonMovie, algorithm_line_caption, points_off_law
+from postprocess.reference_values import PAPER, checks
 from postprocess.results import Run, read_run
-from postprocess.words import captions, command
 
 MOVIE = ["movie.html", "movie.gif", *(["movie.mp4"] if FFMpegWriter.isAvailable() else [])]
 
@@ -155,7 +155,7 @@ class TestFrames:
         """The dots shall be the points' overlaps and pressures, the disc where its prescribed motion takes it."""
         found = read_run(paper)
         with style.look():
-            movie = Movie(found, style.Units("mm", "MPa"))
+            movie = NewtonMovie(found, style.Units("mm", "MPa"))
             movie.draw(movie.count - 1)
         assert movie.count == found.summary["newton"] + 1
         dots = np.concatenate([line.get_xydata() for line in movie.left.lines[1:]])
@@ -167,7 +167,7 @@ class TestFrames:
         p = found.summary["parameters"]
         assert disc.get_xy()[:, 1].min() == pytest.approx(p["depth"] + p["gap"] - p["u0"], abs=1e-6)
         assert faults(movie.figure) == []
-        lines = [line_words(found, index) for index in range(movie.count)]
+        lines = [algorithm_line_caption(found, index) for index in range(movie.count)]
         assert [index for index, words in enumerate(lines) if "back to line 1" in words] == [6, 10]
         assert "line 4 is next" in lines[0] and "the end" in lines[-1]
         assert all("back to line 4" in lines[index] for index in (1, 2, 3, 4, 5, 7, 8, 9, 11))
@@ -175,10 +175,10 @@ class TestFrames:
     def test_points_off_the_law_are_told(self, paper):
         """At the end every point shall be on the law or its wall; on the way those that are not shall be hollow."""
         with style.look():
-            movie = Movie(read_run(paper), style.Units())
+            movie = NewtonMovie(read_run(paper), style.Units())
             movie.draw(4)
-        assert not off_law(movie.steps, movie.plane, movie.count - 1)[0].any()
-        off, expected = off_law(movie.steps, movie.plane, 4)
+        assert not points_off_law(movie.steps, movie.plane, movie.count - 1)[0].any()
+        off, expected = points_off_law(movie.steps, movie.plane, 4)
         assert 0 < off.sum() < len(off)
         assert np.allclose(expected[off], 1e3 * np.maximum(movie.steps.s[4][off], 0) ** 3)
         stems = movie.left.collections[1].get_segments()
@@ -197,7 +197,7 @@ class TestMovie:
         assert len(re.findall(r"frames\[\d+\] = ", page)) == frames
         assert "http" not in re.sub(r"base64,[^\"]*", "", page).replace("http-equiv", "")
         check_page(page)
-        assert player.extract(page).count("<script") == 2
+        assert movie_player.extract(page).count("<script") == 2
 
     def test_the_gif(self, film):
         from PIL import Image
@@ -364,7 +364,7 @@ class TestReport:
         made = re.search(r"FreeFem\+\+ edp/main.edp (.*-method paper.*) -out", page)[1].split()
         flags = {"-method": "paper", "-order": "1", "-h": "0.5", "-estimate": "0", "-states": "1", "-vtu": "0"}
         assert dict(zip(made[::2], made[1::2], strict=True)) == flags
-        caption = captions()["convergence"]
+        caption = figure_captions()["convergence"]
         assert seen["img"][0]["alt"] == caption and f"<strong>convergence</strong>: {html.escape(caption)}" in page
         assert "T⁰ = d0" in page and "-T0 &lt;d0&gt;" in page  # the campaign's failed run, escaped
         text = re.sub(r"<[^>]*>", " ", page)
@@ -586,4 +586,4 @@ def test_pictures_of_a_run(tmp_path, capsys):
     assert "postprocess state" not in out.read_text()
     assert main(["state", str(folder)]) == 0 and main(["report", "--out", str(out), str(tmp_path / "results")]) == 0
     assert "postprocess state" in out.read_text() and "the pressure along the contact" in out.read_text()
-    assert not [name for name, words in captions().items() if re.match("The same|As |That sphere", words)]
+    assert not [name for name, words in figure_captions().items() if re.match("The same|As |That sphere", words)]

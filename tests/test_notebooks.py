@@ -14,8 +14,8 @@ from freefem import ROOT
 from test_labs import LABS, answers, package_in, readme
 from test_readme import fences, section
 
-from postprocess import kit, notebook
-from postprocess.__main__ import main
+from postprocess import notebook, teaching_kit
+from postprocess.command_line import main
 from postprocess.commands import check_lab
 
 
@@ -50,7 +50,7 @@ def test_parts(lab, books):
 def test_links():
     """Links and pictures shall lead from the notebook's folder to files that are there."""
     place = ROOT / "results/notebooks"
-    for lab in kit.folders():
+    for lab in teaching_kit.folders():
         cells = json.loads(notebook.made(lab, place))["cells"]
         text = "\n".join(cell["source"] for cell in cells if cell["cell_type"] == "markdown")
         links = [link for link in re.findall(r"\]\(([^)\s#]+)", text) if not link.startswith("http")]
@@ -86,7 +86,7 @@ def test_answers_of_a_notebook(books, tmp_path):
         for before in ("", "7"):
             with file.open("w", newline="") as out:
                 csv.writer(out).writerows([head, *([*row[:2], before + row[2]] for row in filled[:4])])
-            found = check_lab.of_answers(answers(lab), file)
+            found = check_lab.check_answers(answers(lab), file)
             assert all(well for well, _ in found) == (before == ""), (lab, found)
 
 

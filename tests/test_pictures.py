@@ -14,8 +14,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from text_boxes import faults
 
-from postprocess import bodies, space, style
-from postprocess.__main__ import main
+from postprocess import bodies, bodies_3d, style
+from postprocess.command_line import main
 from postprocess.commands import check, state, stress
 from postprocess.results import read_run
 from postprocess.vtu import MOVE, Grid, Surface, read_arrays, read_names
@@ -110,7 +110,7 @@ def test_singular_places_are_marked(case, tmp_path):
     (folder / "summary.json").write_text(json.dumps(told))
     drawn = bodies.read_bodies(read_run(folder))
     assert bodies.stress_range(drawn) == 100
-    np.testing.assert_allclose(bodies.singular_places(drawn)[:, :2], [[0, 10]], atol=0.2)
+    np.testing.assert_allclose(bodies.singular_points(drawn)[:, :2], [[0, 10]], atol=0.2)
     (bar,) = figure(stress, folder).axes[0].child_axes
     assert "up to" in bar.get_ylabel()
     assert bodies.read_bodies(read_run(case), None).scale in (10, 20, 50)
@@ -119,7 +119,7 @@ def test_singular_places_are_marked(case, tmp_path):
 def test_eye_sees_the_contact():
     """Without --view the eye shall be where a contact's surface can be seen, from above, below or aside."""
     for normal in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (1, 1, 0.3)):
-        eye = space.sight(*space.onto(np.array(normal, float)))[2]
+        eye = bodies_3d.view_matrix(*bodies_3d.view_angles(np.array(normal, float)))[2]
         assert eye @ normal > 0.3 * np.linalg.norm(normal)
 
 
@@ -148,7 +148,7 @@ def test_check(case, capsys):
     assert main(["check", str(case)]) == 0
     assert (case / "check/check.pdf").exists()
     with style.look():
-        drawn = check.draw(case / "check", space.sight(*space.VIEW))
+        drawn = check.draw(case / "check", bodies_3d.view_matrix(*bodies_3d.VIEW))
     words = [text.get_text() for text in drawn.legends[0].get_texts()]
     assert "base: clamp" in words and "grip: force" in words and "roller-top: slave of upper-face" in words
 
@@ -244,29 +244,29 @@ def test_the_far_side_of_a_shaft_is_not_drawn_on_its_contact(turn):
     """The map of a band of pressure shall show it from end to end, wherever on the shaft the band is."""
     drawn = shaft(lambda angle, y: np.maximum(0, 1 - (angle / 0.3) ** 2), np.radians(turn))
     axes = Figure(figsize=(2, 2), dpi=100).add_axes((0, 0, 1, 1))
-    space.map_pressure(axes, drawn, 0, style.Units())
+    bodies_3d.draw_pressure_map(axes, drawn, 0, style.Units())
     canvas = FigureCanvasAgg(axes.figure)
     canvas.draw()
     pixels = np.asarray(canvas.buffer_rgba())[..., :3]
-    view = space.facing(space.pressing(drawn, 0)[1])
+    view = bodies_3d.surface_axes(bodies_3d.contact_forces(drawn, 0)[1])
     middle = view @ [np.sin(np.radians(turn)), 0, np.cos(np.radians(turn))]
     for y in np.linspace(0.2, 3.8, 30):
         right, up = axes.transData.transform((middle + y * view[:, 1])[:2]).round().astype(int)
         red, green, _ = pixels[len(pixels) - 1 - up, right].astype(int)
         assert red < 200 and green < 60, (y, pixels[len(pixels) - 1 - up, right])
-    words = space.map_words(drawn, 0)
+    words = bodies_3d.map_caption(drawn, 0)
     assert ("along" in words) is (turn in (135, 250)) and "other side" not in words
 
 
 def test_names_of_a_map_s_axes():
     """Axes of a map are coordinates or letters of directions, which are said; to the right and upwards they grow."""
     for normal, names in (((0, 0, -1), "xyz"), ((0, 1, 0), "xzy"), ((-1, 0, 0), "yzx"), ((-0.7, 0, -0.7), "syn")):
-        view = space.facing(np.array(normal, float))
-        assert "".join(space.axis_name(view, k)[1] for k in range(3)) == names
+        view = bodies_3d.surface_axes(np.array(normal, float))
+        assert "".join(bodies_3d.axis_name(view, k)[1] for k in range(3)) == names
         np.testing.assert_allclose(view @ view.T, np.eye(3), atol=1e-12)
         assert all(row[np.abs(row).argmax()] > 0 for row in view) or names == "syn"
     assert (
-        space.axis_words(view, 0, 1, 2)
+        bodies_3d.axis_directions_caption(view, 0, 1, 2)
         == "; $s$ along (0.71,\u00a00,\u00a0\u22120.71); $n$ along (0.71,\u00a00,\u00a00.71)"
     )
 
@@ -276,8 +276,10 @@ def test_pressure_all_around_a_shaft():
     noise = np.random.default_rng(1)
     for _ in range(4):
         drawn = shaft(lambda angle, y: 1 + 1e-9 * noise.random(len(y)))
-        assert np.array_equal(np.argmax(np.abs(space.facing(space.pressing(drawn, 0)[1])), axis=1), [1, 2, 0])
-        assert re.search("(4[4-9]|5[0-6]) % of its force is on the other side", space.map_words(drawn, 0))
+        assert np.array_equal(
+            np.argmax(np.abs(bodies_3d.surface_axes(bodies_3d.contact_forces(drawn, 0)[1])), axis=1), [1, 2, 0]
+        )
+        assert re.search("(4[4-9]|5[0-6]) % of its force is on the other side", bodies_3d.map_caption(drawn, 0))
 
 
 def lines(*made, axisymmetric=False, **more):
@@ -306,15 +308,15 @@ def lines(*made, axisymmetric=False, **more):
 
 def test_arc_lengths_grow_upwards_or_to_the_right():
     """Contacts drawn over each other shall run the same way, and begin at the axis only if they reach it."""
-    found = bodies.chains(
+    found = bodies.contact_chains(
         lines(((10, 0), (10, 40), (0, 1, 2, 1, 0)), ((19, 40), (14, 0), (0, 1, 0)), axisymmetric=True)
     )
     assert [chain.origin for chain in found] == ["middle", "middle"]
     assert all(np.polyfit(chain.along, chain.place[:, 1], 1)[0] > 0 for chain in found)
     np.testing.assert_allclose([chain.zero for chain in found], [[10, 20], [16.5, 20]])
-    (flat,) = bodies.chains(lines(((3, 1), (-3, 0), (0, 1, 0))))
+    (flat,) = bodies.contact_chains(lines(((3, 1), (-3, 0), (0, 1, 0))))
     assert np.polyfit(flat.along, flat.place[:, 0], 1)[0] > 0 and (flat.towards, found[0].towards) == ("x", "y")
-    (touching,) = bodies.chains(lines(((0, 0), (4, 3), (2, 1, 0)), axisymmetric=True))
+    (touching,) = bodies.contact_chains(lines(((0, 0), (4, 3), (2, 1, 0)), axisymmetric=True))
     assert touching.origin == "axis"
 
 
@@ -323,7 +325,7 @@ def test_arc_lengths_grow_upwards_or_to_the_right():
 def test_no_pressure_is_cut_off(pressure, end):
     """Picture and curve of a contact shall show where the pressure begins and ends, of steep and coarse ones too."""
     drawn = lines(((0, 0), end, pressure))
-    box = bodies.zone_window(drawn, 0)
+    box = bodies.contact_window(drawn, 0)
     reached = np.flatnonzero(pressure)[[0, -1]] + [-1, 1]
     ends = np.array(end) * reached[:, None] / (len(pressure) - 1)
     assert (ends > box[0]).all() and (ends < box[1]).all()
@@ -332,7 +334,7 @@ def test_no_pressure_is_cut_off(pressure, end):
     (line,) = (each for each in axes.lines if len(each.get_xdata()) > 2)
     for edge in axes.get_xlim():
         assert np.interp(edge, *line.get_data()) == 0
-    bodies.stand_pressure(axes, drawn, box, 0, style.Units())
+    bodies.draw_pressure_diagram(axes, drawn, box, 0, style.Units())
     crest = np.ptp(axes.collections[1].get_segments(), axis=(0, 1)).max()
     assert crest > 0.1 * np.ptp(box, axis=0).max()
 
@@ -350,7 +352,7 @@ def test_points_are_marked_where_something_touches():
     """The origin of an arc length has a dot only where its contact carries pressure."""
     drawn = lines(((0, 0), (9, 0), (0, 1, 0)), ((0, 5), (9, 6), (0, 0, 0)))
     axes = Figure().add_subplot()
-    bodies.stand_pressure(axes, drawn, np.array([[0, 0], [9, 9]]), None, style.Units())
+    bodies.draw_pressure_diagram(axes, drawn, np.array([[0, 0], [9, 9]]), None, style.Units())
     assert len([line for line in axes.lines if line.get_marker() == "o"]) == 1
 
 
@@ -409,7 +411,7 @@ def test_ticks_of_other_units_and_places(case, length, stress_, aside, slide):
 def test_slave_below_its_master(case):
     """Where slave and master touch as drawn, the check shall show both: the thinner line of the master lies on top."""
     with style.look():
-        axes = check.draw(case / "check", space.sight(*space.VIEW)).axes[0]
+        axes = check.draw(case / "check", bodies_3d.view_matrix(*bodies_3d.VIEW)).axes[0]
     widths = {float(each.get_linewidths()[0]): each.get_zorder() for each in axes.collections[1:]}
     assert {0.9, 1.4, 2.4} <= set(widths) and widths[0.9] > widths[1.4] > widths[2.4]
 

@@ -7,7 +7,7 @@ import pytest
 from browser import CHROMIUM, Browser
 from freefem import cases_of, run
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 
 pytestmark = pytest.mark.skipif(not CHROMIUM, reason="needs Chromium")
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from text_boxes import faults
 
 from postprocess import figures, output, results, style
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.results import ResultsError, read_run
 
 DISC = ["disc-on-block", "-h", 0.5, "-method"]

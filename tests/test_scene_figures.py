@@ -9,10 +9,10 @@ import pytest
 from freefem import ROOT, cases_of, run, run_in, script
 
 from postprocess import figures, style
-from postprocess.__main__ import main
-from postprocess.references import hertz, merging_pressure
+from postprocess.command_line import main
+from postprocess.reference_values import hertz, merging_pressure
 from postprocess.results import read_run
-from postprocess.vtu import cut, read_grid
+from postprocess.vtu import cut_grid, read_grid
 
 SMALL = ["-h", 0.2, "-layers", 2]
 PUNCH = ["-a", 1, "-force", 20, "-order", 2, "-h", 0.025, "-grading", 80]
@@ -48,7 +48,7 @@ def balls(tmp_path_factory):
 def test_section(balls):
     """The section by y = 0 shall be as large as two quarters of a disc, its outline as long as theirs."""
     grid = read_grid(balls.folder / "solution.vtu")
-    pieces, stress, outline = cut(replace(grid, move=0 * grid.move), 1e-4)
+    pieces, stress, outline = cut_grid(replace(grid, move=0 * grid.move), 1e-4)
     x, z = pieces[..., 0], pieces[..., 1]
     area = 0.5 * np.abs(np.sum(x * np.roll(z, -1, axis=1) - z * np.roll(x, -1, axis=1), axis=1))
     assert area.sum() == pytest.approx(2 * np.pi * 10**2 / 4, rel=0.01)
@@ -59,7 +59,7 @@ def test_section(balls):
 
 def test_stress_below_the_contact(balls):
     """Its greatest value in the section shall be Hertz's 0.62 p0, half a radius below the surface."""
-    pieces, stress, _ = cut(read_grid(balls.folder / "solution.vtu"), 1e-4)
+    pieces, stress, _ = cut_grid(read_grid(balls.folder / "solution.vtu"), 1e-4)
     a, greatest = hertz(read_run(balls.folder), balls.force)
     x, z = pieces.reshape(-1, 2)[np.argmax(stress)]
     assert stress.max() == pytest.approx(0.62 * greatest, rel=0.1)

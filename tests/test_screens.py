@@ -10,9 +10,9 @@ from freefem import FREEFEM, ROOT, environment, execute, patience, run, run_in, 
 from pages import scripts, told
 from test_examples import example
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
+from postprocess.formatting import command
 from postprocess.results import read_run
-from postprocess.words import command
 
 EXAMPLES = ROOT / "edp/examples"
 PIN = EXAMPLES / "pin-in-hole/pin-in-hole"

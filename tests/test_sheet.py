@@ -12,10 +12,10 @@ from browser import CHROMIUM, Browser
 from freefem import FREEFEM, ROOT, execute, run
 from page_numbers import number
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 from postprocess.commands.sheet import Units, vector
+from postprocess.formatting import command, number_with_error, with_error
 from postprocess.results import read_run
-from postprocess.words import command, rounded, with_error
 
 EXAMPLE = ROOT / "edp/examples/shrink-fit"
 A4 = 794  # pixels across
@@ -232,7 +232,7 @@ def test_units_and_vectors():
         assert Units({"state": state, "units": units}).force == force
     assert vector([1e-12, -2.5]) == "0, −2.5"
     assert vector([1e-12, 2e-12], 1.0) == "0, 0"
-    assert vector(None) == "–" and rounded(0.0, 0.5) == "0.00 ± 0.50"
+    assert vector(None) == "–" and number_with_error(0.0, 0.5) == "0.00 ± 0.50"
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")

@@ -34,7 +34,7 @@ from freefem import (
 )
 from freefem import script as scene_script
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 
 DISC, BLOCK = map(scene_script, ("disc-on-block", "confined-block"))
 BODIES, PUNCH = "edp/parts.edp", "edp/examples/punch/punch"

@@ -9,7 +9,7 @@ from freefem import ROOT, data, execute, part, run, script, snippet
 from test_scene_figures import draw
 from text_boxes import faults
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 
 SENSIBLE = [
     ("disc-on-block", []),

@@ -12,7 +12,7 @@ import pytest
 from freefem import FREEFEM, ROOT, cases_of, data, execute, part, wait_for
 from shapes import polygon
 
-from postprocess.__main__ import main
+from postprocess.command_line import main
 
 CUBOIDS = data("zoo/cuboids.geo")
 RECTANGLES = data("zoo/rectangles.geo")

@@ -13,16 +13,17 @@ import json
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from postprocess import bodies as drawn
-from postprocess import faces, style
-from postprocess.output import enter, write_figures
-from postprocess.results import ResultsError, brief, check_file, read_table
-from postprocess.space import VIEW, sight
-from postprocess.vtu import CORNERS, corners, read_arrays
+from postprocess import geometry_faces, style
+from postprocess.bodies_3d import VIEW, view_matrix
+from postprocess.output import register_files_of_run, write_figures
+from postprocess.results import ResultsError, check_file, one_line, read_table
+from postprocess.vtu import CORNERS, cells_of_type, read_arrays
 
 MANY = 12  # groups, or bodies, that a column has room for
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8C510A", "#35978F")
@@ -41,29 +42,31 @@ def run(arguments: argparse.Namespace) -> None:
     with style.look():
         figures = {}
         if (folder / "check.json").exists() or not numbered.exists():
-            figures[out] = draw(folder, sight(*(arguments.view or VIEW)))
+            figures[out] = draw(folder, view_matrix(*(arguments.view or VIEW)))
         if numbered.exists():
             beside = out.with_name(f"{out.stem}-faces.pdf") if arguments.out else folder / "faces.pdf"
-            figures[beside] = faces.draw(numbered, *(arguments.view or VIEW))
+            figures[beside] = geometry_faces.draw(numbered, *(arguments.view or VIEW))
         if not arguments.out:
-            enter(folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")])
+            register_files_of_run(
+                folder, [path.with_suffix(kind).name for path in figures for kind in (".pdf", ".png")]
+            )
         for path in write_figures(figures):
             print(path)
 
 
 def draw(folder: Path, view: np.ndarray) -> Figure:
     """The figure, one column wide."""
-    said = read_said(folder / "check.json")
+    content = read_check(folder / "check.json")
     found = read_arrays(folder / "check-mesh.vtu")
     at, types = found["Points", None].reshape(-1, 3), found["Cells", "types"]
     label = found["CellData", "Label"]
     solid = 10 if np.any(types == 10) else 5
     shell = 5 if solid == 10 else 3
-    cells, sides = (corners(folder / "check-mesh.vtu", found, kind) for kind in (solid, shell))
+    cells, sides = (cells_of_type(folder / "check-mesh.vtu", found, kind) for kind in (solid, shell))
     points = read_table(folder / "check-points.csv", "contact x y z nx ny nz gap paired".split())
     plane = solid == 5
-    many = len(np.unique(label[types == shell])) > MANY or len(said["bodies"]) > MANY
-    held = held_by(said["bodies"], many)
+    many = len(np.unique(label[types == shell])) > MANY or len(content["bodies"]) > MANY
+    held = held_by(content["bodies"], many)
     wide, high = style.COLUMN, (1.95 if plane else 1.35) * style.COLUMN
     if many:  # the legend and what is above the picture have their room besides
         wide = style.PAGE
@@ -75,25 +78,25 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     colours = {int(group): COLOURS[k % len(COLOURS)] for k, group in enumerate(np.unique(groups[groups > 0]))}
     paint = draw_plane if plane else draw_solid
     for panel in (axes, *close):
-        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view, roles(said))
+        size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view, line_widths(content))
         draw_points(panel, points, np.eye(3) if plane else view, size, panel in close or not plane)
     for panel in close:
         near = np.argmin(np.where(points["paired"] > 0, np.abs(points["gap"]), np.inf))
         reach = 8 * size + 2 * abs(points["gap"][near])
         panel.set_xlim(points["x"][near] - reach, points["x"][near] + reach)
         panel.set_ylim(points["y"][near] - 0.6 * reach, points["y"][near] + 0.6 * reach)
-    width = roles(said) if plane else {}
+    width = line_widths(content) if plane else {}
     entries = [
         Line2D([], [], color=colours[group], linewidth=width.get(group, 1.4 if plane else 2)) for group in colours
     ]
     entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
-    words = [style.plain(role(said, group)) for group in colours]
-    look = {"ncols": 3, "fontsize": 6, "handlelength": 1.4} if many else {"ncols": 1}
-    figure.legend(entries, [*words, "contact points and normals"], loc="outside lower left", **look)
+    words = [style.without_mathtext(group_caption(content, group)) for group in colours]
+    look: style.Look = {"ncols": 3, "fontsize": 6, "handlelength": 1.4} if many else {"ncols": 1}
+    style.legend_outside(figure, "lower left", entries, [*words, "contact points and normals"], **look)
     if many:
-        figure.suptitle(style.plain(held), x=0.01, ha="left", fontsize=6.5)
+        figure.suptitle(style.without_mathtext(held), x=0.01, ha="left", fontsize=6.5)
     else:
-        axes.set_title(style.plain(held), loc="left", fontsize=6.5)
+        axes.set_title(style.without_mathtext(held), loc="left", fontsize=6.5)
     return figure
 
 
@@ -101,41 +104,41 @@ def held_by(bodies: list[dict], together: bool) -> str:
     """What holds each body, a line each; together: a line for all that are held alike."""
     lines: dict[str, list[str]] = {}
     for k, body in enumerate(bodies):
-        held = f"held by {brief(str(body['held']))}"
+        held = f"held by {one_line(str(body['held']))}"
         free = ", ".join(word.partition(": ")[2] for word in body["free"])
         how = f"{held}; free: {free}" if free else held
-        lines.setdefault(how if together else f"{k} {how}", []).append(brief(str(body["name"])))
+        lines.setdefault(how if together else f"{k} {how}", []).append(one_line(str(body["name"])))
     said = [f"{', '.join(names)}: {how if together else how.partition(' ')[2]}" for how, names in lines.items()]
-    return "\n".join(style.folded(line, 150) for line in said) if together else "\n".join(said)
+    return "\n".join(style.wrapped(line, 150) for line in said) if together else "\n".join(said)
 
 
-def read_said(path: Path) -> dict:
+def read_check(path: Path) -> dict:
     """check.json, with the lists that are drawn."""
     check_file(path, "; run the case with -check 1")
     try:
-        said = json.loads(path.read_text(encoding="utf-8"))
-        if not all(isinstance(said[key], list) for key in ("groups", "statements", "bodies", "contacts")):
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if not all(isinstance(content[key], list) for key in ("groups", "statements", "bodies", "contacts")):
             raise ValueError
     except (ValueError, KeyError, TypeError):
         raise ResultsError(path, "is not what -check 1 writes") from None
-    return said
+    return content
 
 
-def role(said: dict, group: int) -> str:
+def group_caption(content: dict, group: int) -> str:
     """A group's name, and the statements about it."""
-    name = str(said["groups"][group - 1])
-    words = [each["word"] for each in said["statements"] if each.get("group") == group and each["word"] != "contact"]
-    for contact in said["contacts"]:
-        slave, master = pair(str(contact["name"]), said["groups"])
+    name = str(content["groups"][group - 1])
+    words = [each["word"] for each in content["statements"] if each.get("group") == group and each["word"] != "contact"]
+    for contact in content["contacts"]:
+        slave, master = pair(str(contact["name"]), content["groups"])
         words += [f"slave of {master}"] if slave == name else []
         words += [f"master of {slave}"] if master == name else []
     return f"{name}: {', '.join(dict.fromkeys(words))}" if words else name
 
 
-def roles(said: dict) -> dict[int, float]:
+def line_widths(content: dict) -> dict[int, float]:
     """The widths of the lines of slaves and of groups that are masters alone."""
-    numbers = {str(name): number for number, name in enumerate(said["groups"], 1)}
-    pairs = [pair(str(contact["name"]), said["groups"]) for contact in said["contacts"]]
+    numbers = {str(name): number for number, name in enumerate(content["groups"], 1)}
+    pairs = [pair(str(contact["name"]), content["groups"]) for contact in content["contacts"]]
     found = {numbers[master]: 0.9 for _, master in pairs if master in numbers}
     return found | {numbers[slave]: 2.4 for slave, _ in pairs if slave in numbers}
 
@@ -147,7 +150,17 @@ def pair(contact: str, groups: list) -> tuple[str, str]:
     return max(ways, key=lambda way: (way[0] in known) + (way[1] in known))
 
 
-def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) -> float:
+def draw_plane(
+    axes: Axes,
+    at: np.ndarray,
+    cells: np.ndarray,
+    parts: np.ndarray,
+    sides: np.ndarray,
+    groups: np.ndarray,
+    colours: dict[int, str],
+    _view: np.ndarray,
+    widths: dict[int, float],
+) -> float:
     """Elements in their bodies' colours, the groups' edges on them; the size of an element at the groups.
 
     Where surfaces touch as drawn, the thin line of a master lies on the wide one of its slave.
@@ -155,7 +168,7 @@ def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) ->
     place = at[:, :2]
     for number, part in enumerate(np.unique(parts)):
         fill = drawn.FILLS[number % len(drawn.FILLS)]
-        look = {"facecolor": fill, "edgecolor": "#9A9A9A", "linewidth": 0.12}
+        look: style.Look = {"facecolor": fill, "edgecolor": "#9A9A9A", "linewidth": 0.12}
         axes.add_collection(PolyCollection(place[cells[parts == part]], **look))
     for group, colour in colours.items():
         width = widths.get(group, 1.4)
@@ -169,7 +182,17 @@ def draw_plane(axes, at, cells, parts, sides, groups, colours, _view, widths) ->
     return float(np.median(np.hypot(*edges.T)))
 
 
-def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -> float:
+def draw_solid(
+    axes: Axes,
+    at: np.ndarray,
+    cells: np.ndarray,
+    _parts: np.ndarray,
+    sides: np.ndarray,
+    groups: np.ndarray,
+    colours: dict[int, str],
+    view: np.ndarray,
+    _widths: dict[int, float],
+) -> float:
     """The boundary from outside, far parts first, named groups in their colours; the size of an element there."""
     every = np.concatenate([np.delete(cells, corner, axis=1) for corner in range(CORNERS[10])])
     key, first, times = np.unique(np.sort(every, axis=1), axis=0, return_index=True, return_counts=True)
@@ -183,7 +206,7 @@ def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -
     shade = (0.62 + 0.38 * np.abs(across @ drawn.LIGHT))[:, None]
     order = np.argsort(seen[:, :, 2].mean(axis=1))
     mixed = (0.45 + 0.55 * fills) * shade
-    look = {"facecolor": mixed[order], "edgecolor": "#707070", "linewidth": 0.08}
+    look: style.Look = {"facecolor": mixed[order], "edgecolor": "#707070", "linewidth": 0.08}
     axes.add_collection(PolyCollection(seen[order][:, :, :2], rasterized=True, **look))
     axes.autoscale_view()
     axes.set_aspect("equal")
@@ -191,7 +214,7 @@ def draw_solid(axes, at, cells, _parts, sides, groups, colours, view, _widths) -
     return float(np.median(np.linalg.norm(at[sides[:, 1]] - at[sides[:, 0]], axis=1)))
 
 
-def draw_points(axes, points: dict, view: np.ndarray, size: float, shown: bool) -> None:
+def draw_points(axes: Axes, points: dict, view: np.ndarray, size: float, shown: bool) -> None:
     """A dot at each contact point with something opposite, and its normal, where these can be seen."""
     if not shown:
         return
@@ -212,4 +235,4 @@ def draw_points(axes, points: dict, view: np.ndarray, size: float, shown: bool) 
         zorder=5,
     )
     lines = np.stack([at[:, :2], (at + long * normal)[:, :2]], axis=1)
-    axes.add_collection(LineCollection(lines, color=style.BLACK, linewidth=0.3, zorder=5))
+    axes.add_collection(LineCollection(list(lines), color=style.BLACK, linewidth=0.3, zorder=5))

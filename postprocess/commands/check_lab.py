@@ -17,8 +17,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from postprocess import kit, markdown
-from postprocess.results import ResultsError, reason
+from postprocess import markdown, teaching_kit
+from postprocess.results import ResultsError, system_message
 
 SHARE = 0.005
 SECONDS = 120  # a law that loops for ever
@@ -37,17 +37,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Prints a line an answer, and how many are well; ends with code 1 where not all are."""
-    found = [lab for lab in kit.folders() if lab.name.split("-")[0] == arguments.lab]
+    found = [lab for lab in teaching_kit.folders() if lab.name.split("-")[0] == arguments.lab]
     if not found:
         raise ResultsError(
-            arguments.lab, f"no such lab; allowed: {' '.join(lab.name.split('-')[0] for lab in kit.folders())}"
+            arguments.lab, f"no such lab; allowed: {' '.join(lab.name.split('-')[0] for lab in teaching_kit.folders())}"
         )
     if arguments.file.suffix == ".idp":
         if arguments.lab != "4":
             raise ResultsError(arguments.file, "a law file is checked by lab 4 alone")
-        lines = of_a_law(arguments.file)
+        lines = check_law_file(arguments.file)
     else:
-        lines = of_answers(kit.read(found[0] / "ANSWERS.md"), arguments.file)
+        lines = check_answers(teaching_kit.read_page(found[0] / "ANSWERS.md"), arguments.file)
     good = sum(well for well, _ in lines)
     for well, words in lines:
         print(f"{'ok ' if well else 'OFF'}  {words}")
@@ -89,7 +89,7 @@ def tolerance(cell: str) -> float:
     return max(0.501 * last, SHARE * abs(number(cell)))
 
 
-def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
+def check_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
     """Of each row that has a value: whether it is well, and words."""
     known = expected(answers)
     try:
@@ -98,7 +98,7 @@ def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
         lines = csv.reader(io.StringIO(text, newline=""), delimiter=";" if ";" in text.partition("\n")[0] else ",")
         head, *cells = list(lines) or [[]]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ResultsError(file, reason(error) if isinstance(error, OSError) else "is not a CSV file") from None
+        raise ResultsError(file, system_message(error) if isinstance(error, OSError) else "is not a CSV file") from None
     names = [name.strip().lower() for name in head]
     rows = [dict(zip(names, [*row, "", "", ""], strict=False)) for row in cells]
     if not rows or not {"flags", "quantity", "value"} <= {*names}:
@@ -110,12 +110,12 @@ def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
             continue
         flags, quantity = key(row["flags"]), key(row["quantity"])
         words = f"{flags}, {quantity}: {value}"
-        cells = known.get((flags, quantity))
-        if cells is None:
+        values = known.get((flags, quantity))
+        if values is None:
             found.append((False, f"{words}: line {place}: the lab has no such number"))
             continue
         try:
-            best = min(cells, key=lambda cell: abs(number(value) - number(cell)))
+            best = min(values, key=lambda cell: abs(number(value) - number(cell)))
         except ValueError:
             found.append((False, f"{words}: line {place}: is not a number"))
             continue
@@ -129,19 +129,19 @@ def of_answers(answers: str, file: Path) -> list[tuple[bool, str]]:
 # ---------------------------------------------------------------- a law
 
 
-def of_a_law(file: Path) -> list[tuple[bool, str]]:
+def check_law_file(file: Path) -> list[tuple[bool, str]]:
     """The checks that lab 4 prints, of a law in place of its own."""
     if not file.is_file():
         raise ResultsError(file, "is not there")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        edp, own = folder / "edp", kit.LABS.parent  # a copy: the package reads its own files before any other
+        edp, own = folder / "edp", teaching_kit.LABS.parent  # a copy: the package reads its own files before any other
         shutil.copytree(own, edp, ignore=shutil.ignore_patterns("*.png", "mylaw.idp"))
         for path in (own.parent / "meshes", own.parent / "build", own.parent / "freefem++.pref"):
             if path.exists():
                 (folder / path.name).symlink_to(path)
         shutil.copyfile(file, edp / "labs/4-own-law/mylaw.idp")
-        command = ["sh", edp / "freefem.sh", edp / "labs/4-own-law/own-law.edp", "-vtu", "0", "-out", folder / "out"]
+        command = ["sh", f"{edp}/freefem.sh", f"{edp}/labs/4-own-law/own-law.edp", "-vtu", "0", "-out", f"{folder}/out"]
         quiet = {name: value for name, value in os.environ.items() if name != "CONTACT_RESULTS"}
         quiet |= {"LC_ALL": "C"}
         try:
@@ -150,16 +150,16 @@ def of_a_law(file: Path) -> list[tuple[bool, str]]:
             )
         except subprocess.TimeoutExpired:
             return [(False, f"the run does not end: stopped after {SECONDS} seconds")]
-    said = done.stdout.decode(errors="replace")
+    output = done.stdout.decode(errors="replace")
     found = []
     for words, allowed in CHECKS.items():
-        printed = re.findall(rf"{re.escape(words)} (\S+)", said)
+        printed = re.findall(rf"{re.escape(words)} (\S+)", output)
         value = float(printed[-1]) if printed else float("nan")
-        told = f"{value:.2g}" if printed else "not printed"
-        found.append((value <= allowed, f"{words}: {told}, at most {allowed:g}"))
-    below = re.findall(r"below s = 0: (\S+) (\S+) (\S+)", said)
+        shown = f"{value:.2g}" if printed else "not printed"
+        found.append((value <= allowed, f"{words}: {shown}, at most {allowed:g}"))
+    below = re.findall(r"below s = 0: (\S+) (\S+) (\S+)", output)
     found.append((bool(below) and all(float(v) == 0 for v in below[-1]), "pressure, slope, potential: 0 below s = 0"))
     if done.returncode != 0:
-        (why,) = ([line for line in said.splitlines() if "error" in line.lower()] or said.splitlines() or [""])[:1]
+        (why,) = ([line for line in output.splitlines() if "error" in line.lower()] or output.splitlines() or [""])[:1]
         found.append((False, f"the run ends with code {done.returncode}: {why.strip()}"))
     return found

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from postprocess import of_case, style
-from postprocess.commands.show import cell
+from postprocess import case_report, style
+from postprocess.commands.show import value_text
 from postprocess.output import write_figure
 from postprocess.results import Run, column_names, is_number, read_run
 
@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> None:
     written = []
     if arguments.out:
         with style.look():
-            figure = draw(runs, style.Units(*map(style.plain, arguments.units)))
+            figure = draw(runs, style.Units(*map(style.without_mathtext, arguments.units)))
             written = write_figure(figure, arguments.out)
     print("\n".join([*lines, *map(str, written)]))
 
@@ -43,22 +43,22 @@ def table(first: Run, second: Run) -> list[str]:
     """The lines of the table, in columns."""
     rows = [["", str(first.path), str(second.path), "difference", "relative"]]
     for name in ("scene", "method", "converged"):
-        pair = cell(first.summary[name]), cell(second.summary[name])
+        pair = value_text(first.summary[name]), value_text(second.summary[name])
         rows.append([name, *pair, "" if pair[0] == pair[1] else "differs", ""])
     both = [
         {**run.summary, **{f"seconds.{name}": s for name, s in run.summary["seconds"].items()}}
         for run in (first, second)
     ]
     seconds = [name for name in both[0] if name.startswith("seconds.") and name in both[1]]
-    said = [cell(len(run.summary.get("warnings", []))) for run in (first, second)]
-    rows.append(["warnings", *said, "" if said[0] == said[1] else "differs", ""])
-    cases = all(of_case.is_case(run.summary) for run in (first, second))
+    warnings = [value_text(len(run.summary.get("warnings", []))) for run in (first, second)]
+    rows.append(["warnings", *warnings, "" if warnings[0] == warnings[1] else "differs", ""])
+    cases = all(case_report.is_case(run.summary) for run in (first, second))
     if cases:
-        told = [of_case.results(run.summary) for run in (first, second)]
-        for words, (value, _, unit) in told[0].items():
-            if words in told[1]:
-                rows.append(row(f"{words} [{unit}]" if unit else words, value, told[1][words][0]))
-    for name in [*(name for name in VALUES if not cases or name not in of_case.WHOLE), *seconds]:
+        results = [case_report.case_results(run.summary) for run in (first, second)]
+        for words, (value, _, unit) in results[0].items():
+            if words in results[1]:
+                rows.append(row(f"{words} [{unit}]" if unit else words, value, results[1][words][0]))
+    for name in [*(name for name in VALUES if not cases or name not in case_report.WHOLE), *seconds]:
         if name in both[0] and name in both[1]:
             rows.append(row(name, both[0][name], both[1][name]))
     rows += profiles(first, second)
@@ -67,7 +67,7 @@ def table(first: Run, second: Run) -> list[str]:
         name for name in {**given[0], **given[1]} if given[0].get(name) != given[1].get(name) and name != "out"
     ]
     for name in different:
-        rows.append([f"-{name}", *(cell(each.get(name)) for each in given), "", ""])
+        rows.append([f"-{name}", *(value_text(each.get(name)) for each in given), "", ""])
     widths = [max(len(line[column]) for line in rows) for column in range(5)]
     aligned = []
     for line in rows:
@@ -86,11 +86,11 @@ def table(first: Run, second: Run) -> list[str]:
 def row(name: str, first: object, second: object) -> list[str]:
     """A value of both runs, their difference, and that relative to the first's."""
     if not (is_number(first) and is_number(second)):
-        return [name, cell(first), cell(second), "", ""]
+        return [name, value_text(first), value_text(second), "", ""]
     difference = second - first
     relative = "" if first == 0 or difference == 0 else f"{difference / abs(first):+.1e}"
     shown = f"{difference:+d}" if isinstance(difference, int) else f"{difference:+.3g}"
-    return [name, cell(first), cell(second), "0" if difference == 0 else shown, relative]
+    return [name, value_text(first), value_text(second), "0" if difference == 0 else shown, relative]
 
 
 def profiles(first: Run, second: Run) -> list[list[str]]:
@@ -115,7 +115,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     """Pressures and overlaps of both runs over x, and their residuals over Newton steps."""
     figure = Figure(figsize=(style.PAGE, 0.42 * style.PAGE), layout="constrained")
     pressures, overlaps, residuals = figure.subplots(1, 3)
-    names = [f"{style.plain(run.path.name)}: {text}" for run, text in zip(runs, style.labels(runs), strict=True)]
+    names = [
+        f"{style.without_mathtext(run.path.name)}: {text}" for run, text in zip(runs, style.labels(runs), strict=True)
+    ]
     names = [name if names.count(name) == 1 else f"{name} ({order})" for order, name in enumerate(names, 1)]
     for index, (run, name) in enumerate(zip(runs, names, strict=True)):
         look = style.curve(index) | {"markersize": 3, "linewidth": 0.9, "markerfacecolor": "white"}
@@ -134,10 +136,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         positive = history["residual"] > 0
         residuals.plot(history["newton"][positive], history["residual"][positive], **look)
     touched = [run.contact["overlap"][run.contact["pressure"] > 0] for run in runs]
-    touched = np.concatenate(touched)
-    if len(touched):
-        span = max(float(np.ptp(touched)), 0.02 * abs(float(touched.max())), 1e-300)
-        overlaps.set_ylim(touched.min() - 0.5 * span, touched.max() + 0.1 * span)
+    reached = np.concatenate(touched)
+    if len(reached):
+        span = max(float(np.ptp(reached)), 0.02 * abs(float(reached.max())), 1e-300)
+        overlaps.set_ylim(reached.min() - 0.5 * span, reached.max() + 0.1 * span)
     across = "distance from the axis" if "z" in header(runs[0]) else "$x$"
     for axes in (pressures, overlaps):
         axes.set_xlabel(f"{across} [{units.length}]")
@@ -148,5 +150,5 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     residuals.set_xlabel("Newton step")
     residuals.set_yscale("log")
     residuals.xaxis.set_major_locator(MaxNLocator(integer=True))
-    figure.legend(loc="outside upper left", alignment="left")
+    style.legend_outside(figure, "upper left", alignment="left")
     return figure

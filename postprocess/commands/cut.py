@@ -7,6 +7,7 @@ or a quarter is its mirror image. FILE.png is 860 pixels wide.
 import argparse
 import io
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 from PIL import Image
@@ -36,14 +37,14 @@ def run(arguments: argparse.Namespace) -> None:
     except ImportError:
         raise ResultsError("cut", "needs PyVista: .venv/bin/python -m pip install pyvista") from None
     chosen = read_run(arguments.folder)
-    picture = Image.fromarray(drawn(pyvista, chosen, arguments.factor, arguments.units[1]))
+    picture = Image.fromarray(draw_cut(pyvista, chosen, arguments.factor, arguments.units[1]))
     written = io.BytesIO()
-    small.reduced(picture.crop(CROP), WIDTH).save(written, "PNG", optimize=True)
+    small.shrink_frame(picture.crop(CROP), WIDTH).save(written, "PNG", optimize=True)
     for path in write_files({Path(arguments.out): written.getvalue()}):
         print(path)
 
 
-def drawn(pyvista, chosen: Run, factor: float, unit: str) -> np.ndarray:
+def draw_cut(pyvista: ModuleType, chosen: Run, factor: float, unit: str) -> np.ndarray:
     """The pixels: six contact radii wide, four deep."""
     path = bodies_file(chosen.path)
     radius = chosen.summary.get("halfWidthMoment")

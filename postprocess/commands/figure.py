@@ -6,6 +6,7 @@ FILE.pdf is written, and FILE.png beside it: both, or neither.
 import argparse
 
 from postprocess import figures, style
+from postprocess.formatting import first_line
 from postprocess.output import write_figure
 from postprocess.results import ResultsError, read_run
 
@@ -13,7 +14,7 @@ from postprocess.results import ResultsError, read_run
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     modules = figures.modules()
     width = max(map(len, modules)) + 2
-    table = [f"  {name:<{width}}{module.__doc__.splitlines()[0]}" for name, module in modules.items()]
+    table = [f"  {name:<{width}}{first_line(module)}" for name, module in modules.items()]
     parser.epilog = "\n".join(["figures:", *table])
     parser.add_argument("name", choices=list(modules), metavar="NAME", help="which figure to draw")
     parser.add_argument("folders", nargs="+", metavar="DIR", help="a run's or a campaign's result folder")
@@ -32,6 +33,6 @@ def run(arguments: argparse.Namespace) -> None:
     read = getattr(module, "READ", read_run)
     runs = [read(folder) for folder in arguments.folders]
     with style.look():
-        figure = module.draw(runs, style.Units(*map(style.plain, arguments.units)))
+        figure = module.draw(runs, style.Units(*map(style.without_mathtext, arguments.units)))
         for path in write_figure(figure, arguments.out):
             print(path)

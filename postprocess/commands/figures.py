@@ -8,13 +8,14 @@ with what it needs. The figures are written as PDF and PNG: all of them, or none
 import argparse
 import contextlib
 from pathlib import Path
+from types import ModuleType
 
 from postprocess import figures, style
 from postprocess.figures import overshoot
 from postprocess.figures.figure2 import SAME_PROBLEM
 from postprocess.output import write_figures
 from postprocess.results import ResultsError, Run
-from postprocess.tree import Tree, read_tree
+from postprocess.results_folder import ResultsFolder, read_results_folder
 
 # What a figure of runs needs, for those who have to make it.
 NEEDS = {
@@ -41,13 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Draws what can be drawn, writes it, prints the paths, and what is missing with the reason."""
-    tree = read_tree(arguments.folder)
+    tree = read_results_folder(arguments.folder)
     folder = Path(arguments.out) if arguments.out else tree.path / "figures"
     drawn, missing = {}, []
     with style.look():
-        units = style.Units(*map(style.plain, arguments.units))
+        units = style.Units(*map(style.without_mathtext, arguments.units))
         for name, module in figures.modules().items():
-            found = material(tree, name, module)
+            found = sources_of_figure(tree, name, module)
             if isinstance(found, str):
                 missing.append(f"{name}: {found}")
                 continue
@@ -60,7 +61,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(f"not made: {line}")
 
 
-def material(tree: Tree, name: str, module) -> list | str:
+def sources_of_figure(tree: ResultsFolder, name: str, module: ModuleType) -> list | str:
     """What a figure is drawn from, or what it needs."""
     if hasattr(module, "READ"):
         folder = tree.path / name.partition("_")[0]
@@ -74,11 +75,11 @@ def material(tree: Tree, name: str, module) -> list | str:
                 return f"needs the whole of make {folder.name}"
             raise
         return [campaign]
-    chosen = CHOICES[name](ordered(tree.runs)) if name in CHOICES else first_that_fits(tree.runs, module)
+    chosen = CHOICES[name](figure_runs_first(tree.runs)) if name in CHOICES else first_drawable_run(tree.runs, module)
     return chosen or f"needs {NEEDS.get(name, 'a run that holds what it shows')}"
 
 
-def first_that_fits(runs: list[Run], module) -> list[Run]:
+def first_drawable_run(runs: list[Run], module: ModuleType) -> list[Run]:
     """For a figure of one run: the first that it can be drawn from."""
     for run in runs if module.RUNS[0] == 1 else ():
         with contextlib.suppress(ResultsError):
@@ -87,7 +88,7 @@ def first_that_fits(runs: list[Run], module) -> list[Run]:
     return []
 
 
-def ordered(runs: list[Run]) -> list[Run]:
+def figure_runs_first(runs: list[Run]) -> list[Run]:
     """Those in a folder called figures first: they were made for it."""
     return sorted(runs, key=lambda run: ("figures" not in run.path.parts, str(run.path)))
 
@@ -134,7 +135,7 @@ def choose_thresholds(runs: list[Run]) -> list[Run]:
 def choose_overshoots(runs: list[Run]) -> list[Run]:
     """Plain Newton on a law, with its steps."""
     fit = [run for run in runs if run.summary["method"] == "newton" and (run.path / "steps.csv").exists()]
-    return first_that_fits(fit, overshoot)
+    return first_drawable_run(fit, overshoot)
 
 
 CHOICES = {

@@ -9,17 +9,19 @@ step by load step, where the contact sticks and slips; in space, the shares of t
 import argparse
 
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from postprocess import bodies as drawn
 from postprocess import style
-from postprocess.bodies import ZONES, units_of, zones
-from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, brief, column_names, read_run, read_table
-from postprocess.series import Curve, curves, driving, read_series
-from postprocess.words import Units
+from postprocess.bodies import ZONES, slip_zones, units_of
+from postprocess.formatting import Units
+from postprocess.load_series import Curve, driving_load, load_curves, read_series
+from postprocess.output import write_figure_of_run
+from postprocess.results import ResultsError, Run, column_names, one_line, read_run, read_table
 
 COLUMNS = "step leg drag shearForce dissipated contactPoints stickingPoints".split()
 STRONG = {1: style.GREEN, 2: style.ORANGE}
@@ -41,7 +43,7 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     with style.look():
         figure = draw(chosen, units_of(chosen, arguments.units), arguments, Units(chosen.summary, arguments.units))
-        write_own(figure, arguments.out, chosen.path / "hysteresis.pdf")
+        write_figure_of_run(figure, arguments.out, chosen.path / "hysteresis.pdf")
 
 
 def last_loop(drag: np.ndarray, shear: np.ndarray) -> tuple[int, int] | None:
@@ -69,9 +71,9 @@ def of_case(chosen: Run, table: dict, named: str | None) -> tuple[dict, Curve]:
     path = chosen.path / "series.csv"
     whole = read_series(chosen)
     if named is None:
-        each = driving(whole)
+        each = driving_load(whole)
     else:
-        found = {each.name: each for each in curves(whole)}
+        found = {each.name: each for each in load_curves(whole)}
         if named not in found:
             raise ResultsError(path, f"{named}: no load or motion; allowed: {', '.join(found)}")
         each = found[named]
@@ -87,23 +89,23 @@ def draw(chosen: Run, units: style.Units, asked: argparse.Namespace, own: Units)
     curve = None
     if any(column.endswith(" reaction") for column in column_names(chosen.path / "series.csv")):
         table, curve = of_case(chosen, table, asked.along)
-    figure, panels = style.sheet([("a", 1.0), ("b", 0.9)], "ab", asked.slide)
+    figure, panels = style.figure_with_panels([("a", 1.0), ("b", 0.9)], "ab", asked.slide)
     above, below = panels["a"], panels["b"]
-    words = f"displacement of {style.plain(curve.name)}" if curve else "dragged by"
+    words = f"displacement of {style.without_mathtext(curve.name)}" if curve else "dragged by"
     if asked.slip:
         words = "displacement without its elastic part"
         table["drag"] -= flexibility(table) * table["shearForce"]
     turns = curve is not None and curve.turns
     force = own.moment if turns else own.force
-    said = ("moment" if turns else "reaction") if curve else "shear force"
+    label = ("moment" if turns else "reaction") if curve else "shear force"
     across = f"{words} [{'rad' if turns else units.length}]"
-    plot_loop(above, table, across, f"{said} [{force}]" if force else said, own.energy)
+    plot_loop(above, table, across, f"{label} [{force}]" if force else label, own.energy)
     if (chosen.path / "slides.csv").exists():
         plot_zones(below, chosen, asked.contact, len(table["step"]), units)
     else:
         plot_shares(below, table)
-    drawn.title(above, 0)
-    drawn.title(below, 1, named(chosen, asked.contact), 28)
+    drawn.set_panel_title(above, 0)
+    drawn.set_panel_title(below, 1, named(chosen, asked.contact), 28)
     return figure
 
 
@@ -112,10 +114,10 @@ def named(chosen: Run, contact: int) -> str:
     stated = chosen.summary.get("contacts") or []
     if not (chosen.path / "slides.csv").exists() or contact >= len(stated):
         return ""
-    return style.plain(brief(str(stated[contact].get("name", ""))))
+    return style.without_mathtext(one_line(str(stated[contact].get("name", ""))))
 
 
-def plot_loop(axes, table: dict, words: str, said: str, unit: str) -> None:
+def plot_loop(axes: Axes, table: dict, words: str, label: str, unit: str) -> None:
     drag, shear, lost = table["drag"], table["shearForce"], table["dissipated"]
     closed = last_loop(drag, shear)
     energy = f"dissipated {lost[-1]:.3g}"
@@ -134,15 +136,15 @@ def plot_loop(axes, table: dict, words: str, said: str, unit: str) -> None:
         way = np.hypot(np.ptp(drag[rows]) / (np.ptp(drag) or 1), np.ptp(shear[rows]) / (np.ptp(shear) or 1))
         if len(rows) > 1 and way > 0.2:
             k = rows[len(rows) // 2 - 1]
-            ends = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
+            ends: style.Look = {"xy": (drag[k + 1], shear[k + 1]), "xytext": (drag[k], shear[k])}
             axes.annotate("", arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 0.8}, **ends)
-    axes.set_xlabel(style.folded(words, 36), loc="left", multialignment="left")  # the power of ten is at the right end
-    axes.set_ylabel(said)
+    axes.set_xlabel(style.wrapped(words, 36), loc="left", multialignment="left")  # the power of ten is at the right end
+    axes.set_ylabel(label)
     axes.set_title(f"energy{f' [{unit}]' if unit else ''}: {energy}", loc="right", fontsize=8)
     axes.ticklabel_format(axis="both", scilimits=(-3, 4), useMathText=True)
 
 
-def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) -> None:
+def plot_zones(axes: Axes, chosen: Run, contact: int, steps: int, units: style.Units) -> None:
     """Load step by load step, where one contact sticks and slips."""
     table = read_table(chosen.path / "slides.csv", "step contact x y slide".split())
     mine = table["contact"] == contact
@@ -152,7 +154,7 @@ def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) 
         rows = np.flatnonzero(mine & (table["step"] == step))
         rows = rows[np.argsort(along[rows])]
         if len(rows):
-            boxes = zones(along[rows], table["slide"][rows])
+            boxes = slip_zones(along[rows], table["slide"][rows])
             corners = [[(step - 0.5, a), (step + 0.5, a), (step + 0.5, b), (step - 0.5, b)] for a, b, _ in boxes]
             colours = [STRONG[state] for *_, state in boxes]
             axes.add_collection(PolyCollection(corners, facecolors=colours, linewidths=0))
@@ -161,10 +163,11 @@ def plot_zones(axes, chosen: Run, contact: int, steps: int, units: style.Units) 
     axes.margins(y=0.05)
     axes.set_xlabel("load step")
     axes.set_ylabel(f"${'x' if flat else 'y'}$ [{units.length}]")
-    axes.legend([Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)], ["sticks", "slips"], **ABOVE)
+    squares: list[Artist] = [Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)]
+    axes.legend(squares, ["sticks", "slips"], **ABOVE)
 
 
-def plot_shares(axes, table: dict) -> None:
+def plot_shares(axes: Axes, table: dict) -> None:
     """In space: the shares of the points in contact that stick and slip."""
     share = 100 * table["stickingPoints"] / np.maximum(table["contactPoints"], 1)
     steps = table["step"]
@@ -177,4 +180,4 @@ def plot_shares(axes, table: dict) -> None:
     axes.legend(**ABOVE)
 
 
-ABOVE = {"ncols": 2, "loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}
+ABOVE: style.Look = {"ncols": 2, "loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}

@@ -6,7 +6,7 @@ RUN is one of lab 3, whose thresholds make the film of the slides. FOLDER gets t
 import argparse
 from pathlib import Path
 
-from postprocess import kit
+from postprocess import teaching_kit
 from postprocess.output import write_files
 
 
@@ -18,5 +18,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Writes the kit and prints the path of its first page."""
     out = Path(arguments.out)
-    write_files({out / name: content for name, content in kit.make(Path(arguments.folder)).items()})
+    write_files({out / name: content for name, content in teaching_kit.make_kit(Path(arguments.folder)).items()})
     print(out / "index.html")

@@ -5,14 +5,16 @@ left out where it is not known, and the principal stresses; right: the displacem
 """
 
 import argparse
+from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.bodies import units_of
-from postprocess.output import write_own
-from postprocess.results import ResultsError, Run, column_names, read_run, read_table
+from postprocess.output import write_figure_of_run
+from postprocess.results import ResultsError, Run, Table, column_names, read_run, read_table
 
 SIZE = (style.PAGE, 0.42 * style.PAGE)
 COLUMNS = "distance x y ux uy stress1 stress2 stress3 vonMises vonMisesError displacementError".split()
@@ -30,10 +32,10 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     path = table_of(chosen, arguments.name)
     with style.look():
-        write_own(drawn(path, units_of(chosen, arguments.units)), arguments.out, path.with_suffix(".pdf"))
+        write_figure_of_run(draw_line(path, units_of(chosen, arguments.units)), arguments.out, path.with_suffix(".pdf"))
 
 
-def table_of(chosen: Run, name: str | None):
+def table_of(chosen: Run, name: str | None) -> Path:
     """The file of a line."""
     found = sorted(chosen.path.glob("line-*.csv"))
     if name is None and len(found) != 1:
@@ -42,20 +44,21 @@ def table_of(chosen: Run, name: str | None):
     return found[0] if name is None else chosen.path / f"line-{name}.csv"
 
 
-def read_line(path) -> dict:
+def read_line(path: Path) -> Table:
     """The columns that are drawn; an error that is not known is inf."""
     space = path.is_file() and "uz" in column_names(path)
     return read_table(path, [*COLUMNS, *(["uz"] if space else [])], "; name it in the case: line NAME ...")
 
 
-def drawn(path, units: style.Units) -> Figure:
+def draw_line(path: Path, units: style.Units) -> Figure:
     table = read_line(path)
     at = table["distance"]
     figure = Figure(figsize=SIZE, layout="constrained")
     left, right = figure.subplots(1, 2)
-    breaks = np.flatnonzero(np.diff(at) > 1.5 * np.median(np.diff(at))) + 1 if len(at) > 2 else []
+    steps = np.diff(at)
+    breaks = np.flatnonzero(steps > 1.5 * np.median(steps)) + 1 if len(at) > 2 else np.empty(0, int)
 
-    def curve(axes, values, error, label, color):
+    def curve(axes: Axes, values: np.ndarray, error: np.ndarray, label: str, color: str) -> None:
         # places that were asked have less than their neighbours: no comb of it
         beside = np.where(np.isfinite(error), error, 0)
         beside = np.maximum(beside, np.maximum(np.r_[beside[1:], 0], np.r_[0, beside[:-1]]))

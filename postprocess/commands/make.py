@@ -46,7 +46,8 @@ def run(arguments: argparse.Namespace) -> None:
 def choose(recipes: Recipes, wanted: list[str]) -> tuple[dict[str, Figure], list[str]]:
     """The figures to draw and the runs to make, each once."""
     wanted = wanted or list(recipes.figures) or list(recipes.runs)
-    drawn, runs = {}, []
+    drawn: dict[str, Figure] = {}
+    runs: list[str] = []
     for word in wanted:
         name = word.removesuffix(".pdf").removesuffix(".png").removesuffix("/summary.json")
         if name in recipes.figures and not word.endswith("/summary.json"):

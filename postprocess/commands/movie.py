@@ -13,14 +13,14 @@ from pathlib import Path
 
 from matplotlib import rc_context
 
-from postprocess import page, style
-from postprocess.commands.show import cell
-from postprocess.frames import Movie
-from postprocess.loop import Loop, along_path
-from postprocess.output import enter, write_files
-from postprocess.player import render
-from postprocess.results import ResultsError, Run, brief, read_run
-from postprocess.words import HISTORY_COLUMNS, history_rows, run_words
+from postprocess import html_page, style
+from postprocess.commands.show import value_text
+from postprocess.formatting import HISTORY_COLUMNS, history_rows, run_caption
+from postprocess.movie_player import render
+from postprocess.newton_movie import NewtonMovie
+from postprocess.output import register_files_of_run, write_files
+from postprocess.path_movie import PathMovie, along_path
+from postprocess.results import ResultsError, Run, one_line, read_run
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,8 +38,8 @@ def run(arguments: argparse.Namespace) -> None:
     chosen = read_run(arguments.folder)
     try:
         with style.look():
-            kind = Loop if along_path(chosen) else Movie
-            movie = kind(chosen, style.Units(*map(style.plain, arguments.units)))
+            kind = PathMovie if along_path(chosen) else NewtonMovie
+            movie = kind(chosen, style.Units(*map(style.without_mathtext, arguments.units)))
             if arguments.frame is not None:
                 contents = {
                     Path(arguments.out) / f"frame-{arguments.frame}.svg": one_frame(chosen, movie, arguments.frame)
@@ -47,17 +47,17 @@ def run(arguments: argparse.Namespace) -> None:
         if arguments.frame is None:
             player, picture, film = render(movie, description(chosen), arguments.speed)
     except (ValueError, OverflowError) as error:
-        raise ResultsError(chosen.path, f"cannot be drawn: {brief(str(error))}") from None
+        raise ResultsError(chosen.path, f"cannot be drawn: {one_line(str(error))}") from None
     folder = Path(arguments.out)
     if arguments.frame is None:
         contents = {folder / "movie.html": web_page(chosen, player).encode(), folder / "movie.gif": picture}
         contents |= {folder / "movie.mp4": film} if film else {}
-    enter(folder, [path.name for path in contents])
+    register_files_of_run(folder, [path.name for path in contents])
     for path in write_files(contents):
         print(path)
 
 
-def one_frame(run: Run, movie: Movie | Loop, number: int) -> bytes:
+def one_frame(run: Run, movie: NewtonMovie | PathMovie, number: int) -> bytes:
     """A frame as SVG."""
     if not 1 <= number <= movie.count:
         raise ResultsError(run.path, f"--frame {number}: allowed: 1 to {movie.count}")
@@ -72,11 +72,11 @@ def description(run: Run) -> str:
     """What the movie shows, in words."""
     if along_path(run):
         return (
-            f"One picture per state of the run {run_words(run)}. Left: the force against the approach so far, "
+            f"One picture per state of the run {run_caption(run)}. Left: the force against the approach so far, "
             "with jumps. Right: the pressure along the contact."
         )
     return (
-        f"One picture per Newton step of the run {run_words(run)}. Left: each contact point's overlap and pressure, "
+        f"One picture per Newton step of the run {run_caption(run)}. Left: each contact point's overlap and pressure, "
         "beside the curve of the law and its wall. Right: the pressure along the contact, and the deformed bodies. "
         "The table of Newton steps tells the same in numbers."
     )
@@ -90,8 +90,10 @@ def web_page(run: Run, player: str) -> str:
     )
     if along_path(run):
         words = "A frame is a state of the path: what the surfaces do as they come together and part."
-    head = [page.element("h1", f"The method at work: {run_words(run)}"), page.element("p", words)]
-    steps = page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
-    outcome = page.element("p", f"Force {cell(run.summary['force'])}, residual {cell(run.summary['residual'])}.")
-    body = page.joined([*head, page.Markup(player), outcome, steps])
-    return page.document(f"Newton steps: {run_words(run)}", page.element("main", body, id="main"))
+    head = [html_page.element("h1", f"The method at work: {run_caption(run)}"), html_page.element("p", words)]
+    steps = html_page.table("Newton steps", HISTORY_COLUMNS, history_rows(run), range(len(HISTORY_COLUMNS)))
+    outcome = html_page.element(
+        "p", f"Force {value_text(run.summary['force'])}, residual {value_text(run.summary['residual'])}."
+    )
+    body = html_page.joined([*head, html_page.Markup(player), outcome, steps])
+    return html_page.document(f"Newton steps: {run_caption(run)}", html_page.element("main", body, id="main"))

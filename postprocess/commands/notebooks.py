@@ -7,7 +7,7 @@ to be inside the package.
 import argparse
 from pathlib import Path
 
-from postprocess import kit, notebook
+from postprocess import notebook, teaching_kit
 from postprocess.output import write_files
 
 
@@ -18,6 +18,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Writes the notebooks and prints their paths."""
     out = Path(arguments.out).resolve()
-    files = {Path(arguments.out) / f"lab-{lab.name}.ipynb": notebook.made(lab, out) for lab in kit.folders()}
+    files = {Path(arguments.out) / f"lab-{lab.name}.ipynb": notebook.made(lab, out) for lab in teaching_kit.folders()}
     for path in write_files(files):
         print(path)

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from postprocess import page
+from postprocess import html_page
+from postprocess.formatting import command
+from postprocess.html_page import Markup, element, joined, section, table
 from postprocess.output import write_files
-from postprocess.page import Markup, element, joined, section, table
 from postprocess.results import ResultsError, Run, read_run
-from postprocess.tree import read_png
-from postprocess.words import command
+from postprocess.results_folder import read_png
 
 SIZES = ("1", "0.5", "0.25", "0.1")
 TOLERANCES = ("1e-2", "1e-4", "1e-6", "1e-8", "1e-10", "1e-12")  # -tol; 1e-6 is the default
@@ -36,7 +36,9 @@ def run(arguments: argparse.Namespace) -> None:
     runs = {path.parent.name: read_run(path.parent) for path in sorted(arguments.folder.glob("*/summary.json"))}
     wanted = [*(f"h-{h}{start}" for h in SIZES for start in ("", "-d0")), "newton"]
     wanted += ["stiff", "stiff-d0", "stiff-newton"]
-    wanted += [run_of(flag, value) for flag, values in (("tol", TOLERANCES), ("eps", MODEL_ERRORS)) for value in values]
+    wanted += [
+        run_name(flag, value) for flag, values in (("tol", TOLERANCES), ("eps", MODEL_ERRORS)) for value in values
+    ]
     missing = [name for name in wanted if name not in runs]
     if missing:
         raise ResultsError(arguments.folder, f"has no run {missing[0]}: make paper makes them")
@@ -46,17 +48,17 @@ def run(arguments: argparse.Namespace) -> None:
         print(path)
 
 
-def run_of(flag: str, value: str) -> str:
+def run_name(flag: str, value: str) -> str:
     """The name of the run with this value of -tol or -eps; the defaults are those of the run h-0.5."""
     return "h-0.5" if (flag, value) in (("tol", "1e-6"), ("eps", "1e-4")) else f"{flag}-{value}"
 
 
-def counts(run: Run) -> str:
+def counts_text(run: Run) -> str:
     """Adaptations / Newton steps."""
     return f"{run.summary['adaptations']} / {run.summary['newton']}"
 
 
-def never_falls(run: Run) -> bool:
+def thresholds_never_decrease(run: Run) -> bool:
     """Proposition 4.1: no threshold of a model is below that of the model before, at any point."""
     tau = np.array([table["tau"] for table in run.adaptations])
     return bool(np.all(np.diff(tau, axis=0) >= 0))
@@ -78,20 +80,49 @@ def overshoot(run: Run) -> float:
 
 def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, bytes]) -> str:
     """The page."""
+    parts = [
+        element("h1", "The paper's claims, and what comes out"),
+        element(
+            "p", "H. Ben Dhia, S. Du. An eXtended-Newton scheme for the solution of stiff normal contact problems."
+        ),
+        section("claims", "Claims that these runs measure", claims_table(runs, figures)),
+        section(
+            "every",
+            "Every claim",
+            element("p", "Counts are for P1, h = 0.5 and the default tolerances."),
+            every_claim(),
+        ),
+        section("meshes", "On other meshes", *by_mesh(runs)),
+        section("tolerances", "With other tolerances", *by_tolerance(runs)),
+        section("conditions", "Overshoot, not conditioning", element("p", conditioning_text(runs))),
+        section("figures", "Figures", *captioned(pictures)),
+    ]
+    return html_page.document("The paper, reproduced", element("main", joined(parts), id="main"))
+
+
+# (claim of the paper, run, what comes out, whether it agrees, why)
+Claim = tuple[str, Run, str, bool, str]
+
+
+def claims_table(runs: dict[str, Run], figures: dict[str, Run]) -> Markup:
+    """A row a claim: the command that tests it, its result, and whether that agrees with the paper."""
+    claims = [*claims_on_counts(runs, figures), *claims_on_other_schemes(runs, figures)]
+    rows = [
+        [claim, element("code", command(each)), out, verdict_mark(well), why] for claim, each, out, well, why in claims
+    ]
+    return table("Claims", ["the paper", "command", "comes out", "agrees", "why, or on what"], rows)
+
+
+def claims_on_counts(runs: dict[str, Run], figures: dict[str, Run]) -> list[Claim]:
+    """The paper's counts of models and steps, and its two figures."""
     base, meshed = runs["h-0.5"], figures["paper"]
     away = difference(meshed, figures["incremental"])
-    schemes = [each for name, each in runs.items() if "newton" not in name]
-    falls = [each for each in [*schemes, meshed] if not never_falls(each)]
-    adaptations = [runs[f"h-{h}{start}"].summary["adaptations"] for h in SIZES for start in ("", "-d0")]
-    fewest, most = min(adaptations), max(adaptations)
-    small = figures["incremental"].summary["newton"]
-    plain, stiff = runs["newton"].summary["newton"], runs["stiff-newton"].summary["newton"]
-    claims = [
+    return [
         (
             "§5: the full-compliant solution after 3 adaptations with 12 Newton steps in total",
             base,
-            f"{counts(base)}; with both bodies meshed {counts(meshed)}",
-            counts(base) == counts(meshed) == "3 / 12",
+            f"{counts_text(base)}; with both bodies meshed {counts_text(meshed)}",
+            counts_text(base) == counts_text(meshed) == "3 / 12",
             "P1, h = 0.5, T⁰ = 0; the paper names neither mesh nor tolerance, and the count depends on both (below)",
         ),
         (
@@ -108,6 +139,17 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
             away < 1e-4,
             "both solve one discrete problem; 20 load steps",
         ),
+    ]
+
+
+def claims_on_other_schemes(runs: dict[str, Run], figures: dict[str, Run]) -> list[Claim]:
+    """Plain Newton and small load steps compared with the scheme, stiff laws, and the monotone thresholds."""
+    base, meshed = runs["h-0.5"], figures["paper"]
+    schemes = [each for name, each in runs.items() if "newton" not in name]
+    falls = [each for each in [*schemes, meshed] if not thresholds_never_decrease(each)]
+    small = figures["incremental"].summary["newton"]
+    plain, stiff = runs["newton"].summary["newton"], runs["stiff-newton"].summary["newton"]
+    return [
         (
             "§5: very efficient compared with a classical resolution with many small steps",
             figures["incremental"],
@@ -126,7 +168,8 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
         (
             "§1: the scheme is for stiff laws, which classical schemes hardly solve",
             runs["stiff-d0"],
-            f"κ = 1e12: plain Newton {stiff}; T⁰ = 0: {counts(runs['stiff'])}; T⁰ = d0: {counts(runs['stiff-d0'])}",
+            f"κ = 1e12: plain Newton {stiff}; T⁰ = 0: {counts_text(runs['stiff'])}; "
+            f"T⁰ = d0: {counts_text(runs['stiff-d0'])}",
             runs["stiff-d0"].summary["newton"] < stiff,
             "from T⁰ = d0; from T⁰ = 0 the wall is never met, and the scheme is plain Newton, which is slow, not lost",
         ),
@@ -138,36 +181,51 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
             "of τ = T − d0, as the proposition has it",
         ),
     ]
-    rows = [[claim, element("code", command(each)), out, verdict(well), why] for claim, each, out, well, why in claims]
-    claimed = table("Claims", ["the paper", "command", "comes out", "agrees", "why, or on what"], rows)
+
+
+def by_mesh(runs: dict[str, Run]) -> list[Markup]:
+    """Models and steps on other meshes: a text and a table."""
+    adaptations = [runs[f"h-{h}{start}"].summary["adaptations"] for h in SIZES for start in ("", "-d0")]
+    fewest, most = min(adaptations), max(adaptations)
     meshes = table(
         "Adaptations / Newton steps by mesh",
         ["h, P1", "T⁰ = 0", "T⁰ = d0"],
-        [[h, counts(runs[f"h-{h}"]), counts(runs[f"h-{h}-d0"])] for h in SIZES],
+        [[h, counts_text(runs[f"h-{h}"]), counts_text(runs[f"h-{h}-d0"])] for h in SIZES],
         [1, 2],
     )
     words = (
         f"The number of adaptations, {fewest} to {most} here, is not one of the scheme: a point that newly comes into "
         "contact still has its first threshold, and a finer mesh has more such points."
     )
-    needed = [runs[run_of("tol", value)].summary["newton"] for value in TOLERANCES]
-    by_tolerance, by_model_error = (
+    return [element("p", words), meshes]
+
+
+def by_tolerance(runs: dict[str, Run]) -> list[Markup]:
+    """Models and steps by the tolerances of the residual and of the model error: a text and two tables."""
+    needed = [runs[run_name("tol", value)].summary["newton"] for value in TOLERANCES]
+    tables = [
         table(
             f"Adaptations / Newton steps by {words}",
             [f"-{flag}", "h = 0.5, T⁰ = 0"],
-            [[value, counts(runs[run_of(flag, value)])] for value in values],
+            [[value, counts_text(runs[run_name(flag, value)])] for value in values],
             [1],
         )
         for flag, values, words in (
             ("tol", TOLERANCES, "tolerance of the residual"),
             ("eps", MODEL_ERRORS, "tolerance of the model error, eq. (7)"),
         )
-    )
-    about_tolerances = (
+    ]
+    words = (
         f"The paper names no tolerance. The tolerance of the residual changes the Newton steps, {min(needed)} to "
         f"{max(needed)} here, and not the models. With a looser model error the loop may end a model earlier."
     )
-    about_conditions = (
+    return [element("p", words), *tables]
+
+
+def conditioning_text(runs: dict[str, Run]) -> str:
+    """The condition of plain Newton's tangent, and the steps that follow from the overshoot."""
+    stiff = runs["stiff-newton"].summary["newton"]
+    return (
         "The paper calls the tangent of a stiff law ill-conditioned. At κ = 1e12 its condition number is "
         f"{CONDITION} at the first step. Scaled to a unit diagonal it is {SCALED} for every κ and m, that of the block "
         "alone (make conditioning). A direct solver has the accuracy of the scaled matrix. The steps of plain Newton "
@@ -176,29 +234,15 @@ def build(runs: dict[str, Run], figures: dict[str, Run], pictures: dict[str, byt
         "and about four "
         f"more. At κ = 1e12 x is {overshoot(runs['stiff-newton']):.1f}, and plain Newton takes {stiff} steps."
     )
+
+
+def captioned(pictures: dict[str, bytes]) -> list[Markup]:
+    """The paper's two figures, each with what it shows."""
     seen = {
         "figure1": "The paper's Figure 1: at rest, the motion prescribed, the first model solved, converged",
         "figure2": "The paper's Figure 2: pressure by the scheme on that of 20 load steps",
     }
-    drawn = [page.picture(pictures[name], text, Markup(text + ".")) for name, text in seen.items()]
-    parts = [
-        element("h1", "The paper's claims, and what comes out"),
-        element(
-            "p", "H. Ben Dhia, S. Du. An eXtended-Newton scheme for the solution of stiff normal contact problems."
-        ),
-        section("claims", "Claims that these runs measure", claimed),
-        section(
-            "every",
-            "Every claim",
-            element("p", "Counts are for P1, h = 0.5 and the default tolerances."),
-            every_claim(),
-        ),
-        section("meshes", "On other meshes", element("p", words), meshes),
-        section("tolerances", "With other tolerances", element("p", about_tolerances), by_tolerance, by_model_error),
-        section("conditions", "Overshoot, not conditioning", element("p", about_conditions)),
-        section("figures", "Figures", *drawn),
-    ]
-    return page.document("The paper, reproduced", element("main", joined(parts), id="main"))
+    return [html_page.picture(pictures[name], text, Markup(text + ".")) for name, text in seen.items()]
 
 
 def every_claim() -> Markup:
@@ -210,5 +254,5 @@ def every_claim() -> Markup:
     return table("Every claim of the paper", head, rows)
 
 
-def verdict(well: bool) -> Markup:
+def verdict_mark(well: bool) -> Markup:
     return element("span", "yes" if well else "NO", class_="pass" if well else "fail")

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import bodies_3d, style
 from postprocess.bodies import Bodies, read_bodies, units_of
-from postprocess.commands.state import carrying
-from postprocess.output import enter, write_files
+from postprocess.commands.state import strongest_contacts
+from postprocess.output import register_files_of_run, write_files
 from postprocess.results import read_run
 from postprocess.vtu import MOVE, PRESSURE, STRESS, bodies_file, read_names
 
@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> None:
     bodies = read_bodies(chosen, arguments.scale)
     text = state(bodies, units_of(chosen, arguments.units), arguments.view)
     if not arguments.out:
-        enter(chosen.path, ["paraview.py", "paraview.png"])
+        register_files_of_run(chosen.path, ["paraview.py", "paraview.png"])
     for path in write_files({Path(arguments.out or chosen.path / "paraview.py"): text.encode()}):
         print(path)
 
@@ -100,22 +100,22 @@ def state(bodies: Bodies, units: style.Units, view: tuple | None) -> str:
     """The script."""
     named = read_names(bodies_file(bodies.run.path))
     names = named.get("bodies", []) + named.get("groups", [])
-    strongest = carrying(bodies)[0][0]
-    loads, normal = space.pressing(bodies, strongest)
+    strongest = strongest_contacts(bodies)[0][0]
+    loads, normal = bodies_3d.contact_forces(bodies, strongest)
     middle = loads @ bodies.points / loads.sum()
     unit = "" if units.stress == style.Units.stress else f"[{units.stress}]"
-    solid = {"cut": None}
+    solid: style.Look = {"cut": None}
     if bodies.grid.space:
         # what is nearer to the eye than the middle of the contact is taken away
-        eye = space.sight(*(view or space.onto(normal)))
-        flat = space.facing(normal)
+        eye = bodies_3d.view_matrix(*(view or bodies_3d.view_angles(normal)))
+        flat = bodies_3d.surface_axes(normal)
         across = flat[1] * (1 if flat[1] @ eye[2] > 0 else -1)
         solid["cut"] = [numbers(middle), numbers(across)]
         top = drawn.stress_range(bodies)
         reach = 1.5 * np.ptp(bodies.points[bodies.touching(strongest)], axis=0).max()
     else:
         eye, top = np.eye(3), drawn.stress_range(bodies)
-        zone = drawn.zone_window(bodies, strongest)
+        zone = drawn.contact_window(bodies, strongest)
         middle, reach = np.append(zone.mean(axis=0), 0), 0.5 * np.ptp(zone[:, 1])
     shows = [
         call(
@@ -151,6 +151,27 @@ def numbers(values: np.ndarray) -> list[float]:
     return [float(f"{value:.9g}") for value in values]
 
 
-def call(file, name, array, top, title, unit, corner, colours, cut=None) -> str:
-    words = [file, name, array, float(f"{top:.6g}"), title, unit, corner, colours, *([cut] if cut else [])]
+def call(
+    file: str,
+    name: str,
+    array: str,
+    top: float,
+    title: str,
+    unit: str,
+    corner: str,
+    colours: str,
+    cut: list[list[float]] | None = None,
+) -> str:
+    """The line of the script that shows one file's grid; cut: a point and the normal of the plane that cuts it open."""
+    words: list[object] = [
+        file,
+        name,
+        array,
+        float(f"{top:.6g}"),
+        title,
+        unit,
+        corner,
+        colours,
+        *([cut] if cut else []),
+    ]
     return f"shown({', '.join(map(repr, words))})"

@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from postprocess import kit
+from postprocess import teaching_kit
 from postprocess.output import write_files
 from postprocess.results import ResultsError
 
@@ -47,13 +47,13 @@ def run(arguments: argparse.Namespace) -> None:
             f'<svg id="{name}Law" viewBox="0 0 300 190" role="img" aria-label="{words}: points and law"></svg>',
             f'<svg id="{name}Line" viewBox="0 0 300 170" role="img" aria-label="{words}: overlap along x"></svg>',
         ]
-        said = [f'<p><strong id="{name}End"></strong></p>', f'<p id="{name}Said"></p>']
-        columns.append("\n".join([f'<section class="{name}"><h3>{words}</h3>', *said, *pictures, "</section>"]))
-    text = string.Template(kit.template_file("play.html")).substitute(
-        style=kit.template_file("page.css"),
+        texts = [f'<p><strong id="{name}End"></strong></p>', f'<p id="{name}Said"></p>']
+        columns.append("\n".join([f'<section class="{name}"><h3>{words}</h3>', *texts, *pictures, "</section>"]))
+    text = string.Template(teaching_kit.template_file("play.html")).substitute(
+        style=teaching_kit.template_file("page.css"),
         methods="\n".join(columns),
         data=json.dumps(data, separators=(",", ":")),
-        script=kit.template_file("play.js"),
+        script=teaching_kit.template_file("play.js"),
     )
     for path in write_files({Path(arguments.out): text.encode()}):
         print(path)
@@ -61,8 +61,8 @@ def run(arguments: argparse.Namespace) -> None:
 
 def influence(h: float) -> dict[str, list[float]]:
     """Points x, weights w, and row by row up to the diagonal the displacement c that a unit force leaves, at this h."""
-    text = kit.read(kit.LABS / kit.PAGE)
-    meshes = kit.LABS.parent.parent / "meshes"
+    text = teaching_kit.read_page(teaching_kit.LABS / teaching_kit.PAGE)
+    meshes = teaching_kit.LABS.parent.parent / "meshes"
     text = text[: text.index("int newton = 0")] + WRITES
     text = text.replace('labFolder + "/../../../meshes/"', json.dumps(f"{meshes}/"))
     text = text.replace("-setnumber corners 0.000125", f"-setnumber h {h / 40!r} -setnumber corners {h / 4000!r}")
@@ -70,7 +70,7 @@ def influence(h: float) -> dict[str, list[float]]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "influence.edp").write_text(text, encoding="utf-8")
-        command = ["sh", kit.LABS.parent / "freefem.sh", "influence.edp"]
+        command = ["sh", str(teaching_kit.LABS.parent / "freefem.sh"), "influence.edp"]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
         if done.returncode != 0:
             raise ResultsError("FreeFem++", f"ended with code {done.returncode}: {done.stdout.strip()[-300:]}")

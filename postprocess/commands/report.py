@@ -11,7 +11,7 @@ from pathlib import Path
 from postprocess.output import write_files
 from postprocess.report import build
 from postprocess.results import ResultsError
-from postprocess.tree import read_tree
+from postprocess.results_folder import read_results_folder
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,5 +24,5 @@ def run(arguments: argparse.Namespace) -> None:
     out = Path(arguments.out)
     if out.suffix != ".html":
         raise ResultsError(out, "the name of a report ends in .html")
-    for path in write_files({out: build(read_tree(arguments.folder)).encode()}):
+    for path in write_files({out: build(read_results_folder(arguments.folder)).encode()}):
         print(path)

@@ -6,7 +6,7 @@ of each contact, load, support and body, with units; further lists are in summar
 
 import argparse
 
-from postprocess import of_case
+from postprocess import case_report
 from postprocess.results import is_number, read_run
 
 GROUPS = {
@@ -30,17 +30,19 @@ def run(arguments: argparse.Namespace) -> None:
 
 def table(summary: dict) -> list[str]:
     """The lines of the table: names left, values from one common column on, a blank line between groups."""
-    case = of_case.is_case(summary)
-    told = {key: with_error(summary, key) for key in summary if not case or key not in of_case.WHOLE}
-    groups = {title: {key: told[key] for key in keys if key in told} for title, keys in GROUPS.items()}
+    case = case_report.is_case(summary)
+    values = {key: with_error(summary, key) for key in summary if not case or key not in case_report.WHOLE}
+    groups = {title: {key: values[key] for key in keys if key in values} for title, keys in GROUPS.items()}
     listed = {key for keys in GROUPS.values() for key in keys} | {"seconds", "parameters"}
     if case:
         run = {"run": groups.pop("run")}
         groups = (
-            run | {"results": {words: number(*found) for words, found in of_case.results(summary).items()}} | groups
+            run
+            | {"results": {words: number(*found) for words, found in case_report.case_results(summary).items()}}
+            | groups
         )
-    further = {key: summary[key] for key in told if key not in listed}
-    groups["further"] = {key: value for key, value in further.items() if not case or not nested(value)}
+    further = {key: summary[key] for key in values if key not in listed}
+    groups["further"] = {key: value for key, value in further.items() if not case or not is_nested(value)}
     groups["seconds"] = summary["seconds"]
     groups["parameters"] = summary["parameters"]
     groups = {title: group for title, group in groups.items() if group}
@@ -51,7 +53,11 @@ def table(summary: dict) -> list[str]:
         row = 0
         for name, value in group.items():
             # a warning a line: each is a sentence
-            for text in map(cell, value) if name == "warnings" and value else [cell(value)]:
+            for text in (
+                map(value_text, value)
+                if name == "warnings" and isinstance(value, list) and value
+                else [value_text(value)]
+            ):
                 lines.append(f"{title if row == 0 else '':<{title_width}}{name:<{name_width}}{text}")
                 row += 1
         lines.append("")
@@ -60,24 +66,24 @@ def table(summary: dict) -> list[str]:
 
 def with_error(summary: dict, name: str) -> object:
     """A number with what the run says of its error, where it says so; any other value as it is."""
-    told = (summary.get("estimates") or {}).get(name)
-    known = isinstance(told, dict) and told.get("error")
-    return f"{cell(summary[name])} ± {told['error']:.2g}" if known else summary[name]
+    estimate = (summary.get("estimates") or {}).get(name)
+    error = estimate.get("error") if isinstance(estimate, dict) else None
+    return f"{value_text(summary[name])} ± {error:.2g}" if error else summary[name]
 
 
 def number(value: object, error: object, unit: str) -> str:
     """A number, or the parts of a force, with its error and its unit."""
-    text = cell(value) if is_number(value) else f"({', '.join(map(cell, value))})"
+    text = f"({', '.join(map(value_text, value))})" if isinstance(value, list) else value_text(value)
     text += f" ± {error:.2g}" if is_number(error) and error > 0 else ""
     return f"{text} {unit}".rstrip()
 
 
-def nested(value: object) -> bool:
+def is_nested(value: object) -> bool:
     """Objects, and lists of them, which would stand in a line as in the file; and the names of what a run has read."""
-    return isinstance(value, dict) or (isinstance(value, list) and (len(value) > 6 or any(map(nested, value))))
+    return isinstance(value, dict) or (isinstance(value, list) and (len(value) > 6 or any(map(is_nested, value))))
 
 
-def cell(value: object) -> str:
+def value_text(value: object) -> str:
     """One value as text: numbers short, lists with spaces, null as a dash."""
     if value is None or value == "":
         return "-"
@@ -86,7 +92,7 @@ def cell(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.8g}"
     if isinstance(value, list):
-        return " ".join(map(cell, value)) or "-"
+        return " ".join(map(value_text, value)) or "-"
     if isinstance(value, dict):
-        return ", ".join(f"{name} {cell(inner)}" for name, inner in value.items()) or "-"
+        return ", ".join(f"{name} {value_text(inner)}" for name, inner in value.items()) or "-"
     return str(value)

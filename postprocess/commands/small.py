@@ -10,6 +10,7 @@ from pathlib import Path
 
 from PIL import Image, ImageSequence, UnidentifiedImageError
 
+from postprocess import style
 from postprocess.output import write_files
 from postprocess.results import ResultsError
 
@@ -26,14 +27,14 @@ def run(arguments: argparse.Namespace) -> None:
         raise ResultsError(arguments.picture, "--width is above 0")
     try:
         with Image.open(arguments.picture) as picture:
-            frames = [reduced(frame, arguments.width) for frame in ImageSequence.Iterator(picture)]
+            frames = [shrink_frame(frame, arguments.width) for frame in ImageSequence.Iterator(picture)]
             pause = picture.info.get("duration", 100)
             kind = picture.format
     except (OSError, UnidentifiedImageError) as error:
         raise ResultsError(arguments.picture, f"cannot be read: {error}") from None
-    moving = {}
+    moving: style.Look = {}
     if len(frames) > 1:
-        frames = of_one_palette(frames)
+        frames = with_common_palette(frames)
         moving = {"save_all": True, "append_images": frames[1:], "duration": pause, "loop": 0}
     written = io.BytesIO()
     frames[0].save(written, kind, optimize=True, **moving)
@@ -41,7 +42,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(path)
 
 
-def reduced(frame: Image.Image, width: int) -> Image.Image:
+def shrink_frame(frame: Image.Image, width: int) -> Image.Image:
     """A frame with so many pixels across, on white, in steps of 3 of 255: not to be seen, and half the file."""
     whole = frame.convert("RGBA")
     picture = Image.alpha_composite(Image.new("RGBA", whole.size, "white"), whole).convert("RGB")
@@ -49,7 +50,7 @@ def reduced(frame: Image.Image, width: int) -> Image.Image:
     return picture.resize((width, height), Image.Resampling.BOX).point(lambda level: 3 * round(level / 3))
 
 
-def of_one_palette(frames: list[Image.Image]) -> list[Image.Image]:
+def with_common_palette(frames: list[Image.Image]) -> list[Image.Image]:
     """The frames in the same 256 colours, so that what stands still does not flicker."""
     strip = Image.new("RGB", (frames[0].width, frames[0].height * len(frames)))
     for place, frame in enumerate(frames):

@@ -11,7 +11,7 @@ import argparse
 from matplotlib.figure import Figure
 
 from postprocess import bodies as drawn
-from postprocess import space, style
+from postprocess import bodies_3d, style
 from postprocess.bodies import Bodies, write_picture
 from postprocess.commands import state
 
@@ -32,7 +32,7 @@ def draw(bodies: Bodies, units: style.Units, view: tuple | None = None, slide: b
 
 def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool = False) -> Figure:
     """Of each contact the section through its middle and the pressure on its surface; the bodies from outside."""
-    contacts, more = state.carrying(bodies, 1 if slide else 4)
+    contacts, more = state.strongest_contacts(bodies, 1 if slide else 4)
     true = drawn.at_true_scale(bodies)
     count = len(contacts)
     letters = "abcdefghi"[: 2 * count + 1]
@@ -42,20 +42,29 @@ def in_space(bodies: Bodies, units: style.Units, view: tuple | None, slide: bool
     else:
         page = [(a + b, 0.55) for a, b in zip(sections, maps, strict=True)] + [(body, 0.9)]
     columns = [a + b + 2 * body for a, b in zip(sections, maps, strict=True)]
-    figure, panels = style.sheet(page, f"{sections}{body} {maps}{body}" if count == 1 else " ".join(columns), slide)
+    figure, panels = style.figure_with_panels(
+        page, f"{sections}{body} {maps}{body}" if count == 1 else " ".join(columns), slide
+    )
     width = 56 if count == 1 and not slide else (44 if count == 1 else 26)
     for index, contact in enumerate(contacts):
-        name = style.plain(bodies.names[contact])
-        colours = space.draw_section(panels[sections[index]], true, contact, units)
-        drawn.title(
-            panels[sections[index]], 2 * index, f"{name}: section{space.section_words(true, contact, units)}", width
+        name = style.without_mathtext(bodies.names[contact])
+        colours = bodies_3d.draw_section(panels[sections[index]], true, contact, units)
+        drawn.set_panel_title(
+            panels[sections[index]],
+            2 * index,
+            f"{name}: section{bodies_3d.section_caption(true, contact, units)}",
+            width,
         )
-        pressed = space.map_pressure(panels[maps[index]], true, contact, units)
-        drawn.title(panels[maps[index]], 2 * index + 1, f"{name}: pressure{space.map_words(true, contact)}", width)
-    whole = space.draw_parts(panels[body], bodies, state.eye(bodies, contacts[0], view), True)
-    drawn.title(panels[body], 2 * count, drawn.motion(bodies, units) + more, 44 if slide else 56)
+        pressed = bodies_3d.draw_pressure_map(panels[maps[index]], true, contact, units)
+        drawn.set_panel_title(
+            panels[maps[index]], 2 * index + 1, f"{name}: pressure{bodies_3d.map_caption(true, contact)}", width
+        )
+    whole = bodies_3d.draw_bodies(panels[body], bodies, state.view_of_contact(bodies, contacts[0], view), True)
+    drawn.set_panel_title(
+        panels[body], 2 * count, drawn.displacement_caption(bodies, units) + more, 44 if slide else 56
+    )
     of_stress, of_pressure = [panels[each] for each in sections], [panels[each] for each in maps]
     drawn.colour_bar(figure, colours, of_stress, bodies, units)
     drawn.colour_bar(figure, whole, [panels[body]], bodies, units)
     drawn.colour_bar(figure, pressed, of_pressure, bodies, units, "pressure")
-    return style.settled(figure)
+    return style.finish_layout(figure)

@@ -18,12 +18,13 @@ import signal
 import subprocess
 import time
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.output import save_figure, write_files, write_whole
+from postprocess.output import figure_writer, write_all_or_none, write_files
 from postprocess.results import ResultsError, read_run
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -49,22 +50,22 @@ def run(arguments: argparse.Namespace) -> None:
     values = numbers(arguments.values)
     folder = Path(arguments.out or Path("results/sweep") / case.stem)
     lines = text_of(case).splitlines()
-    line, word = place(case, lines, arguments.number)
+    line, word = find_statement(case, lines, arguments.number)
     what = {"mesh": checksum(mesh), "case": lines, "number": arguments.number, "flags": arguments.flags.split()}
-    same(folder, what)
+    check_same_sweep(folder, what)
     origin = identity(mesh, case, *arguments.flags.split())
     todo = []
     for value in values:
         target = folder / f"{value:.12g}"
-        if not done(target, origin):
+        if not is_finished(target, origin):
             todo.append((target, case_with(lines, line, word, value)))
     print(f"{len(values) - len(todo)} of {len(values)} runs are there", flush=True)
-    execute(todo, mesh, origin, arguments)
-    failed = [value for value in values if not done(folder / f"{value:.12g}", origin)]
+    run_all(todo, mesh, origin, arguments)
+    failed = [value for value in values if not is_finished(folder / f"{value:.12g}", origin)]
     if failed:
         first = folder / f"{failed[0]:.12g}.log"
         raise ResultsError(folder, f"{len(failed)} runs have failed, the first for {failed[0]:.6g}: see {first}")
-    paths = written(folder, arguments.number, values)
+    paths = write_results(folder, arguments.number, values)
     for path in paths:
         print(path)
 
@@ -109,7 +110,7 @@ def checksum(path: Path) -> str:
         raise ResultsError(path, f"cannot be read: {error}") from None
 
 
-def place(case: Path, lines: list[str], pattern: str) -> tuple[int, int]:
+def find_statement(case: Path, lines: list[str], pattern: str) -> tuple[int, int]:
     """The line, and which of its words, that a statement with * stands for."""
     wanted = pattern.split()
     if wanted.count("*") != 1:
@@ -139,7 +140,7 @@ def case_with(lines: list[str], line: int, word: int, value: float) -> str:
 # ---------------------------------------------------------------- runs
 
 
-def same(folder: Path, what: dict) -> None:
+def check_same_sweep(folder: Path, what: dict) -> None:
     """A folder belongs to one sweep: its mesh, case, number and flags; values may be added."""
     path = folder / "sweep.json"
     if path.exists():
@@ -161,28 +162,29 @@ def identity(*files: Path | str) -> str:
     return subprocess.run([*map(str, words)], stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
-def record(folder: Path) -> Path:
+def identity_file(folder: Path) -> Path:
     """Beside a run's folder: the identity of what it was computed from."""
     return folder.with_name(f"{folder.name}.identity")
 
 
-def done(folder: Path, origin: str) -> bool:
+def is_finished(folder: Path, origin: str) -> bool:
     """Whether a run of these files has come to its end: its record is written after it, its summary last."""
-    there = record(folder).exists() and (folder / "summary.json").exists()
-    return there and text_of(record(folder)) == origin and read_run(folder).summary["converged"]
+    there = identity_file(folder).exists() and (folder / "summary.json").exists()
+    return there and text_of(identity_file(folder)) == origin and read_run(folder).summary["converged"]
 
 
-def execute(todo: list, mesh: Path, origin: str, arguments: argparse.Namespace) -> None:
+def run_all(todo: list, mesh: Path, origin: str, arguments: argparse.Namespace) -> None:
     """So many at once; when interrupted none is left running."""
     script = "parts-3d" if arguments.space else "parts"
-    running, waiting = {}, list(todo)
+    running: dict[subprocess.Popen[bytes], tuple[Path, BinaryIO]] = {}
+    waiting = list(todo)
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
         while running or waiting:
             while waiting and len(running) < max(1, arguments.jobs):
                 folder, case = waiting.pop(0)
                 stated = folder.with_name(f"{folder.name}.case")
-                record(folder).unlink(missing_ok=True)
+                identity_file(folder).unlink(missing_ok=True)
                 write_files({stated: case.encode()})
                 log = folder.with_name(f"{folder.name}.log").open("wb")
                 words = ["sh", ROOT / "edp/freefem.sh", script, "-mesh", mesh, "-case", stated, "-out", folder]
@@ -199,7 +201,7 @@ def execute(todo: list, mesh: Path, origin: str, arguments: argparse.Namespace) 
                 folder, log = running.pop(process)
                 log.close()
                 if process.returncode in (0, 21):  # as of a run whose summary has converged
-                    write_files({record(folder): origin.encode()})
+                    write_files({identity_file(folder): origin.encode()})
                 print(
                     f"{folder.name}: {'done' if process.returncode == 0 else f'code {process.returncode}'}", flush=True
                 )
@@ -214,7 +216,7 @@ def execute(todo: list, mesh: Path, origin: str, arguments: argparse.Namespace) 
 # ---------------------------------------------------------------- table and figure
 
 
-def row(folder: Path, value: float) -> dict:
+def result_row(folder: Path, value: float) -> dict:
     """What is known of one run: forces, contacts, loads, stresses, with their errors; an unknown one is empty."""
     summary = read_run(folder).summary
     found = {"value": value, "run": folder.name}
@@ -237,20 +239,20 @@ def row(folder: Path, value: float) -> dict:
     return found
 
 
-def written(folder: Path, what: str, values: list[float]) -> list[Path]:
-    rows = [row(folder / f"{value:.12g}", value) for value in values]
+def write_results(folder: Path, what: str, values: list[float]) -> list[Path]:
+    rows = [result_row(folder / f"{value:.12g}", value) for value in values]
     names = list(dict.fromkeys(name for one in rows for name in one))
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([names, *([one.get(name) for name in names] for one in rows)])
     with style.look():
-        figure = drawn(what, rows, names)
+        figure = draw_results(what, rows, names)
         writers = {folder / "sweep.csv": lambda part: part.write_bytes(text.getvalue().encode())}
         for kind in ("pdf", "png"):
-            writers[folder / f"sweep.{kind}"] = save_figure(figure, kind, {})
-        return write_whole(writers)
+            writers[folder / f"sweep.{kind}"] = figure_writer(figure, kind, {})
+        return write_all_or_none(writers)
 
 
-def drawn(what: str, rows: list[dict], names: list[str]) -> Figure:
+def draw_results(what: str, rows: list[dict], names: list[str]) -> Figure:
     """Three panels over the number: forces, greatest pressures, and displacements or stresses, errors as bars."""
     at = np.array([one["value"] for one in rows])
     order = np.argsort(at)
@@ -268,10 +270,12 @@ def drawn(what: str, rows: list[dict], names: list[str]) -> Figure:
                 np.array([np.nan if one.get(key) is None else one[key] for one in rows], float)[order]
                 for key in (name, f"{name} error")
             )
-            label = style.plain(name.removesuffix(f" {title}").removesuffix(" displacement").removesuffix(" von Mises"))
+            label = style.without_mathtext(
+                name.removesuffix(f" {title}").removesuffix(" displacement").removesuffix(" von Mises")
+            )
             bars = np.where(np.isfinite(error), error, 0)
             axes.errorbar(at[order], column, bars, label=label, capsize=2, elinewidth=0.8, **style.curve(index))
-        axes.set_xlabel(style.plain(what.replace("*", "...")))
+        axes.set_xlabel(style.without_mathtext(what.replace("*", "...")))
         axes.set_ylabel(title)
         axes.legend(fontsize=6)
     return figure

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.bodies import units_of
-from postprocess.output import write_own
+from postprocess.output import write_figure_of_run
 from postprocess.results import ResultsError, Run, read_run, read_table, refuse_space
 
 CYCLES = "contact cycles depth pressureMax".split()
@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Reads the run, draws it and prints the paths."""
     chosen = read_run(arguments.folder)
     with style.look():
-        write_own(draw(chosen, units_of(chosen, arguments.units)), arguments.out, chosen.path / "wear.pdf")
+        write_figure_of_run(draw(chosen, units_of(chosen, arguments.units)), arguments.out, chosen.path / "wear.pdf")
 
 
 def along(table: dict, inside: np.ndarray) -> np.ndarray:
@@ -48,7 +48,7 @@ def draw(chosen: Run, units: style.Units) -> Figure:
     figure = Figure(figsize=SIZE, layout="constrained")
     depth, pressure, shape = figure.subplots(1, 3)
     for index, contact in enumerate(worn):
-        name, look = style.plain(chosen.summary["contacts"][contact]["name"]), style.curve(index)
+        name, look = style.without_mathtext(chosen.summary["contacts"][contact]["name"]), style.curve(index)
         own = over["contact"] == contact
         depth.plot(over["cycles"][own], over["depth"][own], label=name, **look)
         pressure.plot(over["cycles"][own], over["pressureMax"][own], **look)

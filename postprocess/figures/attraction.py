@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -56,14 +57,14 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     axes.axhline(0, color=style.GREY, linewidth=0.4)
     axes.set_xlabel(r"approach $\delta/\varepsilon$" if spheres else f"approach [{units.length}]")
     axes.set_ylabel(r"force $F/(\pi w R)$" if spheres else f"force [{units.stress} × {units.length}]")
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.legend_outside(figure, "upper center", *axes.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)
     return figure
 
 
-def draw_path(axes, rows: dict, colour: str, name: str, whole: bool) -> None:
+def draw_path(axes: Axes, rows: dict, colour: str, name: str, whole: bool) -> None:
     """One run: pieces of equal stability, cut at jumps, which are arrows; one of all states broad, below the others."""
-    broad = {"linewidth": 3.2, "alpha": 0.45, "zorder": 1.5} if whole else {}
+    broad: style.Look = {"linewidth": 3.2, "alpha": 0.45, "zorder": 1.5} if whole else {}
     approach, force = rows["approach"], rows["force"]
     stable, jumped = rows["stability"] >= 0, rows["jump"] > 0  # 0 at a fold, where a stable branch ends
     cuts = [0, *np.nonzero(jumped | np.append(False, stable[1:] != stable[:-1]))[0], len(force)]
@@ -73,7 +74,7 @@ def draw_path(axes, rows: dict, colour: str, name: str, whole: bool) -> None:
         joined = begin - 1 if begin and not jumped[begin] else begin
         piece = slice(joined, end)
         line = "-" if stable[begin] else (0, (0.6, 0.6) if whole else (1, 1.5))
-        points = smooth(*(rows[column][piece] for column in ("approach", "force", "stiffness")))
+        points = smooth_curve(*(rows[column][piece] for column in ("approach", "force", "stiffness")))
         axes.plot(*points, color=colour, linestyle=line, label=name if begin == 0 else None, **broad)
     for row in np.nonzero(jumped)[0]:
         arrow = {
@@ -87,7 +88,7 @@ def draw_path(axes, rows: dict, colour: str, name: str, whole: bool) -> None:
         axes.annotate("", (approach[row], force[row]), (approach[row - 1], force[row - 1]), arrowprops=arrow)
 
 
-def smooth(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def smooth_curve(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The cubic between neighbours where it is near their chord; up to a fold, of infinite slope, a root and a line."""
     t = np.linspace(0, 1, 21)[:, None]
     step = np.diff(x)
@@ -101,7 +102,7 @@ def smooth(x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray,
     return (x[:-1] + t * step).T.ravel(), curve.T.ravel()
 
 
-def draw_theories(axes, run: Run) -> None:
+def draw_theories(axes: Axes, run: Run) -> None:
     """JKR's curve for the first run's data, DMT's, and the boundary element code's pull-off force."""
     left, right = axes.get_xlim()
     down, up = axes.get_ylim()

@@ -33,7 +33,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             name = rf"$\delta/\varepsilon$ = {rows['approach'][row] / length:.2f}" + (
                 ", jumped" if rows["jump"][row] else ""
             )
-            colour = style.shades(np.array([0.92 * (1 - index / max(len(chosen) - 1, 1))]))[0]  # darker: later
+            colour = style.map_colours(np.array([0.92 * (1 - index / max(len(chosen) - 1, 1))]))[0]  # darker: later
             axes.plot(table["x"][here], table["pressure"][here], color=colour, label=name)
         axes.axhline(0, color=style.GREY, linewidth=0.4)
         axes.set_title(f"{style.panel(panel)} {title}", loc="left")

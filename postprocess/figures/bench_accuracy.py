@@ -1,24 +1,35 @@
 """true error, estimate and time: runs that make their own meshes beside meshes of a user's trial (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Row, contact_seconds, good, name_meshes, number, read_campaign, select
+from postprocess.campaign import (
+    Campaign,
+    Cells,
+    Row,
+    contact_seconds,
+    is_converged,
+    name_meshes,
+    number,
+    read_campaign,
+    select,
+)
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
 READ = read_campaign
 
 SERIES = {"adaptive": "own meshes (-accuracy)", "graded": "graded by hand", "uniform": "uniform"}
-LOOKS = {
+LOOKS: dict[str, style.Look] = {
     "adaptive": {"color": style.BLUE, "marker": "o"},
     "graded": {"color": style.VERMILION, "marker": "s"},
     "uniform": {"color": style.GREEN, "marker": "^"},
 }
-PROBLEMS = {
+PROBLEMS: dict[str, Cells] = {
     r"disc, $\kappa = 10^3$": {"scene": "disc-on-block", "kappa": 1e3},
     r"disc, $\kappa = 10^9$": {"scene": "disc-on-block", "kappa": 1e9},
     r"disc, $\kappa = 10^{12}$": {"scene": "disc-on-block", "kappa": 1e12},
@@ -31,11 +42,11 @@ PEERS = "script flags status scene kappa m forceError seconds_assembly seconds_f
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """A panel per problem: of each run the true error, filled, and what it said, open; NGSolve's best as a line."""
-    rows = [row for row in runs[0].rows("accuracy", COLUMNS) if good(row) and number(row, "forceError") > 0]
+    rows = [row for row in runs[0].rows("accuracy", COLUMNS) if is_converged(row) and number(row, "forceError") > 0]
     if not rows:
         raise ResultsError(runs[0].path / "accuracy.csv", "no run of it converged")
     peers = runs[0].rows("peers", PEERS) if (runs[0].path / "peers.csv").exists() else []
-    peers = [row for row in peers if good(row) and row["script"].endswith(".py")]
+    peers = [row for row in peers if is_converged(row) and row["script"].endswith(".py")]
     figure = Figure(figsize=(style.COLUMN, 1.3 * style.COLUMN), layout="constrained")
     grid = figure.subplots(3, 2)
     for axes, (title, wanted) in zip(grid.flat, PROBLEMS.items(), strict=False):
@@ -61,19 +72,19 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     return figure
 
 
-def draw_series(axes, rows: list[Row], looks: dict) -> None:
+def draw_series(axes: Axes, rows: list[Row], looks: dict) -> None:
     """Of each run a stroke from the true error to what was said; the true ones joined from the coarse to the fine."""
     for row in rows:
-        x, true, said = (number(row, name) for name in ("seconds", "forceError", "said"))
-        axes.plot([x, x], [true, said], color=looks["color"], linewidth=0.7)
-        axes.plot(x, said, **looks, markersize=3.2, markerfacecolor="white", markeredgewidth=0.7, zorder=3)
+        x, true, estimate = (number(row, name) for name in ("seconds", "forceError", "said"))
+        axes.plot([x, x], [true, estimate], color=looks["color"], linewidth=0.7)
+        axes.plot(x, estimate, **looks, markersize=3.2, markerfacecolor="white", markeredgewidth=0.7, zorder=3)
     rows = sorted(rows, key=lambda row: (-number(row, "asked") if row["asked"] else 0, number(row, "ndof")))
     points = [(number(row, "seconds"), number(row, "forceError")) for row in rows]
     if points:
         axes.plot(*zip(*points, strict=True), **looks, markersize=3.2, linewidth=0.9, alpha=0.9, zorder=2)
 
 
-def draw_peers(axes, rows: list[Row]) -> None:
+def draw_peers(axes: Axes, rows: list[Row]) -> None:
     """The best of the other code: what no run of it beats, medians over the rounds."""
     groups: dict[str, list[Row]] = {}
     for row in rows:
@@ -84,11 +95,11 @@ def draw_peers(axes, rows: list[Row]) -> None:
         axes.plot(*zip(*front, strict=True), color=style.GREY, linewidth=0.9, linestyle="--", zorder=1)
 
 
-def draw_legend(axes, peers: bool) -> None:
+def draw_legend(axes: Axes, peers: bool) -> None:
     """In the place of a sixth panel."""
     axes.axis("off")
     handles = [Line2D([], [], **LOOKS[name], markersize=3.2, label=words) for name, words in SERIES.items()]
-    dark = {"color": "0.25", "marker": "o", "markersize": 3.2, "linestyle": ""}
+    dark: style.Look = {"color": "0.25", "marker": "o", "markersize": 3.2, "linestyle": ""}
     handles.append(Line2D([], [], **dark, label="true error"))
     handles.append(Line2D([], [], **dark, markerfacecolor="white", label="what the run says"))
     if peers:

@@ -10,7 +10,7 @@ from postprocess.campaign import (
     contact_seconds,
     draw_failures,
     elastic_seconds,
-    good,
+    is_converged,
     name_meshes,
     number,
     numbers,
@@ -29,7 +29,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         "name scene status order h kappa m ndof memory costRatio seconds_assembly seconds_factorisation seconds_contact"
     )
     rows = select(runs[0].rows("growth", columns), name="growth")
-    if not any(map(good, rows)):
+    if not any(map(is_converged, rows)):
         raise ResultsError(runs[0].path / "growth.csv", "no run of it converged")
     problems = sorted(set(map(problem, rows)))
     figure = Figure(figsize=(style.PAGE, 0.45 * style.PAGE), layout="constrained")
@@ -37,14 +37,16 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     texts = []
     for index, which in enumerate(problems):
         group = sorted([row for row in rows if problem(row) == which], key=lambda row: number(row, "ndof"))
-        done = [row for row in group if good(row)]
+        done = [row for row in group if is_converged(row)]
         dofs = numbers(done, "ndof")
         ours = np.array([contact_seconds(row) for row in done])
         seconds.plot(dofs, ours, **style.curve(index), label=words(which))
         memory.plot(dofs, numbers(done, "memory") / 1024, **style.curve(index))
         ratio.plot(dofs, numbers(done, "costRatio"), **style.curve(index))
         for axes in (seconds, memory, ratio):
-            draw_failures(axes, numbers([row for row in group if not good(row)], "ndof"), style.curve(index)["color"])
+            draw_failures(
+                axes, numbers([row for row in group if not is_converged(row)], "ndof"), style.curve(index)["color"]
+            )
         if which[0] not in {other[0] for other in problems[:index]}:
             elastic = np.array([elastic_seconds(row) for row in done])
             label = None if index else "linear elastic solve"
@@ -61,8 +63,8 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     seconds.set_yscale("log")
     memory.set_yscale("log")
     ratio.axhline(1.25, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
-    ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if good(row)], "costRatio"))))
-    figure.legend(loc="outside upper center", ncols=3)
+    ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if is_converged(row)], "costRatio"))))
+    style.legend_outside(figure, "upper center", ncols=3)
     name_meshes(figure, rows)
     return figure
 

@@ -6,7 +6,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.campaign import LAWS, Campaign, good, heat_map, law, name_meshes, number, read_campaign
+from postprocess.campaign import LAWS, Campaign, heat_map, is_converged, law, name_meshes, number, read_campaign
 
 RUNS = (1, 1)
 READ = read_campaign
@@ -34,7 +34,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         for row in rows:
             at = variants.index(variant(row)), columns.index((row["scene"], words(row)))
             counts[at] = number(row, measure)
-            failed[at] |= not good(row)
+            failed[at] |= not is_converged(row)
         most = max(np.nanmax(counts), 10)
         heat_map(axes, counts, failed, (mpl.colormaps["viridis_r"], LogNorm(1, most)), size=6.5)
         axes.set_yticks(range(len(variants)), variants, fontsize=7)

@@ -1,6 +1,7 @@
 """errors against the independent reference over meshes, against seconds, by degree of the elements (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
@@ -8,11 +9,12 @@ from postprocess import style
 from postprocess.campaign import (
     NAMES,
     Campaign,
+    Cells,
     Row,
     contact_seconds,
-    good,
-    look,
+    is_converged,
     method,
+    method_look,
     name_meshes,
     number,
     numbers,
@@ -30,7 +32,7 @@ ERRORS = {
     "halfWidthError": "half-width",
     "profileError": "pressure profile",
 }
-PROBLEMS = {
+PROBLEMS: dict[str, Cells] = {
     r"$\kappa = 10^3$": {"scene": "disc-on-block", "kappa": 1e3, "m": 3.0},
     r"$\kappa = 10^{12}$": {"scene": "disc-on-block", "kappa": 1e12, "m": 3.0},
     "sphere": {"scene": "sphere-on-block"},
@@ -42,7 +44,7 @@ COLUMNS = "flags status method T0 scene kappa m order h seconds_assembly seconds
 
 def draw(runs: list[Campaign], units: style.Units) -> Figure:
     """A row per problem, a panel per quantity: a curve per element, a point per mesh; the rivals' runs as points."""
-    rows = [row for row in runs[0].rows("meshes", f"{COLUMNS} {' '.join(ERRORS)}") if good(row)]
+    rows = [row for row in runs[0].rows("meshes", f"{COLUMNS} {' '.join(ERRORS)}") if is_converged(row)]
     if not rows:
         raise ResultsError(runs[0].path / "meshes.csv", "no run of it converged")
     figure = Figure(figsize=(style.PAGE, 0.85 * style.PAGE), layout="constrained")
@@ -75,12 +77,12 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for name in RIVALS:
         if any(method(row) == name for row in rows):
             grid[0, 0].plot([], [], **rival_look(name), label=NAMES[name])
-    figure.legend(loc="outside upper center", ncols=5)
+    style.legend_outside(figure, "upper center", ncols=5)
     name_meshes(figure, rows)
     return figure
 
 
-def draw_front(rows: list[Row], column: str, axes, place: int) -> None:
+def draw_front(rows: list[Row], column: str, axes: Axes, place: int) -> None:
     """The runs of one element, as points; the line joins what none of them beats."""
     points = sorted(zip(seconds(rows), numbers(rows, column), strict=True))
     looks = style.curve(place)
@@ -101,7 +103,7 @@ def seconds(rows: list[Row]) -> np.ndarray:
 def rival_look(name: str) -> dict:
     """A method's marker, open and grey: the colours are the elements'."""
     return {
-        "marker": look(name)["marker"],
+        "marker": method_look(name)["marker"],
         "linestyle": "",
         "color": style.GREY,
         "markerfacecolor": "white",

@@ -1,11 +1,12 @@
 """error in force against CPU seconds, this package beside NGSolve, by degree of the elements (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from postprocess import style
-from postprocess.campaign import Campaign, Row, contact_seconds, good, name_meshes, number, read_campaign
+from postprocess.campaign import Campaign, Row, contact_seconds, is_converged, name_meshes, number, read_campaign
 from postprocess.results import ResultsError
 
 RUNS = (1, 1)
@@ -27,7 +28,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     Runs that came to nothing are counted in words, code by code.
     """
     every = runs[0].rows("peers", COLUMNS)
-    rows = [row for row in every if good(row) and number(row, "forceError") > 0]
+    rows = [row for row in every if is_converged(row) and number(row, "forceError") > 0]
     problems = list(dict.fromkeys(map(problem, rows)))
     if not problems:
         raise ResultsError(runs[0].path / "peers.csv", "no run of it converged")
@@ -36,12 +37,12 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     grid = figure.subplots(lines, 2, sharey=True, sharex=True, squeeze=False)
     for axes, which in zip(grid.flat, problems, strict=False):
         for code, color in enumerate(COLORS):
-            draw_code(axes, [row for row in rows if problem(row) == which and of(row) == code], color)
-        name_lost(axes, [row for row in every if not good(row) and problem(row) == which])
+            draw_code(axes, [row for row in rows if problem(row) == which and code_index(row) == code], color)
+        annotate_failures(axes, [row for row in every if not is_converged(row) and problem(row) == which])
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
-        axes.set_title(name_of(*which), loc="left", fontsize=8)
+        axes.set_title(panel_title(*which), loc="left", fontsize=8)
         axes.grid(color="0.9", linewidth=0.5)
         axes.margins(0.08)
     for axes in grid.flat[len(problems) :]:
@@ -53,9 +54,9 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for name, color in zip(CODES, COLORS, strict=True):
         grid[0, 0].plot([], [], color=color, label=name)
     for degree in sorted({round(number(row, "order")) for row in rows}):
-        look = {"marker": SHAPES[degree], "markerfacecolor": "white", "color": style.GREY, "markersize": 4}
+        look: style.Look = {"marker": SHAPES[degree], "markerfacecolor": "white", "color": style.GREY, "markersize": 4}
         grid[0, 0].plot([], [], linestyle="", label=f"degree {degree}", **look)
-    figure.legend(loc="outside upper center", ncols=3, columnspacing=1)
+    style.legend_outside(figure, "upper center", ncols=3, columnspacing=1)
     name_meshes(figure, rows)
     return figure
 
@@ -70,28 +71,28 @@ def problem(row: Row) -> tuple[str, float, float]:
     return flags.get("-problem", row["scene"]), number(row, "kappa"), number(row, "m")
 
 
-def name_lost(axes, rows: list[Row]) -> None:
+def annotate_failures(axes: Axes, rows: list[Row]) -> None:
     """How many cases of each code came to nothing, and how."""
     lines = []
     for code, name in enumerate(CODES):
-        lost = {row["flags"]: row["status"] for row in rows if of(row) == code}
+        lost = {row["flags"]: row["status"] for row in rows if code_index(row) == code}
         lines += [f"{name}: {list(lost.values()).count(how)} {how}" for how in sorted(set(lost.values()))]
     axes.text(
         0.97, 0.97, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=7, color=style.GREY
     )
 
 
-def of(row: Row) -> int:
+def code_index(row: Row) -> int:
     """The code that a row is of: its place in CODES."""
     return int(row["script"].endswith(".py"))
 
 
-def name_of(scene: str, kappa: float, m: float) -> str:
+def panel_title(scene: str, kappa: float, m: float) -> str:
     law = rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$"
     return SCENES.get(scene, "") + law
 
 
-def draw_code(axes, rows: list[Row], color: str) -> None:
+def draw_code(axes: Axes, rows: list[Row], color: str) -> None:
     """The runs of one code: medians over the rounds, what must come before added; the best joined."""
     groups: dict[str, list[Row]] = {}
     for row in rows:
@@ -112,7 +113,7 @@ def draw_code(axes, rows: list[Row], color: str) -> None:
             markersize=3.5,
             markeredgewidth=0.8,
         )
-    front = []
+    front: list[tuple[float, float]] = []
     for seconds, error, _ in sorted(points):
         if not front or error < front[-1][1]:
             front.append((seconds, error))

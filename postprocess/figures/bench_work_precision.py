@@ -1,6 +1,7 @@
 """error of the iteration on one mesh against seconds, factorisations and back-substitutions (results/bench)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -10,9 +11,9 @@ from postprocess.campaign import (
     Campaign,
     contact_seconds,
     draw_failures,
-    good,
-    look,
+    is_converged,
     method,
+    method_look,
     name_meshes,
     number,
     numbers,
@@ -47,19 +48,19 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for axes in grid[:, 0]:
         axes.set_ylabel("relative error of $p$")
     for name in present:
-        grid[0, 0].plot([], [], **look(name), label=NAMES[name])
+        grid[0, 0].plot([], [], **method_look(name), label=NAMES[name])
     grid[0, 0].plot([], [], "x", color=style.GREY, label="failed")
-    figure.legend(loc="outside upper center", ncols=4)
+    style.legend_outside(figure, "upper center", ncols=4)
     name_meshes(figure, rows)
     return figure
 
 
-def draw_curve(axes, rows: list[dict], name: str, measure: str) -> None:
+def draw_curve(axes: Axes, rows: list[dict], name: str, measure: str) -> None:
     rows = sorted(rows, key=lambda row: -number(row, "tol"))
-    done = [row for row in rows if good(row)]
+    done = [row for row in rows if is_converged(row)]
     error = np.maximum(numbers(done, "pressureError"), FLOOR)
-    axes.plot(work(done, measure), error, **look(name), linewidth=1, markersize=3.5)
-    draw_failures(axes, work([row for row in rows if not good(row)], measure), look(name)["color"])
+    axes.plot(work(done, measure), error, **method_look(name), linewidth=1, markersize=3.5)
+    draw_failures(axes, work([row for row in rows if not is_converged(row)], measure), method_look(name)["color"])
 
 
 def work(rows: list[dict], measure: str) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.campaign import Campaign, good, name_meshes, numbers, read_campaign, select
+from postprocess.campaign import Campaign, is_converged, name_meshes, numbers, read_campaign, select
 
 RUNS = (1, 1)
 READ = read_campaign
@@ -26,13 +26,13 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         if own[0]["name"] == "linear":
             look |= {"markerfacecolor": "white"}
         left.plot(numbers(own, "kappa"), numbers(own, "conditionFirst"), label=f"$m = {m:g}$", **look)
-        solved = [row for row in own if good(row)]
+        solved = [row for row in own if is_converged(row)]
         right.plot(numbers(solved, "predicted"), numbers(solved, "newton"), **(look | {"linestyle": "None"}))
     scaled = numbers(rows, "scaledFirst")
     left.axhline(scaled.max(), color=style.BLACK, linestyle=(0, (4, 2)), linewidth=0.8, zorder=1)
     words = f"scaled to a unit diagonal: {scaled.min():.1e} to {scaled.max():.1e}".replace("e+0", "e")
     left.text(0.98, scaled.max() / 3, words, transform=left.get_yaxis_transform(), ha="right", va="top", fontsize=8)
-    solved = [row for row in power if good(row)]
+    solved = [row for row in power if is_converged(row)]
     x, y = numbers(solved, "predicted"), numbers(solved, "newton")
     slope, offset = np.polyfit(x, y, 1)
     right.plot(np.sort(x), slope * np.sort(x) + offset, color=style.GREY, linewidth=0.8, zorder=1)
@@ -44,6 +44,6 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     left.set_ylabel("condition number of the first tangent")
     right.set_xlabel(r"$x = \ln(s_0/s^*)\,/\,\ln(m/(m-1))$")
     right.set_ylabel("steps of plain Newton")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=len(exponents))
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=len(exponents))
     name_meshes(figure, rows)
     return figure

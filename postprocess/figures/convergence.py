@@ -1,6 +1,7 @@
 """residual against Newton step, a curve for each of one or more runs, adaptations marked"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -27,7 +28,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     axes = figure.subplots()
     axes.set_yscale("log")
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
-        draw_curve(axes, run, index, f"{label}: {style.price(run, 'step')}", floor)
+        draw_curve(axes, run, index, f"{label}: {style.cost_text(run, 'step')}", floor)
     draw_tolerances(axes, runs)
     if len(runs) == 1:
         mark_adaptations(axes, runs[0])
@@ -40,18 +41,23 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def place_legend(axes) -> None:
+def place_legend(axes: Axes) -> None:
     """The legend at the top within the axes, whose upper end is raised until no curve is behind it."""
-    white = {"frameon": True, "facecolor": "white", "edgecolor": "none", "framealpha": 1}  # over the adaptations' lines
+    white: style.Look = {
+        "frameon": True,
+        "facecolor": "white",
+        "edgecolor": "none",
+        "framealpha": 1,
+    }  # over the adaptations' lines
     legend = axes.legend(loc="upper right", labelspacing=0.3, borderaxespad=0.1, **white)
-    axes.figure.draw_without_rendering()
+    style.figure_of(axes).draw_without_rendering()
     bottom, top = np.log10(axes.dataLim.y0) - 0.5, np.log10(axes.dataLim.y1) + 0.5
     covered = min(0.8, legend.get_window_extent().height / axes.get_window_extent().height + 0.03)
     axes.set_ylim(10**bottom, 10 ** (bottom + (top - bottom) / (1 - covered)))
     axes.set_yticks([tick for tick in axes.get_yticks() if tick <= 10 ** (top + 1e-9)])
 
 
-def draw_curve(axes, run: Run, index: int, label: str, floor: float) -> None:
+def draw_curve(axes: Axes, run: Run, index: int, label: str, floor: float) -> None:
     """The residuals of one run; hollow markers, a full one at the last step of each adaptation."""
     history = run.history
     look = style.curve(index)
@@ -59,11 +65,11 @@ def draw_curve(axes, run: Run, index: int, label: str, floor: float) -> None:
     residual = np.maximum(history["residual"], floor)
     starts = np.flatnonzero(np.diff(history["adaptation"]) + np.diff(history["step"])) + 1
     many = len(newton) > 60
-    hollow = {"markerfacecolor": "white", "markeredgewidth": 0.8, "markersize": 2.2 if many else 4}
+    hollow: style.Look = {"markerfacecolor": "white", "markeredgewidth": 0.8, "markersize": 2.2 if many else 4}
     for piece in np.split(np.arange(len(newton)), starts):
         axes.plot(newton[piece], residual[piece], label=label, **look, **hollow, zorder=3)
         axes.plot(newton[piece[-1]], residual[piece[-1]], **look, markersize=hollow["markersize"], zorder=4)
-        label = None
+        label = "_"
     for start in starts:
         pair = [start - 1, start]
         axes.plot(newton[pair], residual[pair], color=look["color"], linewidth=0.6, linestyle=":", zorder=2)
@@ -76,15 +82,15 @@ def draw_curve(axes, run: Run, index: int, label: str, floor: float) -> None:
             )
 
 
-def draw_tolerances(axes, runs: list[Run]) -> None:
+def draw_tolerances(axes: Axes, runs: list[Run]) -> None:
     """A dashed line at each tolerance that the runs were given."""
     tolerances = {run.summary["parameters"].get("tol") for run in runs}
     for tolerance in sorted(value for value in tolerances if is_number(value)):
-        dashes = {"color": style.GREY, "linewidth": 0.8, "linestyle": (0, (4, 2)), "zorder": 1}
+        dashes: style.Look = {"color": style.GREY, "linewidth": 0.8, "linestyle": (0, (4, 2)), "zorder": 1}
         axes.axhline(tolerance, label=f"tolerance ${style.number(tolerance)}$", **dashes)
 
 
-def mark_adaptations(axes, run: Run) -> None:
+def mark_adaptations(axes: Axes, run: Run) -> None:
     """A vertical line where each model begins, and the name of its threshold."""
     history = run.history
     numbers, first = np.unique(history["adaptation"], return_index=True)
@@ -94,7 +100,7 @@ def mark_adaptations(axes, run: Run) -> None:
         begin = history["newton"][row] - 0.5
         if order > 0:
             axes.axvline(begin, color=style.GREY, linewidth=0.6, linestyle=":", zorder=1)
-        if order not in style.named(len(numbers)):
+        if order not in style.labelled_indices(len(numbers)):
             continue
         axes.annotate(
             f"$T^{{{order}}}$",

@@ -1,6 +1,7 @@
 """error of the force against run time, a curve a method, a point a mesh or tolerance (runs with -reference)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
@@ -66,12 +67,12 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         right.set_yticks(range(len(groups)), list(groups))
         right.set_ylim(len(groups) - 0.4, -0.6)
         right.set_xlim(0.8, 4 * max(run.summary["factorisations"] for run in runs))
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=3)
     style.name_elements(figure, runs)
     return figure
 
 
-def draw_factorisations(axes, place: int, counts: list[int], colour: str) -> None:
+def draw_factorisations(axes: Axes, place: int, counts: list[int], colour: str) -> None:
     """A bar from the least to the most, its numbers beside it."""
     least, most = min(counts), max(counts)
     axes.plot([least, most], [place, place], color=colour, linewidth=5, marker="o", markersize=5)

@@ -46,8 +46,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             steps, carried = rows["overlapMax"][touched], rows["pressureMax"][touched]
             left.plot([d0, *steps], [0, *carried], color=look["color"], linewidth=0.9)
             right.plot(steps - d0, carried, color=look["color"], linewidth=0.9)
-        dot = {**look, "linestyle": "none", "markersize": 5, "zorder": 4}
-        left.plot(overlap, pressure, label=style.interface(run), clip_on=False, **dot)
+        dot: style.Look = {**look, "linestyle": "none", "markersize": 5, "zorder": 4}
+        left.plot(overlap, pressure, label=style.law_text(run), clip_on=False, **dot)
         if reached >= s[0]:
             right.plot(reached, pressure, **dot)
     left.set_xlim(d0 - 0.05 * (end - d0), end)
@@ -60,7 +60,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.set_ylim(1e-3 * hard, 3 * hard)
     right.set_ylabel(f"pressure $p$ [{units.stress}]")
     right.set_xlabel(f"overlap of the asperities $s = d - d_0$ [{units.length}]")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=5)
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=5)
     style.name_elements(figure, runs)
     return figure
 
@@ -76,4 +76,5 @@ def block_line(run: Run) -> tuple[float, float, float]:
 
 def state(run: Run) -> tuple[float, float, float]:
     """(overlap, pressure, s) of the points, which are all alike."""
-    return tuple(float(np.mean(run.contact[column])) for column in ("overlap", "pressure", "s"))
+    overlap, pressure, s = (float(np.mean(run.contact[column])) for column in ("overlap", "pressure", "s"))
+    return overlap, pressure, s

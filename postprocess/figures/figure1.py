@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
@@ -41,7 +42,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     )
     if len(edges.block) == 0:
         raise ResultsError(run.path / "triangles.csv", "has no triangle of region 1, the block")
-    whole, close = windows(run)
+    whole, close = axes_limits(run)
 
     figure = Figure(figsize=(style.PAGE, 0.64 * style.PAGE), layout="constrained")
     grid = figure.subplots(3, len(chosen), sharex="row", squeeze=False, height_ratios=[1, 0.85, 0.85])
@@ -54,7 +55,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         grid[0, column].set_title(f"{style.panel(column)} {words}", loc="left", linespacing=1.0, fontsize=8)
         corner, size = close[::2], np.subtract(close[1::2], close[::2])
         grid[0, column].add_patch(Rectangle(corner, *size, fill=False, linewidth=0.6, zorder=5))
-        grid[1, column].set_title(separation(run, state), fontsize=8)
+        grid[1, column].set_title(overlap_caption(run, state), fontsize=8)
         draw_overlap(grid[2, column], run, state)
         grid[2, column].set_xlim(close[:2])
         grid[2, column].set_xlabel(f"$x$ [{units.length}]")
@@ -75,7 +76,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for axes in own:
         axes.set_ylim(1.4 * low, None)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    free = {"loc": "best"} if own else {"loc": "center", "bbox_to_anchor": (0.5, 0.42)}
+    free: style.Look = {"loc": "best"} if own else {"loc": "center", "bbox_to_anchor": (0.5, 0.42)}
     grid[2, -1].legend(fontsize=8, handlelength=1.5, labelspacing=0.2, **free)
     grid[2, 0].annotate(
         "$d_0$", (close[0], low), xytext=(3, 2), textcoords="offset points", fontsize=8, color=style.GREY
@@ -85,7 +86,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def draw_overlap(axes, run: Run, state: int) -> None:
+def draw_overlap(axes: Axes, run: Run, state: int) -> None:
     """The overlap d over x and the model's threshold T; before the first step that of the prescribed motion alone."""
     newton, history = run.states.newton[state], run.history
     until = history["newton"] <= max(newton, 1)
@@ -117,10 +118,10 @@ def choose_states(run: Run) -> list[tuple[int, str]]:
     if len(later):
         names[int(first_model + later[0] - 1)] = "first model solved"
     names[last] = "converged" if run.summary["converged"] else "last step, not converged"
-    return [(state, f"{name}\n{position(run, state)}") for state, name in sorted(names.items())]
+    return [(state, f"{name}\n{state_caption(run, state)}") for state, name in sorted(names.items())]
 
 
-def position(run: Run, state: int) -> str:
+def state_caption(run: Run, state: int) -> str:
     """Where in the scheme a state stands."""
     states = run.states
     if state == 0:
@@ -142,40 +143,37 @@ def line_weight(run: Run, window: tuple, columns: int) -> float:
     return float(np.clip(0.08 * scale * np.median(sizes), 0.04, 0.3))
 
 
-def draw_state(axes, run: Run, edges: Bodies, state: int, weight: float) -> None:
+def draw_state(axes: Axes, run: Run, edges: Bodies, state: int, weight: float) -> None:
     """Both bodies in one state: fills, the overlap on top of them, mesh lines of the given weight [points] last."""
     states, mesh = run.states, run.mesh
     x, y = states.x + states.ux[state], states.y + states.uy[state]
-    outline = None
     for region in np.unique(mesh.region):
         triangles = mesh.triangles[mesh.region == region]
         colour = FILL.get(int(region), FILL[BLOCK])
         corners = np.stack([x[triangles], y[triangles]], axis=-1)
-        axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
+        axes.add_collection(PolyCollection(list(corners), facecolor=colour, edgecolor=colour, linewidth=0.1, zorder=1))
         lines = Triangulation(x, y, triangles).edges
         segments = np.stack([x[lines], y[lines]], axis=-1)
         colour = LINE.get(int(region), LINE[BLOCK])
-        axes.add_collection(LineCollection(segments, color=colour, linewidth=weight, zorder=3))
-    if edges.disc is None:
-        outline = half_disc(run, state)
-        axes.add_patch(Polygon(outline, facecolor=FILL[DISC], edgecolor=LINE[DISC], linewidth=0.6, zorder=1.5))
+        axes.add_collection(LineCollection(list(segments), color=colour, linewidth=weight, zorder=3))
     at = np.linspace(x[edges.block].min(), x[edges.block].max(), 2001)
     surface = envelope(at, x, y, edges.block, np.fmax)
-    if outline is None:
+    if edges.disc is not None:
         obstacle = envelope(at, x, y, edges.disc, np.fmin)
         draw_boundary(axes, x, y, edges.disc, LINE[DISC])
     else:
-        radius = run.parameter("R")
+        outline, radius = half_disc(run, state), run.parameter("R")
+        axes.add_patch(Polygon(outline, facecolor=FILL[DISC], edgecolor=LINE[DISC], linewidth=0.6, zorder=1.5))
         with np.errstate(invalid="ignore"):
             obstacle = outline[0, 1] - np.sqrt(radius**2 - at**2)
     draw_boundary(axes, x, y, edges.block, LINE[BLOCK])
     axes.fill_between(at, obstacle, surface, where=surface > obstacle, color=style.ORANGE, linewidth=0, zorder=2)
 
 
-def draw_boundary(axes, x, y, edges, colour: str) -> None:
+def draw_boundary(axes: Axes, x: np.ndarray, y: np.ndarray, edges: np.ndarray, colour: str) -> None:
     """The outline of a body."""
     segments = np.stack([x[edges], y[edges]], axis=-1)
-    axes.add_collection(LineCollection(segments, color=colour, linewidth=0.7, capstyle="round", zorder=4))
+    axes.add_collection(LineCollection(list(segments), color=colour, linewidth=0.7, capstyle="round", zorder=4))
 
 
 def boundary(triangles: np.ndarray) -> np.ndarray:
@@ -185,7 +183,7 @@ def boundary(triangles: np.ndarray) -> np.ndarray:
     return edges[counts == 1]
 
 
-def envelope(at: np.ndarray, x: np.ndarray, y: np.ndarray, edges: np.ndarray, choose) -> np.ndarray:
+def envelope(at: np.ndarray, x: np.ndarray, y: np.ndarray, edges: np.ndarray, choose: np.ufunc) -> np.ndarray:
     """The greatest (np.fmax) or least (np.fmin) height of a boundary over each abscissa; NaN beside the body."""
     height = np.full(len(at), np.nan)
     for start, end in edges:
@@ -215,7 +213,7 @@ def load_share(run: Run, state: int) -> float:
     return float(step[0] / history["step"].max()) if len(step) else 1.0
 
 
-def separation(run: Run, state: int) -> str:
+def overlap_caption(run: Run, state: int) -> str:
     """The greatest overlap in a state, or the gap before any contact."""
     if state == 0:
         overlap = -run.parameter("gap")
@@ -230,7 +228,7 @@ def separation(run: Run, state: int) -> str:
     return f"greatest overlap {overlap:.3g}" if overlap >= 0 else f"gap {-overlap:.3g}"
 
 
-def windows(run: Run) -> tuple[tuple, tuple]:
+def axes_limits(run: Run) -> tuple[tuple, tuple]:
     """The axes' limits (left, right, bottom, top) for the whole bodies and for the contact zone."""
     states = run.states
     radius = run.parameter("R")

@@ -1,6 +1,7 @@
 """contact pressure of a run against a second one, the reference, and their difference"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -51,7 +52,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     top = max(pressure.max(), pressure_reference.max())
     above.set_ylim(-0.03 * top, 1.05 * top)
     handles, texts = above.get_legend_handles_labels()
-    figure.legend(handles[::-1], texts[::-1], loc="outside upper center", borderaxespad=0.2, alignment="left")
+    style.legend_outside(figure, "upper center", handles[::-1], texts[::-1], borderaxespad=0.2, alignment="left")
 
     draw_difference(below, x[touched], difference[touched])
     if not same_points:
@@ -63,7 +64,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     return figure
 
 
-def draw_difference(axes, x: np.ndarray, difference: np.ndarray) -> None:
+def draw_difference(axes: Axes, x: np.ndarray, difference: np.ndarray) -> None:
     """The relative difference at the points in contact; where it is exactly zero there is nothing to draw."""
     axes.set_ylabel(r"$|p - p_{\mathrm{ref}}| \,/\, \max\, p_{\mathrm{ref}}$")
     if not difference.any():
@@ -73,7 +74,7 @@ def draw_difference(axes, x: np.ndarray, difference: np.ndarray) -> None:
     seen = np.where(difference > 0, difference, np.nan)
     axes.plot(x, seen, color=style.BLUE, marker=".", markersize=3, linewidth=0.7)
     greatest = difference.max()
-    style.decades(axes, np.append(difference, 10 * greatest))
+    style.set_decades(axes, np.append(difference, 10 * greatest))
     axes.annotate(
         f"greatest: ${style.number(float(f'{greatest:.2g}'))}$",
         (0.5, 0.97),
@@ -87,7 +88,7 @@ def draw_difference(axes, x: np.ndarray, difference: np.ndarray) -> None:
 
 def legend_entries(runs: list[Run]) -> list[str]:
     """Each run's name and price, on two lines where they do not fit into one."""
-    entries = list(zip(style.labels(runs), [style.price(run, "Newton step") for run in runs], strict=True))
+    entries = list(zip(style.labels(runs), [style.cost_text(run, "Newton step") for run in runs], strict=True))
     longest = max(len(label) + len(price) for label, price in entries)
     separator = ": " if longest < LINE else ":\n"
     return [separator.join(entry) for entry in entries]
@@ -103,7 +104,7 @@ def check_comparable(run: Run, reference: Run) -> None:
                 f"{name} = {ours[name]}, but {theirs[name]} in {reference.path}: not the same problem",
             )
     for each in (run, reference):
-        touching = np.count_nonzero(each.contact["pressure"] > 0)
+        touching = int(np.count_nonzero(each.contact["pressure"] > 0))
         if touching < LEAST_POINTS:
             raise ResultsError(
                 each.path / "contact.csv",

@@ -1,10 +1,11 @@
 """a contact under a force against Hertz: pressure, and shear stress below the middle (runs with -axis 1)"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import hertz, in_circle, prescribed_force
+from postprocess.reference_values import hertz, in_circle, prescribed_force
 from postprocess.results import Run, read_table
 
 RUNS = (1, 1)
@@ -27,19 +28,25 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     shown = np.abs(x) <= 1.4
     line = np.linspace(0 if round_contact else -1, 1, 400)
     above.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz, half-space")
-    dots = {"linestyle": "none", "marker": "o", "markersize": 3.2, "markerfacecolor": "white", "color": style.VERMILION}
+    dots: style.Look = {
+        "linestyle": "none",
+        "marker": "o",
+        "markersize": 3.2,
+        "markerfacecolor": "white",
+        "color": style.VERMILION,
+    }
     above.plot(x[shown], pressure[shown], label=f"run, {run.summary['contactPoints']} points in contact", **dots)
     above.set_xlabel("$r/a$" if round_contact else "$x/a$")
     above.set_ylabel("pressure $p/p_0$")
     draw_shear(below, run, axis["depth"] / a, np.abs(axis["s11"] - axis["s22"]) / 2 / greatest, round_contact)
     for index, axes in enumerate((above, below)):
         axes.set_title(style.panel(index), loc="left")
-    figure.legend(*above.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.legend_outside(figure, "upper center", *above.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)
     return figure
 
 
-def draw_shear(axes, run: Run, below: np.ndarray, shear: np.ndarray, round_contact: bool) -> None:
+def draw_shear(axes: Axes, run: Run, below: np.ndarray, shear: np.ndarray, round_contact: bool) -> None:
     """The shear stress over the depth, both curves' greatest values marked and told beside them."""
     depth = np.linspace(1e-3, 3, 400)
     expected = shear_below(depth, run, round_contact)
@@ -54,7 +61,7 @@ def draw_shear(axes, run: Run, below: np.ndarray, shear: np.ndarray, round_conta
         axes.plot(values[peak], at[peak], "o", color=colour, markersize=3, zorder=4)
         line = {"arrowstyle": "-", "linewidth": 0.6, "color": colour, "shrinkA": 0, "shrinkB": 0, "relpos": (0, 0.5)}
         text = f"{name}: {values[peak]:.3f} at {at[peak]:.2f} $a$"
-        look = {"fontsize": 8, "color": colour, "va": "center", "arrowprops": line}
+        look: style.Look = {"fontsize": 8, "color": colour, "va": "center", "arrowprops": line}
         axes.annotate(text, (values[peak], at[peak]), (1.14 * greatest, place * end), **look)
     if not round_contact:  # twice the size halves it
         axes.text(1.14 * greatest, 0.8 * end, "offset: bodies of\nfinite size", fontsize=8, va="center")

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from postprocess import style
-from postprocess.references import CIRCLES, LINES, about_axis, hertz, prescribed_force, scene_of
+from postprocess.reference_values import CIRCLES, LINES, about_axis, hertz, prescribed_force, scene_of
 from postprocess.results import ResultsError, Run
 
 RUNS = (2, None)
@@ -45,9 +45,9 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         panels[0].set_xticks([0.05, 0.1, 0.2] if side else [0.14, 0.2, 0.4])
         panels[0].xaxis.set_major_formatter("{x:g}")
         panels[0].xaxis.set_minor_formatter(NullFormatter())
-        place = "outside lower left" if side else "outside lower right"
-        legend = figure.legend(*panels[0].get_legend_handles_labels(), loc=place, fontsize=7, handlelength=1.5)
-        legend.set_title("slopes of the three rows", prop={"size": 7})
+        place, entries = "lower left" if side else "lower right", panels[0].get_legend_handles_labels()
+        small: style.Look = {"fontsize": 7, "handlelength": 1.5, "title_fontproperties": {"size": 7}}
+        style.legend_outside(figure, place, *entries, title="slopes of the three rows", **small)
     for index, (row, what) in enumerate(zip(grid, WHAT, strict=True)):
         row[0].set_yscale("log")
         row[0].yaxis.set_minor_formatter(NullFormatter())

@@ -22,13 +22,13 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
         error = errors(run)
         look = style.curve(index) | {"markersize": 3, "linewidth": 0.8, "markerfacecolor": "white"}
-        left.plot(np.arange(len(error)), error, label=f"{label}: {style.price(run, 'step')}", **look)
+        left.plot(np.arange(len(error)), error, label=f"{label}: {style.cost_text(run, 'step')}", **look)
         ratio = error[1:] / error[:-1]
         right.plot(1 + np.arange(len(ratio)), ratio, **look)
         m = run.summary["parameters"].get("m")
         if run.summary["parameters"].get("law") == "power" and is_number(m):
             right.axhline(1 - 1 / m, color=look["color"], linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-            text = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": 8}
+            text: style.Look = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": 8}
             right.annotate(
                 f"$1 - 1/m$, $m = {style.number(m)}$", (1, 1 - 1 / m), xycoords=("axes fraction", "data"), **text
             )
@@ -41,7 +41,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.set_xlim(0, None)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     right.set_xlim(0, 1.3 * right.get_xlim()[1])  # room for the names of the dashed lines
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=3)
     style.name_elements(figure, runs)
     return figure
 

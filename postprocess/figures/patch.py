@@ -1,10 +1,12 @@
 """patch tests: pressure between two meshes that do not match over its exact value, in the plane and in space"""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import patch_pressure
+from postprocess.reference_values import patch_pressure
 from postprocess.results import Run
 
 RUNS = (1, 6)
@@ -18,7 +20,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     plane = [run for run in runs if run.summary["scene"] == "patch-test"]
     space = [run for run in runs if run not in plane]
     off = [100 * (run.contact["pressure"] / patch_pressure(run) - 1) for run in plane + space]
-    rows = [["plane"] * max(len(space), 1)] * bool(plane) + [
+    rows: list[Any] = [["plane"] * max(len(space), 1)] * bool(plane) + [
         [f"space {number}" for number in range(len(space))]
     ] * bool(space)
     figure = Figure(figsize=(style.COLUMN, 0.68 * len(rows) * style.COLUMN), layout="constrained")
@@ -33,8 +35,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         panels[0].set_title("(a) plane", loc="left")
     greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
     for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
-        look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
-        colours = axes.tripcolor(style.surface(run), error, shading="gouraud", **look)
+        look: style.Look = {"cmap": "RdBu_r", "vmin": -greatest, "vmax": greatest, "rasterized": True}
+        colours = axes.tripcolor(style.contact_triangulation(run), error, shading="gouraud", **look)
         axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
         axes.set_aspect("equal")
         axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}".replace(": ", ":\n"))
@@ -44,18 +46,18 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.9)
     for index, axes in enumerate(maps, start=bool(plane)):
         axes.set_title(f"{style.panel(index)} space", loc="left")
-    style.put_below(figure, meshes(runs))
+    style.write_below(figure, meshes(runs))
     return figure
 
 
 def meshes(runs: list[Run]) -> str:
     """The runs' element, and how many of them the two bodies have along a side, in the plane and in space."""
     sides = [tuple(run.summary["parameters"].get(name) for name in ("lower", "upper")) for run in runs]
-    told = [f"{low} and {high}" for low, high in dict.fromkeys(sides) if low and high]
-    return f"P{runs[0].summary['order']}" + (f", {' / '.join(told)} elements a side" if told else "")
+    kinds = [f"{low} and {high}" for low, high in dict.fromkeys(sides) if low and high]
+    return f"P{runs[0].summary['order']}" + (f", {' / '.join(kinds)} elements a side" if kinds else "")
 
 
 def words(run: Run, error: np.ndarray) -> str:
     """How the overlaps are taken, and the greatest error (per cent)."""
-    points = style.plain(str(run.summary["parameters"].get("points", "")))
+    points = style.without_mathtext(str(run.summary["parameters"].get("points", "")))
     return f"{points}: at most ${style.number(float(f'{np.abs(error).max():.2g}'))}$ %"

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import about_axis, prescribed_force, punch_pressure, scene_of
+from postprocess.reference_values import about_axis, prescribed_force, punch_pressure, scene_of
 from postprocess.results import Run
 
 RUNS = (1, 7)
@@ -27,10 +27,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         closed = punch_pressure(run, a * across) / mean
         x, pressure = run.contact["x"] / a, run.contact["pressure"] / mean
         look = style.curve(index) | {"markersize": 2.5, "linewidth": 0.8, "markerfacecolor": "white"}
-        left.plot(x, pressure, label=style.interface(run), markevery=0.04, **look)
+        left.plot(x, pressure, label=style.law_text(run), markevery=0.04, **look)
         half = (x >= 0) & (x < 1 - 1e-9)
         right.plot(1 - x[half], pressure[half], markevery=0.04, **look)
-    line = {"color": style.BLACK, "linewidth": 1.0, "zorder": 4}
+    line: style.Look = {"color": style.BLACK, "linewidth": 1.0, "zorder": 4}
     left.plot(np.append(-across, across[::-1]), np.append(closed, closed[::-1]), label="closed form", **line)
     right.plot(1 - across, closed, **line)
     left.set_ylim(0, TOP)
@@ -45,6 +45,6 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     right.annotate("slope $-1/2$", (2.5e-3, 13), fontsize=8)
     for axes, number in ((left, 0), (right, 1)):
         axes.set_title(style.panel(number), loc="left")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)
     return figure

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from postprocess import style
 from postprocess.figures.figure2 import check_comparable
-from postprocess.references import scene_of
+from postprocess.reference_values import scene_of
 from postprocess.results import ResultsError, Run
 
 RUNS = (3, 9)
@@ -55,7 +55,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         text = "the softest wiggles:\nnodes against another\nmesh's, as in patch-test"
         left.annotate(text, (0.5, 0.06), xycoords="axes fraction", ha="center", fontsize=7.5, color=style.CURVES[0])
     right.legend()
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)
     return figure
 

@@ -1,6 +1,7 @@
 """force against approach of load series (runs with -history 1); of one run on a rough surface that surface too"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
@@ -50,13 +51,13 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for index, axes in enumerate(panels):
         axes.set_title(style.panel(index), loc="left", pad=3)
     if len(runs) > 1:
-        figure.legend(*force.get_legend_handles_labels(), loc="outside upper center")
+        style.legend_outside(figure, "upper center", *force.get_legend_handles_labels())
     figure.align_ylabels()
     style.name_elements(figure, runs)
     return figure
 
 
-def mark_touch(axes, approach: float) -> None:
+def mark_touch(axes: Axes, approach: float) -> None:
     """Where the first asperities touch, in words."""
     axes.plot([approach], [0], marker="|", markersize=12, color=style.GREY, clip_on=False)
     axes.text(0.03, 0.9, f"first touch at {approach:.3g}", transform=axes.transAxes, color=style.GREY, fontsize=8)

@@ -1,14 +1,15 @@
 """contact in space: pressure map, pressure over the distance from the middle against Hertz, deformed cut"""
 
 import numpy as np
-from matplotlib.collections import LineCollection, TriMesh
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
+from matplotlib.collections import Collection, LineCollection
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.references import hertz
+from postprocess.reference_values import hertz
 from postprocess.results import ResultsError, Run, read_table
-from postprocess.vtu import bodies_file, cut, read_grid
+from postprocess.vtu import bodies_file, cut_grid, read_grid
 
 RUNS = (1, 1)
 
@@ -24,21 +25,55 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     """
     (run,) = runs
     height = read_table(run.path / "contact.csv", ["z"], "; the run is not one in space")["z"].max()
-    x, y, pressure = (run.contact[name] for name in ("x", "y", "pressure"))
-    nodal = run.contact["weight"] * pressure
+    nodal = run.contact["weight"] * run.contact["pressure"]
     if not nodal.sum() > 0:
         raise ResultsError(run.path / "contact.csv", "no point is in contact")
     a, greatest = hertz(run, run.value("force"))
-    mirrored = [at.min() > -1e-6 * a for at in (x, y)]
-    signs = [(1, -1) if each else (1,) for each in mirrored]
-    middle = tuple(0 if each else np.sum(nodal * at) / nodal.sum() for each, at in zip(mirrored, (x, y), strict=True))
-
+    middle = middle_of(run, nodal, a)
     used = run.summary.get("used")
     whole = not isinstance(used, dict) or used.get("vtu", True)
     figure = Figure(figsize=(style.PAGE, (0.88 if whole else 0.42) * style.PAGE), layout="constrained")
-    figure.get_layout_engine().set(h_pad=0.09)
-    top, *bottom = figure.subfigures(2, 1, height_ratios=[1, 1.05]) if whole else [figure]
+    style.layout_of(figure).set(h_pad=0.09)
+    top: Figure | SubFigure = figure
+    if whole:
+        (top,), (bottom,) = figure.subfigures(2, 1, squeeze=False, height_ratios=[1, 1.05])
     left, right = top.subplots(1, 2)
+    colours = draw_map(left, run, middle, a, units)
+    top.colorbar(colours, ax=left, label=f"pressure $p$ [{units.stress}]", shrink=0.85)
+    draw_profile(right, run, middle, a, greatest)
+    style.legend_outside(top, "upper center", handles=[*left.lines, *right.lines], ncols=3)
+    if not whole:
+        style.name_elements(figure, runs)
+        return figure
+    below = bottom.subplots()
+    colours = draw_cut(below, run, middle, height, a)
+    below.set_xlabel(f"$x$ [{units.length}]")
+    below.set_ylabel(f"$z$ [{units.length}]")
+    bottom.colorbar(colours, ax=below, label=f"von Mises stress [{units.stress}]", shrink=0.85, pad=0.01)
+    for index, axes in enumerate((left, right, below)):
+        axes.set_title(style.panel(index), loc="left")
+    below.set_title(f"section $y = 0$, displacements at true scale; {style.elements(runs)}")
+    return figure
+
+
+def is_mirrored(run: Run, a: float) -> list[bool]:
+    """Whether the plane x = 0, and y = 0, is one of symmetry, beyond which the run has no points; a: Hertz's radius."""
+    return [bool(run.contact[name].min() > -1e-6 * a) for name in "xy"]
+
+
+def middle_of(run: Run, nodal: np.ndarray, a: float) -> tuple[float, float]:
+    """(x, y) of the centre of the nodal forces (n,); 0 in a plane of symmetry."""
+    x, y = (
+        0 if mirrored else np.sum(nodal * run.contact[name]) / nodal.sum()
+        for mirrored, name in zip(is_mirrored(run, a), "xy", strict=True)
+    )
+    return x, y
+
+
+def draw_map(axes: Axes, run: Run, middle: tuple[float, float], a: float, units: style.Units) -> Collection:
+    """The pressure on the contact's surface, with its mirror images, and Hertz's circle; returns the coloured map."""
+    x, y, pressure = (run.contact[name] for name in ("x", "y", "pressure"))
+    signs = [(1, -1) if mirrored else (1,) for mirrored in is_mirrored(run, a)]
     images = np.concatenate(
         [np.column_stack([across * x, along * y, pressure]) for across in signs[0] for along in signs[1]]
     )
@@ -47,48 +82,39 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         mesh = Triangulation(*images[once, :2].T)
     except (ValueError, RuntimeError):
         raise ResultsError(run.path / "contact.csv", "its points make no surface") from None
-    look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
-    colours = left.tripcolor(mesh, images[once, 2], shading="gouraud", **look)
+    look: style.Look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
+    colours = axes.tripcolor(mesh, images[once, 2], shading="gouraud", **look)
     turn = np.linspace(0, 2 * np.pi, 200)
-    circle = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
-    left.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), label="Hertz's circle, radius $a$", **circle)
-    left.set_aspect("equal")
-    left.set_xlabel(f"$x$ [{units.length}]")
-    left.set_ylabel(f"$y$ [{units.length}]")
-    top.colorbar(colours, ax=left, label=f"pressure $p$ [{units.stress}]", shrink=0.85)
+    circle: style.Look = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
+    axes.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), label="Hertz's circle, radius $a$", **circle)
+    axes.set_aspect("equal")
+    axes.set_xlabel(f"$x$ [{units.length}]")
+    axes.set_ylabel(f"$y$ [{units.length}]")
+    return colours
 
+
+def draw_profile(axes: Axes, run: Run, middle: tuple[float, float], a: float, greatest: float) -> None:
+    """p/p0 over r/a of all points and Hertz's; a, greatest: Hertz's radius [length] and p0 [pressure]."""
+    x, y, pressure = (run.contact[name] for name in ("x", "y", "pressure"))
     line = np.linspace(0, 1, 300)
-    right.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz, half-space", zorder=3)
+    axes.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz, half-space", zorder=3)
     distance = np.hypot(x - middle[0], y - middle[1])
     shown = distance <= 1.5 * a
     label = f"{style.method(run)}, {style.count(run.summary['contactPoints'], 'point')} in contact"
-    dots = {"linestyle": "none", "marker": "o", "markersize": 2.2, "markeredgewidth": 0, "color": style.BLUE}
-    right.plot(distance[shown] / a, pressure[shown] / greatest, label=label, alpha=0.6, **dots)
-    right.set_xlabel("$r/a$")
-    right.set_ylabel("pressure $p/p_0$")
-    right.set_xlim(0, None)
-    right.set_ylim(0, None)
+    dots: style.Look = {"linestyle": "none", "marker": "o", "markersize": 2.2, "markeredgewidth": 0}
+    axes.plot(distance[shown] / a, pressure[shown] / greatest, label=label, alpha=0.6, color=style.BLUE, **dots)
+    axes.set_xlabel("$r/a$")
+    axes.set_ylabel("pressure $p/p_0$")
+    axes.set_xlim(0, None)
+    axes.set_ylim(0, None)
     found = run.value("halfWidthMoment"), run.value("pressureMax")
-    right.annotate(
+    axes.annotate(
         f"radius {percent(found[0], a)}\ngreatest pressure {percent(found[1], greatest)}",
         (0.97, 0.78),
         xycoords="axes fraction",
         ha="right",
         fontsize=8,
     )
-    top.legend(handles=[*left.lines, *right.lines], loc="outside upper center", ncols=3)
-    for part in bottom:
-        below = part.subplots()
-        colours = draw_cut(below, run, middle, height, a)
-        below.set_xlabel(f"$x$ [{units.length}]")
-        below.set_ylabel(f"$z$ [{units.length}]")
-        part.colorbar(colours, ax=below, label=f"von Mises stress [{units.stress}]", shrink=0.85, pad=0.01)
-        for axes, index in ((left, 0), (right, 1), (below, 2)):
-            axes.set_title(style.panel(index), loc="left")
-        below.set_title(f"section $y = 0$, displacements at true scale; {style.elements(runs)}")
-    if not whole:
-        style.name_elements(figure, runs)
-    return figure
 
 
 def percent(value: float, reference: float) -> str:
@@ -96,7 +122,7 @@ def percent(value: float, reference: float) -> str:
     return f"{100 * (value / reference - 1):+.1f} %".replace("-", "−")
 
 
-def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
+def draw_cut(axes: Axes, run: Run, middle: tuple, height: float, a: float) -> Collection:
     """The deformed section through the middle, with its outline, and the rigid obstacle where there is no second body.
 
     The bodies' mean planes are d0 apart where hard contact is: they touch only in runs with -d0 0.
@@ -105,7 +131,7 @@ def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
     grid = read_grid(path)
     if not grid.space:
         raise ResultsError(path, "is not a grid of tetrahedra; the run is not one in space")
-    pieces, stress, outline = cut(grid, middle[1] + 1e-3 * run.value("h"))
+    pieces, stress, outline = cut_grid(grid, middle[1] + 1e-3 * run.value("h"))
     near = np.hypot(*(pieces.mean(axis=1) - (middle[0], height)).T) < 4 * a
     if not near.any():
         raise ResultsError(path, "has no element at the middle of the contact")
@@ -116,10 +142,14 @@ def draw_cut(axes, run: Run, middle: tuple, height: float, a: float) -> TriMesh:
         pieces, outline = np.concatenate([pieces, pieces * mirror]), np.concatenate([outline, outline * mirror])
         stress = np.tile(stress, (2, 1))
     corner = np.arange(4 * len(pieces)).reshape(-1, 4)
-    mesh = Triangulation(*pieces.reshape(-1, 2).T, np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]]))
-    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "rasterized": True}
+    mesh = Triangulation(
+        pieces[..., 0].ravel(),
+        pieces[..., 1].ravel(),
+        np.concatenate([corner[:, [0, 1, 2]], corner[:, [0, 2, 3]]]),
+    )
+    look: style.Look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "rasterized": True}
     colours = axes.tripcolor(mesh, stress.ravel(), **look)
-    axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.6))
+    axes.add_collection(LineCollection(list(outline), color=style.BLACK, linewidth=0.6))
     window = middle[0] - WIDE * a, middle[0] + WIDE * a
     two = "R2" in run.summary["parameters"]
     if not two:

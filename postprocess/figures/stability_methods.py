@@ -12,8 +12,8 @@ from postprocess.campaign import (
     NAMES,
     Campaign,
     exponent_ticks,
-    good,
     heat_map,
+    is_converged,
     law,
     method,
     name_meshes,
@@ -44,7 +44,7 @@ def panels(
     """Heat maps of the greatest count among the rows that share kappa and m, or a law: a panel for each group."""
     every = [row for rows in groups.values() for row in rows]
     others = [name for name in LAWS if any(row["law"] != "power" and law(row) == name for row in every)]
-    counted = [number(row, measure) for row in every if good(row)]
+    counted = [number(row, measure) for row in every if is_converged(row)]
     scale = LogNorm(1, most or max([10, *counted]))
     wide = wide or (4 if len(groups) > 4 else 2)
     high = -(-len(groups) // wide)
@@ -83,7 +83,8 @@ def panels(
 def greatest(cells: list[list[list[dict]]], measure: str) -> tuple[np.ndarray, np.ndarray]:
     """Per cell the greatest count of its rows, NaN without any, and whether one of them failed."""
     counts = [
-        [max((number(row, measure) for row in cell if good(row)), default=np.nan) for cell in line] for line in cells
+        [max((number(row, measure) for row in cell if is_converged(row)), default=np.nan) for cell in line]
+        for line in cells
     ]
-    failed = [[any(not good(row) for row in cell) for cell in line] for line in cells]
+    failed = [[any(not is_converged(row) for row in cell) for cell in line] for line in cells]
     return np.array(counts), np.array(failed)

@@ -1,17 +1,18 @@
 """threshold and overlap of one to three runs, model by model"""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.results import WALL, ResultsError, Run
+from postprocess.results import WALL, ResultsError, Run, Table
 
 RUNS = (1, 3)
 
 MOST = 4  # models of a run that are shown: the first ones and the last
 CROWD = 40  # points beyond which their dots are drawn smaller
 FAR_WALL = 30  # walls this many times beyond the greatest overlap need a logarithmic axis
-OVERLAP = {"color": style.VERMILION, "linestyle": (0, (4, 1.5)), "zorder": 5}
+OVERLAP: style.Look = {"color": style.VERMILION, "linestyle": (0, (4, 1.5)), "zorder": 5}
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
@@ -39,12 +40,12 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     limits(grid, [table for models in columns for _, table in models])
     figure.supylabel(f"$T^N - d_0$, $d^N - d_0$ [{units.length}]", fontsize=9)
     handles = {line.get_label(): line for axes in grid.ravel() for line in axes.lines if line.get_label()[0] != "_"}
-    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=3, columnspacing=1.2)
+    style.legend_outside(figure, "upper center", handles.values(), handles.keys(), ncols=3, columnspacing=1.2)
     style.name_elements(figure, runs)
     return figure
 
 
-def shown(run: Run) -> list[tuple[int, np.ndarray]]:
+def shown(run: Run) -> list[tuple[int, Table]]:
     """(N, table) of the models that were solved under the full load: all of a few, else the first ones and the last."""
     history, tables = run.history, run.adaptations
     if len(history["step"]):
@@ -56,13 +57,13 @@ def shown(run: Run) -> list[tuple[int, np.ndarray]]:
     return models if len(models) <= MOST else [*models[: MOST - 1], models[-1]]
 
 
-def draw_model(axes, number: int, table) -> None:
+def draw_model(axes: Axes, number: int, table: Table) -> None:
     """One model: the threshold where it has one, the points where its wall carries, the overlap."""
     x, wall = table["x"], table["status"] == WALL
     if np.isfinite(table["tau"]).all():
         axes.plot(x, table["tau"], color=style.BLUE, label="threshold $T^N$", zorder=3)
         size = 5 if np.count_nonzero(wall) < CROWD else 2.5
-        dots = {"linestyle": "none", "marker": ".", "markersize": size, "color": style.BLUE, "zorder": 6}
+        dots: style.Look = {"linestyle": "none", "marker": ".", "markersize": size, "color": style.BLUE, "zorder": 6}
         axes.plot(x[wall], table["tau"][wall], label="the wall carries" if wall.any() else "_", **dots)
     axes.plot(x, table["s"], label="overlap $d^N$", **OVERLAP)
     axes.axhline(0, color=style.GREY, linewidth=0.6)
@@ -77,9 +78,9 @@ def limits(grid: np.ndarray, tables: list) -> None:
     if top <= 0:
         raise ResultsError("adaptations.csv", "no overlap beyond d0 and no wall beyond it: nothing to draw")
     touched = [table["x"][(table["s"] > 0) | (table["status"] == WALL)] for table in tables]
-    touched = np.concatenate(touched) if any(map(len, touched)) else x
-    margin = 0.15 * np.ptp(touched) or 0.05 * np.ptp(x)
-    grid[0, 0].set_xlim(max(touched.min() - margin, x.min()), min(touched.max() + margin, x.max()))
+    shown = np.concatenate(touched) if any(map(len, touched)) else x
+    margin = 0.15 * np.ptp(shown) or 0.05 * np.ptp(x)
+    grid[0, 0].set_xlim(max(shown.min() - margin, x.min()), min(shown.max() + margin, x.max()))
     if reached > 0 and top > FAR_WALL * reached:
         grid[0, 0].set_yscale("log")
         grid[0, 0].set_ylim(reached * 1e-2, top * 3)

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.references import merging_pressure, prescribed_force, wave_pressure
+from postprocess.reference_values import merging_pressure, prescribed_force, wave_pressure
 from postprocess.results import ResultsError, Run
 
 RUNS = (1, 7)
@@ -29,7 +29,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         inner = np.abs(x) <= waves / 2 - 2 + 1e-9
         crests = x[inner] - 0.5  # the wave is farthest from the block at x = 0
         x, pressure = crests - np.round(crests), run.contact["pressure"][inner]
-        look = {**style.curve(index), **dots}
+        look: style.Look = {**style.curve(index), **dots}
         share = style.number(float(f"{prescribed_force(run) / run.positive('width') / full:.3g}"))
         left.plot(line, wave_pressure(run, line) / full, color=style.BLACK, linewidth=0.8, zorder=3)
         left.plot(x, pressure / full, label=rf"$\bar p = {share}\, p_{{\mathrm{{full}}}}$", **look)
@@ -42,6 +42,6 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.set_xlim(-0.5, 0.5)
         axes.set_title(style.panel(number), loc="left")
     right.set_xlabel(r"$x/\lambda$, from the crest; the contacts merge at $\bar p = p_{\mathrm{full}}$")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)
     return figure

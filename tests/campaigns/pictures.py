@@ -97,7 +97,7 @@ def peers() -> Figure:
     grey = {"transform": axes.transAxes, "color": style.GREY, "fontsize": 8.5}
     axes.text(0.02, 0.04, "NGSolve takes less;\n▼: it alone gets there", ha="left", **grey)
     axes.text(0.98, 0.96, "this package takes less;\n▲: it alone gets there", ha="right", va="top", **grey)
-    figure.legend(loc="outside lower center", ncols=2, fontsize=8.5, handlelength=2.4)
+    style.legend_outside(figure, "lower center", ncols=2, fontsize=8.5, handlelength=2.4)
     return figure
 
 

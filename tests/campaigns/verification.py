@@ -18,7 +18,7 @@ from types import SimpleNamespace
 import numpy as np
 from freefem import FREEFEM, ROOT, execute
 
-from postprocess.words import readable, with_error
+from postprocess.formatting import typeset_number, with_error
 
 FOLDER = ROOT / "tests/verification"
 PAGE = ROOT / "tests/VERIFICATION.md"
@@ -93,13 +93,13 @@ def rows(name, case, numbers):
     lines, reasons = [], []
     for number, (value, error) in zip(case["number"], numbers, strict=True):
         given, tolerance = number["published"], number.get("tolerance")
-        shown = readable(f"{given:.6g}") + (f" (±{100 * tolerance:g} %)" if tolerance else "")
+        shown = typeset_number(f"{given:.6g}") + (f" (±{100 * tolerance:g} %)" if tolerance else "")
         words = verdict(number, value, error)
         if words == "differs":
             reasons.append(f"- `{name}`, {number['name']}: {number['reason']}")
             words = "explained below"
         label = f"{number['name']}{', ' * bool(number['unit'])}{number['unit']}"
-        off = readable(f"{round(100 * (value / given - 1), 2) + 0.0:+.2f} %")
+        off = typeset_number(f"{round(100 * (value / given - 1), 2) + 0.0:+.2f} %")
         lines.append(f"| `{name}` | {label} | {shown} | {with_error(value, error)} | {off} | {words} |")
     return lines, reasons
 

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from postprocess.results import ResultsError, Run, check_file, read_run, reason
+from postprocess.results import ResultsError, Run, check_file, read_run, system_message
 
 PNG_START, PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB`\x82"
 FIGURES = ("figures", "bench", "stability")  # folders whose pictures are figures
 
 
 @dataclass(frozen=True)
-class Tree:
+class ResultsFolder:
     """The folder, its runs by path, its figures and its movies' pages, each in alphabetical order."""
 
     path: Path
@@ -23,7 +23,7 @@ class Tree:
         return path.relative_to(self.path).as_posix() if path != self.path else self.path.name
 
 
-def read_tree(folder: Path | str) -> Tree:
+def read_results_folder(folder: Path | str) -> ResultsFolder:
     """Everything below a folder; a file that cannot be used is refused, none is left out silently."""
     path = Path(folder)
     if not path.is_dir():
@@ -33,8 +33,8 @@ def read_tree(folder: Path | str) -> Tree:
         pictures = [picture for name in FIGURES for picture in sorted((path / name).glob("*.png"))]
         movies = sorted(path.rglob("movie.html"))
     except OSError as error:
-        raise ResultsError(error.filename or path, reason(error)) from None
-    return Tree(path, [read_run(summary.parent) for summary in summaries], pictures, movies)
+        raise ResultsError(error.filename or path, system_message(error)) from None
+    return ResultsFolder(path, [read_run(summary.parent) for summary in summaries], pictures, movies)
 
 
 def read_png(path: Path) -> bytes:
@@ -52,4 +52,4 @@ def read_bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise ResultsError(path, reason(error)) from None
+        raise ResultsError(path, system_message(error)) from None

@@ -17,16 +17,17 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from postprocess import lecture, markdown, page, style
-from postprocess.page import Markup, element, joined
+from postprocess import html_page, markdown, slide_figures, style
+from postprocess.formatting import first_line
+from postprocess.html_page import Markup, element, joined
 from postprocess.results import ResultsError, Run, read_run
 
 LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
 PAGE = "0-algorithm/algorithm1.edp"
 # Of lab 0's page: what a slide has no room for
 LEFT_OUT = re.compile(
-    r"\s*([{}].*|(cout|plot|set|matrix D|int (changes|newton|j)|real (residual|off|modelError)).*|\w+\+\+;|[TSf] = \w+;"
-    r"|(diagonal|changes|modelError) = 0;)"
+    r"\s*([{}].*|(cout|plot|set|matrix D|int (newton|j)|real (residual|modelError)).*|\w+\+\+;|[TSf] = \w+;"
+    r"|(diagonal|changeCount|modelError) = 0;)"
 )
 
 
@@ -36,7 +37,7 @@ def folders() -> list[Path]:
     return sorted(found, key=lambda path: int(path.name.partition("-")[0]))
 
 
-def read(path: Path) -> str:
+def read_page(path: Path) -> str:
     try:
         return re.sub("<!--= .*? -->", "", path.read_text(encoding="utf-8"))  # where a number is from
     except OSError:
@@ -52,36 +53,35 @@ HEAD = (
 )
 
 
-def whole(title: str, css: str, body: str) -> bytes:
+def styled_page(title: str, css: str, body: str) -> bytes:
     """A page with a look of its own, of the folder templates."""
     style_sheet = f"<title>{html.escape(title)}</title><style>{template_file(css)}</style>"
     return f'<!DOCTYPE html>\n<html lang="en"><head>{HEAD}{style_sheet}</head>\n<body>{body}</body></html>\n'.encode()
 
 
 def template_file(name: str) -> str:
-    return read(page.TEMPLATES / name).strip()
+    return read_page(html_page.TEMPLATES / name).strip()
 
 
-def embedded(png: bytes) -> str:
+def data_address(png: bytes) -> str:
     return "data:image/png;base64," + base64.b64encode(png).decode()
 
 
-def image(figure: Figure, alt: str) -> Markup:
+def embedded_figure(figure: Figure, alt: str) -> Markup:
     """A figure within a page."""
     written = io.BytesIO()
     figure.savefig(written, format="png", dpi=120, metadata={"Software": None})
-    return Markup(f'<img src="{embedded(written.getvalue())}" alt="{html.escape(alt, quote=True)}">')
+    return Markup(f'<img src="{data_address(written.getvalue())}" alt="{html.escape(alt, quote=True)}">')
 
 
 def orders() -> list[tuple[str, float, float]]:
     """(element, unknowns, error of the force) of the meshes without more flags, of the answers of lab 8."""
-    ((_, rows), *_) = markdown.tables(read(LABS / "8-error/ANSWERS.md"))
+    ((_, rows), *_) = markdown.tables(read_page(LABS / "8-error/ANSWERS.md"))
     degree = {"-order 1 ": "P1", "-h": "P2", "-order 4 -grading 60 ": "P4"}
     found = [
-        (degree[start], float(unknowns), float(error))
+        (degree[start[1]], float(unknowns), float(error))
         for flags, error, _, unknowns in rows
         if (start := re.fullmatch(r"`(-order 1 |-order 4 -grading 60 |-h(?= [\d.]+`))(?:-h )? ?[\d.]+`", flags))
-        and (start := start[1])
     ]
     return sorted(found)
 
@@ -95,7 +95,7 @@ def film(run: Run) -> Markup:
     high = 1.6 * max(table["overlap"].max() for table in models) - 0.1 * low
     frames = []
     for number, table in enumerate(models, 1):
-        figure = Figure(figsize=lecture.SLIDE, layout="constrained")
+        figure = Figure(figsize=slide_figures.SLIDE, layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True)
         x, wall = table["x"], table["status"] == 2
         above.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6)
@@ -111,8 +111,8 @@ def film(run: Run) -> Markup:
         below.set_xlim(-reach, reach)
         below.set_ylabel("pressure")
         below.set_xlabel("$x$")
-        figure.legend(*above.get_legend_handles_labels(), loc="outside right upper")
-        frames.append(element("div", image(figure, f"Model {number}: {words}"), class_="frame"))
+        style.legend_outside(figure, "right upper", *above.get_legend_handles_labels())
+        frames.append(element("div", embedded_figure(figure, f"Model {number}: {words}"), class_="frame"))
     names = [("back", "◀ model before"), ("on", "next model ▶"), ("play", "play")]
     buttons = joined((element("button", words, type="button", data_do=name) for name, words in names), " ")
     return element("div", joined([*frames, element("p", buttons, class_="buttons")]), class_="film")
@@ -120,23 +120,26 @@ def film(run: Run) -> Markup:
 
 def algorithm() -> Markup:
     """The loops of lab 0's page without brackets, printing and declarations, in two columns."""
-    text = read(LABS / PAGE)
+    text = read_page(LABS / PAGE)
     lines = text[text.index("while (modelError") : text.index("cout.precision")].splitlines()
     kept = [line for line in lines if line.strip() and not LEFT_OUT.fullmatch(line)]
-    out = []
+    out, number = [], ""
     for line in kept:
         code, _, words = line.partition("//")
-        number = re.match(r" line (\d+)", words)
-        out.append(f"{f'{number[1]:>2} ' if number else '   '}{code.rstrip()}")
+        found = re.match(r" line (\d+)", words)
+        number = found[1] if found else number
+        if code.strip():  # a comment's number stands before the line after it
+            out.append(f"{number:>2} {code.rstrip()}")
+            number = ""
     return Markup(f'<pre class="algorithm" tabindex="0">{html.escape(chr(10).join(out))}</pre>')
 
 
 # ---------------------------------------------------------------- pages
 
 
-def with_mesh() -> str:
+def program_without_gmsh() -> str:
     """Lab 0's page with buildmesh's mesh: one file that needs FreeFEM alone."""
-    text, block = read(LABS / PAGE), read(LABS / "block.txt")
+    text, block = read_page(LABS / PAGE), read_page(LABS / "block.txt")
     begin, end = text.index("// the package's mesh of the block"), text.index("// eq. (2)")
     block = "\n".join(line for line in block.splitlines() if not line.startswith("//"))
     text = text[:begin] + "// the block; sides of 0.5 where the disc can touch\n" + block + "\n\n" + text[end:]
@@ -145,12 +148,14 @@ def with_mesh() -> str:
     return text.replace("no module:", "no module, no gmsh:")
 
 
-def plain(text: str) -> str:
+def without_answers(text: str) -> str:
     """A page without what leads to answers: a link's words stay."""
     return "\n".join(line for line in text.splitlines() if "ANSWERS" not in line and "INSTRUCTOR" not in line)
 
 
-def picture_of(folder: Path):
+def picture_of(folder: Path) -> Callable[[str], str]:
+    """From the name of a picture in a folder to its address that holds the picture itself."""
+
     def embed(source: str) -> str:
         path = folder / source
         if not path.is_file():
@@ -165,35 +170,38 @@ def unlinked(target: str) -> str:
     return target if target.startswith("http") else ""
 
 
-def sheet(title: str, text: str, folder: Path) -> bytes:
+def printed_page(title: str, text: str, folder: Path) -> bytes:
     """A page to print."""
     body = element("main", markdown.markup(text, unlinked, picture_of(folder)), id="main")
-    return page.document(title, body).encode()
+    return html_page.document(title, body).encode()
 
 
 def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
     """(title, content, notes) of each slide."""
     drawn = {"algorithm": algorithm, "film": lambda: film(run)}
-    pictures = lecture.PICTURES | {"orders": functools.partial(lecture.orders, orders())}
+    pictures = slide_figures.PICTURES | {"orders": functools.partial(slide_figures.orders, orders())}
     found = []
-    with style.look(), mpl.rc_context(lecture.LARGE):
-        for text in re.split(r"^\*\*\*$", read(LABS / "slides.md"), flags=re.M):
+    with style.look(), mpl.rc_context(slide_figures.LARGE):
+        for text in re.split(r"^\*\*\*$", read_page(LABS / "slides.md"), flags=re.M):
             shown, _, notes = text.partition("\nNotes: ")
-            title = re.search(r"^# (.*)$", shown, re.M)[1]
+            title = next(line.removeprefix("# ") for line in shown.splitlines() if line.startswith("# "))
             content = markdown.markup(shown, unlinked, picture_of(LABS))
             for name in re.findall(r"<p>\{\{(\w+)\}\}</p>", content):
                 if name in drawn:
                     made = drawn[name]()
                 else:
-                    made = image(lecture.drawn(pictures[name]), alt(getattr(pictures[name], "func", pictures[name])))
+                    made = embedded_figure(
+                        slide_figures.draw_picture(pictures[name]),
+                        alternative_text(getattr(pictures[name], "func", pictures[name])),
+                    )
                 content = Markup(content.replace(f"<p>{{{{{name}}}}}</p>", made))
             found.append((title, content, markdown.markup(notes, unlinked)))
     return found
 
 
-def alt(picture: Callable) -> str:
+def alternative_text(picture: Callable) -> str:
     """What a picture shows, in words: the first line of its function's description."""
-    return picture.__doc__.split("\n")[0].rstrip(".")
+    return first_line(picture).rstrip(".")
 
 
 def slide_page(found: list[tuple[str, Markup, Markup]]) -> bytes:
@@ -203,7 +211,7 @@ def slide_page(found: list[tuple[str, Markup, Markup]]) -> bytes:
         for place, (title, content, _) in enumerate(found, 1)
     )
     script = f"<script>{template_file('slides.js')}</script>"
-    return whole(found[0][0], "slides.css", f"\n<main>\n{sections}\n</main>\n{script}\n")
+    return styled_page(found[0][0], "slides.css", f"\n<main>\n{sections}\n</main>\n{script}\n")
 
 
 def listing(text: str) -> bytes:
@@ -212,7 +220,7 @@ def listing(text: str) -> bytes:
         f'<span data-n="{place}">{html.escape(line)}</span>' for place, line in enumerate(text.splitlines(), 1)
     )
     title = "algorithm1.edp: Algorithm 1 on one page of plain FreeFEM"
-    return whole(title, "listing.css", f'<main class="two"><h1>{title}</h1><pre>{lines}</pre></main>')
+    return styled_page(title, "listing.css", f'<main class="two"><h1>{title}</h1><pre>{lines}</pre></main>')
 
 
 def template(answers: str) -> str:
@@ -228,26 +236,28 @@ def template(answers: str) -> str:
     return lines.getvalue()
 
 
-def make(folder: Path) -> dict[str, bytes]:
+def make_kit(folder: Path) -> dict[str, bytes]:
     """Every file of the kit by its name; `folder`: a run of lab 3."""
     found = slides(read_run(folder))
     files = {"slides.html": slide_page(found)}
     notes = [joined([element("h2", f"{place}. {title}"), words]) for place, (title, _, words) in enumerate(found, 1)]
-    files["notes.html"] = page.document(
+    files["notes.html"] = html_page.document(
         "Speaker's notes", element("main", joined([element("h1", "Speaker's notes"), *notes]), id="main")
     ).encode()
-    own = with_mesh()
+    own = program_without_gmsh()
     files["algorithm1.edp"] = own.encode()
     files["algorithm1.html"] = listing(own)
-    files["crib.html"] = sheet("FreeFEM's idioms in lab 0", read(LABS / "CRIB.md"), LABS)
+    files["crib.html"] = printed_page("FreeFEM's idioms in lab 0", read_page(LABS / "CRIB.md"), LABS)
     expected = []
     for lab in folders():
         name = lab.name
-        files[f"handout-{name}.html"] = sheet(f"Lab {name}", plain(read(lab / "README.md")), lab)
-        answers = read(lab / "ANSWERS.md")
+        files[f"handout-{name}.html"] = printed_page(f"Lab {name}", without_answers(read_page(lab / "README.md")), lab)
+        answers = read_page(lab / "ANSWERS.md")
         files[f"answers-{name}.csv"] = template(answers).encode()
         expected.append(answers)
-    files["expected.html"] = sheet("Expected values", "# For the teacher alone\n\n" + "\n\n".join(expected), LABS)
+    files["expected.html"] = printed_page(
+        "Expected values", "# For the teacher alone\n\n" + "\n\n".join(expected), LABS
+    )
     words = {
         "slides.html": "slides: arrow keys; printed, a page each",
         "notes.html": "the speaker's notes",
@@ -263,5 +273,5 @@ def make(folder: Path) -> dict[str, bytes]:
     }
     items = (element("li", joined([element("a", name, href=name), ": ", text], "")) for name, text in words.items())
     body = element("main", joined([element("h1", "Teaching kit"), element("ul", joined(items))]), id="main")
-    files["index.html"] = page.document("Teaching kit", body).encode()
+    files["index.html"] = html_page.document("Teaching kit", body).encode()
     return files

@@ -1,11 +1,12 @@
 """Pictures of the lecture: sketches and closed forms, drawn without a run, for a slide or a page.
 
 `PICTURES` has the functions by name. Each draws into an empty figure; `drawn(function)` makes the figure for a slide,
-`drawn(function, slide=False)` for a page. The film of `postprocess/kit.py` alone needs a run.
+`drawn(function, slide=False)` for a page. The film of `postprocess/teaching_kit.py` alone needs a run.
 """
 
 import itertools
 from collections.abc import Callable
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 import numpy as np
@@ -16,7 +17,7 @@ from matplotlib.patches import Circle, Polygon, Rectangle
 from postprocess import style
 
 SLIDE = (11.2, 4.7)  # inches of a picture that fills a slide below its title
-LARGE = {name: 17 for name in ("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize")} | {
+LARGE: dict[Any, Any] = {name: 17 for name in ("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize")} | {
     "xtick.labelsize": 16,
     "ytick.labelsize": 16,
     "lines.linewidth": 2.2,
@@ -24,20 +25,24 @@ LARGE = {name: 17 for name in ("font.size", "axes.titlesize", "axes.labelsize", 
     "lines.markersize": 8,
     "legend.handlelength": 1.5,
 }
-PAGE_SIZE = {name: 9.5 for name in ("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize")} | {
+PAGE_SIZE: dict[Any, Any] = {
+    name: 9.5 for name in ("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize")
+} | {
     "lines.linewidth": 1.4,
     "lines.markersize": 5,
 }
+T = TypeVar("T", float, np.ndarray)
+
 DASHED, DOTTED = (0, (4, 2)), ":"
 BODY, OTHER = "#dfe5ec", "#eee6d8"  # the two bodies
 
 
-def drawn(draw: Callable[[Figure], None], slide: bool = True) -> Figure:
+def draw_picture(draw: Callable[[Figure], None], slide: bool = True) -> Figure:
     """A picture in the size of a slide, or of a page's width."""
     with mpl.rc_context(LARGE if slide else PAGE_SIZE):
         figure = Figure(figsize=SLIDE if slide else (style.PAGE, 0.42 * style.PAGE), layout="constrained")
         draw(figure)
-        figure.get_layout_engine().execute(figure)
+        style.layout_of(figure).execute(figure)
     return figure
 
 
@@ -56,7 +61,14 @@ def bare(axes: Axes, x: tuple[float, float], y: tuple[float, float], equal: bool
     return axes
 
 
-def arrow(axes: Axes, begin, end, colour: str = style.BLACK, both: bool = False, width: float = 1.6) -> None:
+def arrow(
+    axes: Axes,
+    begin: tuple[float, float],
+    end: tuple[float, float],
+    colour: str = style.BLACK,
+    both: bool = False,
+    width: float = 1.6,
+) -> None:
     heads = "<->" if both else "->"
     axes.annotate(
         "", end, begin, arrowprops={"arrowstyle": heads, "color": colour, "lw": width, "shrinkA": 0, "shrinkB": 0}
@@ -78,8 +90,10 @@ def rough_line(seed: int, size: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda x: (sizes * np.cos(np.multiply.outer(x, waves * 2 * np.pi / 12) + phases)).sum(axis=-1)
 
 
-def law(s: np.ndarray, kappa: float = 100, m: float = 3) -> np.ndarray:
-    return kappa * np.maximum(s, 0) ** m
+def law(s: T, kappa: float = 100, m: float = 3) -> T:
+    """The pressure of a power law at an overlap s of the asperities: a number, or an array of any shape."""
+    pressure: T = kappa * np.maximum(s, 0) ** m
+    return pressure
 
 
 # ---------------------------------------------------------------- contact
@@ -138,7 +152,7 @@ def laws(figure: Figure) -> None:
     axes.axvline(-d0, color=style.GREY, linewidth=0.8, linestyle=DASHED)
     axes.set_xlabel("overlap of the asperities $s = d - d_0$")
     axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def springs(figure: Figure) -> None:
@@ -159,7 +173,7 @@ def springs(figure: Figure) -> None:
     axes.set_yticks([0, 5, 10, 15])
     axes.set_xlabel("overlap of the asperities $s$")
     axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def hard(figure: Figure) -> None:
@@ -183,7 +197,7 @@ def hard(figure: Figure) -> None:
     axes.set_yticks([])
     axes.set_xlabel("overlap of the asperities $s$")
     axes.set_ylabel("pressure $p$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def disc(figure: Figure) -> None:
@@ -251,7 +265,8 @@ def overshoot(figure: Figure) -> None:
         for _ in range(200):
             middle = (low + high) / 2
             low, high = (middle, high) if kappa * middle**m < stiffness * (approach - middle) else (low, middle)
-        s, errors = approach, []
+        s = approach
+        errors: list[float] = []
         while len(errors) < 80:
             errors.append(abs(s / low - 1))
             if errors[-1] < 1e-9:
@@ -266,7 +281,7 @@ def overshoot(figure: Figure) -> None:
     axes.set_xticks([])
     axes.set_xlabel("Newton step")
     axes.set_ylabel("relative error of $s$")
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 # ---------------------------------------------------------------- the paper's scheme
@@ -303,10 +318,10 @@ def models(figure: Figure) -> None:
     """Side by side: the law (3), the first model (4) with its wall at d = 0, the N-th model (5) with its wall at T."""
     panels = figure.subplots(1, 3, sharey=True)
     d0, s = -0.25, np.linspace(0, 0.42, 200)
-    walls = (None, 0.0, 0.06)
+    walls = (np.inf, 0.0, 0.06)
     names = ("eq. (3): the law", "eq. (4): wall at $d = 0$", "eq. (5): wall at $d = T^N$")
     for axes, wall, name in zip(panels, walls, names, strict=True):
-        full = wall is None
+        full = np.isinf(wall)
         axes.plot(d0 + s, law(s), color=style.BLUE if full else style.GREY, linestyle="-" if full else (0, (3, 2)))
         axes.plot([d0 - 0.07, d0], [0, 0], color=style.BLUE)
         if not full:
@@ -450,7 +465,7 @@ def uniform(figure: Figure) -> None:
         axes.set_ylim(-0.31, 0.1)
         axes.set_xlabel("place $x$ on the contact line")
         axes.set_title(name)
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    style.legend_outside(figure, "lower center", *left.get_legend_handles_labels(), ncols=3)
 
 
 def proximal(figure: Figure) -> None:
@@ -582,7 +597,7 @@ def orders(rows: list[tuple[str, float, float]], figure: Figure) -> None:
     axes.set_xticks([500, 1000, 2000, 5000, 10000], ["500", "1000", "2000", "5000", "10 000"])
     axes.minorticks_off()
     axes.grid(color="#e6e6e6", linewidth=0.8)
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 # ---------------------------------------------------------------- friction, space, adhesion
@@ -631,7 +646,7 @@ def mindlin(figure: Figure) -> None:
         axes.set_yticks([0], ["0"])
         axes.set_ylim(0, 1.1)
     panels[0].set_ylabel("traction")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    style.legend_outside(figure, "lower center", *panels[0].get_legend_handles_labels(), ncols=2)
 
 
 def loop(figure: Figure) -> None:
@@ -655,7 +670,7 @@ def loop(figure: Figure) -> None:
     axes.set_ylabel(r"tangential force $Q/(\mu P)$")
     axes.set_xticks([0], ["0"])
     axes.set_yticks([-1, 0, 1])
-    figure.legend(loc="outside right upper")
+    style.legend_outside(figure, "right upper")
 
 
 def hertz(figure: Figure) -> None:

@@ -35,7 +35,7 @@ def read_series(chosen: Run) -> dict:
     return table
 
 
-def curves(table: dict) -> list[Curve]:
+def load_curves(table: dict) -> list[Curve]:
     """The loads and motions with a displacement; from zero, except behind a preload, which moves them before."""
     tight = any(name.startswith("preload ") for name in table)
     begin = [] if tight else [0.0]
@@ -49,13 +49,13 @@ def curves(table: dict) -> list[Curve]:
     return found
 
 
-def legs(table: dict) -> np.ndarray:
+def load_phases(table: dict) -> np.ndarray:
     """The load phase of each row; all of a series without phases are of the first."""
     return table.get("leg", np.ones(len(table["step"]), dtype=int))
 
 
-def driving(table: dict) -> Curve | None:
+def driving_load(table: dict) -> Curve | None:
     """The load or motion that does most in the last load phase: the sum of the sizes of its works; None without any."""
-    rows = int((legs(table) == legs(table)[-1]).sum())
-    sizes = [np.abs(np.diff(each.work()))[-rows:].sum() for each in curves(table)]
-    return curves(table)[int(np.argmax(sizes))] if sizes and max(sizes) > 0 else None
+    rows = int((load_phases(table) == load_phases(table)[-1]).sum())
+    sizes = [np.abs(np.diff(each.work()))[-rows:].sum() for each in load_curves(table)]
+    return load_curves(table)[int(np.argmax(sizes))] if sizes and max(sizes) > 0 else None

@@ -23,10 +23,10 @@ def text(value: object) -> Markup:
 
 def element(name: str, content: object, **attributes: object) -> Markup:
     """<name attribute="...">content</name>; attributes: class_ for class, aria_label for aria-label."""
-    return Markup(f"<{name}{listed(attributes)}>{text(content)}</{name}>")
+    return Markup(f"<{name}{attributes_text(attributes)}>{text(content)}</{name}>")
 
 
-def listed(attributes: dict) -> str:
+def attributes_text(attributes: dict) -> str:
     names = {name: name.rstrip("_").replace("_", "-") for name in attributes}
     return "".join(f' {names[name]}="{html.escape(str(value))}"' for name, value in attributes.items())
 
@@ -66,15 +66,15 @@ def table(caption: str, columns: Sequence[str], rows: Iterable[Sequence], number
             element("tbody", joined(body)),
         ]
     )
-    look = "scroll sideways" if len(columns) > MANY else "scroll"
-    return element("div", element("table", inner), class_=look, role="region", tabindex=0, aria_label=caption)
+    scrolling = "scroll sideways" if len(columns) > MANY else "scroll"
+    return element("div", element("table", inner), class_=scrolling, role="region", tabindex=0, aria_label=caption)
 
 
 def picture(png: bytes, alt: str, caption: Markup) -> Markup:
     """A figure with its picture in it. alt: what the picture shows."""
     width, height = (int.from_bytes(png[start : start + 4], "big") for start in (16, 20))
     source = "data:image/png;base64," + base64.b64encode(png).decode()
-    image = Markup(f"<img{listed({'src': source, 'alt': alt, 'width': width // 2, 'height': height // 2})}>")
+    image = Markup(f"<img{attributes_text({'src': source, 'alt': alt, 'width': width // 2, 'height': height // 2})}>")
     broad = width > WIDE * height or width > BROAD
     if broad:
         image = element("div", image, class_="scroll wide", role="region", tabindex=0, aria_label="Picture")

@@ -16,7 +16,7 @@ def along_path(run: Run) -> bool:
     return (run.path / "path.csv").exists() and not (run.path / "states.csv").exists()
 
 
-class Loop:
+class PathMovie:
     """Draws the frames of one run, which was made with -path, into one figure."""
 
     def __init__(self, run: Run, units: style.Units):

@@ -6,11 +6,12 @@ import logging
 import re
 import tempfile
 from pathlib import Path
+from typing import Protocol
 
-from matplotlib.animation import FFMpegWriter, HTMLWriter, PillowWriter
+from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, HTMLWriter, PillowWriter
+from matplotlib.figure import Figure
 
 from postprocess import style
-from postprocess.frames import Movie
 
 BEGIN, END = "<!-- player -->", "<!-- end of player -->"
 MILLISECONDS = 800  # a frame
@@ -31,19 +32,30 @@ ICONS = {
 }
 
 
-def render(movie: Movie, described: str, speed: float = 1) -> tuple[str, bytes, bytes | None]:
+class Animation(Protocol):
+    """Frames that are drawn into one figure, one after the other: NewtonMovie, PathMovie."""
+
+    figure: Figure
+    count: int
+
+    def draw(self, index: int) -> None:
+        """Draws frame `index`, 0 ... count - 1, in place of the one before."""
+
+
+def render(movie: Animation, described: str, speed: float = 1) -> tuple[str, bytes, bytes | None]:
     """Every frame drawn once: the player as a piece of HTML between BEGIN and END, the GIF's bytes, the MP4's.
 
     described: what the pictures show, for those who do not see them. speed: 2 is twice as fast. No MP4 without ffmpeg.
     """
     dpi = 100 if movie.count <= MANY else 72
     rate = 1000 / MILLISECONDS * speed
-    web = HTMLWriter(fps=rate, embed_frames=True, default_mode="once", embed_limit=1e6)
-    gif = PillowWriter(fps=rate)
-    still = [gif]
+    timing: style.Look = {"fps": rate}
+    web = HTMLWriter(**timing, embed_frames=True, default_mode="once", embed_limit=1e6)
+    gif = PillowWriter(**timing)
+    still: list[AbstractMovieWriter] = [gif]
     if FFMpegWriter.isAvailable():
         even = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-fflags", "+bitexact"]
-        still.append(FFMpegWriter(fps=rate, codec="libx264", extra_args=even))
+        still.append(FFMpegWriter(**timing, codec="libx264", extra_args=even))
     with tempfile.TemporaryDirectory() as folder, style.look():
         page, picture, film = (Path(folder) / name for name in ("player.html", "movie.gif", "movie.mp4"))
         web.setup(movie.figure, page, dpi=dpi)

@@ -11,8 +11,8 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import MaxNLocator
 
 from postprocess import style
-from postprocess.laws import law_of, overlap_at
-from postprocess.results import LAW, OPEN, TANGENT, WALL, ResultsError, Run, is_number
+from postprocess.laws import Law, law_of, overlap_at
+from postprocess.results import LAW, OPEN, TANGENT, WALL, ResultsError, Run, Steps, is_number
 
 SIZE = (8.6, 4.8)  # inches
 CROWD = 120  # points beyond which their dots are drawn smaller
@@ -21,7 +21,7 @@ HUGE = 1e100  # overlaps and pressures beyond it are not drawn
 FILLS = ("#DCE9F3", "#E9E6E1", "#E3EFE3")  # of the bodies, by region
 LINES = (style.BLUE, "#6E675F", style.GREEN)
 # Status of a point: what it is called, and how it is drawn; colour and shape both tell.
-LOOKS = {
+LOOKS: dict[int, tuple[str, style.Look]] = {
     OPEN: ("open", {"marker": "o", "markerfacecolor": "white", "color": style.GREY, "markersize": 3.5}),
     LAW: ("on the law", {"marker": "o", "color": style.BLUE, "markersize": 4.5}),
     WALL: ("at the wall", {"marker": "s", "color": style.VERMILION, "markersize": 4.5}),
@@ -37,10 +37,10 @@ class Plane:
     right: float
     top: float
     curve: tuple[np.ndarray, np.ndarray] | None
-    at: object  # s -> pressure, or None
+    at: Law | None  # s -> pressure
 
 
-class Movie:
+class NewtonMovie:
     """Draws the frames of one run, which was made with -states 1, into one figure."""
 
     def __init__(self, run: Run, units: style.Units):
@@ -63,8 +63,10 @@ class Movie:
             artist.remove()
         for axes in (self.left, self.above, self.below):
             axes.clear()
-        self.figure.text(0.5, 0.975, title(self.run, index), fontsize=11, ha="center", va="top")
-        self.figure.text(0.5, 0.93, f"Algorithm 1, {line_words(self.run, index)}", fontsize=9, ha="center", va="top")
+        self.figure.text(0.5, 0.975, frame_title(self.run, index), fontsize=11, ha="center", va="top")
+        self.figure.text(
+            0.5, 0.93, f"Algorithm 1, {algorithm_line_caption(self.run, index)}", fontsize=9, ha="center", va="top"
+        )
         self.draw_plane(index)
         self.draw_profile(index)
         self.draw_bodies(index)
@@ -72,7 +74,7 @@ class Movie:
         looks = [LOOKS[status] for status in used]
         handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in looks]
         handles.append(Line2D([], [], linestyle="none", marker=">", color=style.BLACK, label="beyond the picture"))
-        hollow = {"marker": "o", "markerfacecolor": "white", "color": style.BLUE, "linewidth": 0.6}
+        hollow: style.Look = {"marker": "o", "markerfacecolor": "white", "color": style.BLUE, "linewidth": 0.6}
         handles.append(Line2D([], [], label="off the law: on its tangent of the step before", **hollow))
         self.figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.05, 0.0), ncols=5, columnspacing=1.5)
 
@@ -91,7 +93,7 @@ class Movie:
         bottom = -0.06 * plane.top
         at = np.clip(overlap, plane.left, plane.right), np.clip(pressure, bottom, plane.top)
         outside = (overlap > plane.right) | (pressure > plane.top) | (pressure < bottom)
-        off, expected = off_law(steps, plane, index)
+        off, expected = points_off_law(steps, plane, index)
         stems = [[(s, p), (s, min(q, plane.top))] for s, p, q in zip(*at, expected, strict=True)]
         drawn = off & ~outside & (overlap >= plane.left)
         chosen = [stem for stem, each in zip(stems, drawn, strict=True) if each]
@@ -113,7 +115,7 @@ class Movie:
         axes.set_ylim(bottom, plane.top)
         axes.set_xlabel(f"overlap of the asperities $s = d - d_0$ [{self.units.length}]")
         axes.set_ylabel(f"pressure $p$ [{self.units.stress}]")
-        axes.set_title(wall_words(walls, steps.tau[index], plane), fontsize=9, loc="left")
+        axes.set_title(wall_caption(walls, steps.tau[index], plane), fontsize=9, loc="left")
 
     def draw_profile(self, index: int) -> None:
         """Pressure along the contact; the last step's as a line to compare with."""
@@ -142,10 +144,10 @@ class Movie:
             near = (x[triangles].max(1) > left) & (x[triangles].min(1) < right)
             near &= (y[triangles].max(1) > bottom - (right - left)) & (y[triangles].min(1) < top + (right - left))
             corners = np.stack([x[triangles[near]], y[triangles[near]]], axis=-1)
-            look = {"facecolor": FILLS[order % len(FILLS)], "edgecolor": LINES[order % len(LINES)]}
-            axes.add_collection(PolyCollection(corners, **look, linewidth=0.2, alpha=0.85, zorder=1))
+            look: style.Look = {"facecolor": FILLS[order % len(FILLS)], "edgecolor": LINES[order % len(LINES)]}
+            axes.add_collection(PolyCollection(list(corners), **look, linewidth=0.2, alpha=0.85, zorder=1))
         if self.rigid:
-            outline = obstacle(run, self.steps, index, x, y)
+            outline = obstacle_outline(run, self.steps, index, x, y)
             axes.add_patch(Polygon(outline, facecolor=FILLS[1], edgecolor=LINES[1], linewidth=0.8, alpha=0.7, zorder=2))
         axes.set_aspect("equal")
         axes.set_xlim(left, right)
@@ -155,7 +157,7 @@ class Movie:
         axes.set_ylabel(f"$y$ [{self.units.length}]")
 
 
-def title(run: Run, index: int) -> str:
+def frame_title(run: Run, index: int) -> str:
     """Where in the scheme a frame stands."""
     steps = run.steps
     total = steps.newton[-1]
@@ -169,7 +171,7 @@ def title(run: Run, index: int) -> str:
     return f"load step {history['step'][row]} of {last}, {words}" if last > 1 else words
 
 
-def line_words(run: Run, index: int) -> str:
+def algorithm_line_caption(run: Run, index: int) -> str:
     """The lines of Algorithm 1 that a frame has come through, and the one where it goes on."""
     if index == 0:
         return "lines 1 to 3: first threshold, bodies at rest; line 4 is next"
@@ -187,7 +189,7 @@ def line_words(run: Run, index: int) -> str:
     return "line 10: the thresholds stand still, the end" if run.summary["converged"] else "stopped before its end"
 
 
-def off_law(steps, plane: Plane, index: int) -> tuple[np.ndarray, np.ndarray]:
+def points_off_law(steps: Steps, plane: Plane, index: int) -> tuple[np.ndarray, np.ndarray]:
     """(off, pressure), a point each: whether it is off the law and its wall, and the law's pressure at its overlap."""
     s, pressure, tau = steps.s[index], steps.pressure[index], steps.tau[index]
     if plane.at is None:
@@ -198,7 +200,7 @@ def off_law(steps, plane: Plane, index: int) -> tuple[np.ndarray, np.ndarray]:
     return np.abs(pressure - expected) > OFF * plane.top, expected
 
 
-def wall_words(walls: np.ndarray, tau: np.ndarray, plane: Plane) -> str:
+def wall_caption(walls: np.ndarray, tau: np.ndarray, plane: Plane) -> str:
     """What the vertical lines are."""
     if not np.isfinite(tau).any():
         return "law; no wall"
@@ -259,7 +261,7 @@ def window_of(run: Run, ratio: float) -> tuple[float, float, float, float]:
     return middle - reach, middle + reach, surface - 0.7 * height, surface + 0.3 * height
 
 
-def obstacle(run: Run, steps, index: int, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def obstacle_outline(run: Run, steps: Steps, index: int, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The outline (n, 2) of the rigid obstacle: at each point as far above the deformed surface as the gap says.
 
     x, y: deformed vertices. Scenes with a disc (parameter R) get its lower half, at the height that the points tell.

@@ -6,26 +6,28 @@ With PyVista, where it is installed, the view from outside is rendered; without 
 import contextlib
 import os
 from dataclasses import replace
+from types import ModuleType
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import Collection, LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.tri import Triangulation
 
 from postprocess import style
-from postprocess.bodies import FILLS, LIGHT, ZONES, Bodies, far_range, place_words, stress_range
+from postprocess.bodies import FILLS, LIGHT, ZONES, Bodies, coordinates_text, stress_range, whole_stress_range
 from postprocess.results import ResultsError
-from postprocess.vtu import Grid, bodies_file, cut
+from postprocess.vtu import Grid, bodies_file, cut_grid
 
 VIEW = (-125.0, 22.0)
 EDGE = np.cos(np.radians(30))  # faces that meet at more than that have an edge
 THROUGH = 0.16  # how opaque a body is that hides a contact
-PRESSED = {"cmap": "YlOrRd", "vmin": 0}
+PRESSED: style.Look = {"cmap": "YlOrRd", "vmin": 0}
 PIXELS = 1400
 
 
-def sight(azimuth: float, elevation: float) -> np.ndarray:
+def view_matrix(azimuth: float, elevation: float) -> np.ndarray:
     """The rows of an orthographic view (3, 3): to the right, up, towards the eye; angles in degrees."""
     turn, rise = np.radians([azimuth, elevation])
     eye = np.array([np.cos(rise) * np.cos(turn), np.cos(rise) * np.sin(turn), np.sin(rise)])
@@ -33,7 +35,7 @@ def sight(azimuth: float, elevation: float) -> np.ndarray:
     return np.array([right, np.cross(eye, right), eye])
 
 
-def onto(normal: np.ndarray) -> tuple[float, float]:
+def view_angles(normal: np.ndarray) -> tuple[float, float]:
     """Azimuth and elevation of an eye that sees a surface with this normal, from aside."""
     normal = normal / np.linalg.norm(normal)
     if abs(normal[2]) > 0.7:
@@ -41,7 +43,7 @@ def onto(normal: np.ndarray) -> tuple[float, float]:
     return float(np.degrees(np.arctan2(normal[1], normal[0]))) + 35, VIEW[1]
 
 
-def pressing(bodies: Bodies, contact: int) -> tuple[np.ndarray, np.ndarray]:
+def contact_forces(bodies: Bodies, contact: int) -> tuple[np.ndarray, np.ndarray]:
     """The points' forces in one contact (p,), without signs, and their resultant: where the contact looks to."""
     loads = bodies.table["weight"] * np.abs(bodies.table["pressure"]) * bodies.touching(contact)
     normal = loads @ bodies.normals
@@ -95,7 +97,7 @@ def edges_of(grid: Grid, place: np.ndarray) -> np.ndarray:
     return sides[twins[bent]]
 
 
-def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
+def draw_bodies(axes: Axes, bodies: Bodies, view: np.ndarray, stress: bool) -> ScalarMappable:
     """The deformed bodies from outside with their edges, and the pressures on them, or coloured by von Mises' stress.
 
     What only lies on a contact is seen through, unless stresses are drawn. Returns what a colour bar is for.
@@ -105,14 +107,14 @@ def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
     opaque = ~hides[body] | stress
     fills = np.array([[int(fill[k : k + 2], 16) / 255 for k in (1, 3, 5)] for fill in FILLS])
     colours = fills[body % len(fills)]
-    scale = ScalarMappable(Normalize(0, far_range(bodies)), "viridis")
+    scale = ScalarMappable(Normalize(0, whole_stress_range(bodies)), "viridis")
     if stress:
-        colours = style.shades(grid.stress[grid.skin].mean(axis=1) / scale.norm.vmax)
+        colours = style.map_colours(grid.stress[grid.skin].mean(axis=1) / scale.norm.vmax)
     else:
         pressure = np.abs(grid.pressure[grid.skin].mean(axis=1)) / bodies.coloured
         shown = (pressure > 1e-3) & pressed_faces(grid)
-        colours[shown] = style.shades(pressure[shown], PRESSED["cmap"])
-    if not rendered(axes, bodies, view, colours, opaque):
+        colours[shown] = style.map_colours(pressure[shown], PRESSED["cmap"])
+    if not render_with_pyvista(axes, bodies, view, colours, opaque):
         across = across_faces(grid.skin, place)
         bright = 0.62 + 0.38 * np.abs((across @ view.T) @ LIGHT)
         rgba = np.column_stack([np.clip(colours * bright[:, None], 0, 1), np.where(opaque, 1.0, THROUGH)])
@@ -138,7 +140,7 @@ def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
     corner = corner - 0.13 * np.minimum(view[:2].min(axis=1), 0)
     for k, name in enumerate("xyz"):
         tip = 0.09 * view[:2, k]
-        look = {
+        look: style.Look = {
             "xycoords": "axes fraction",
             "textcoords": "axes fraction",
             "ha": "center",
@@ -150,7 +152,7 @@ def draw_parts(axes, bodies: Bodies, view: np.ndarray, stress: bool):
     return scale
 
 
-def renderer():
+def import_pyvista() -> ModuleType | None:
     """PyVista where it is installed and can draw without a screen, else None."""
     with contextlib.suppress(ImportError, AttributeError):
         import pyvista
@@ -163,9 +165,9 @@ def renderer():
     return None
 
 
-def rendered(axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque: np.ndarray) -> bool:
+def render_with_pyvista(axes: Axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque: np.ndarray) -> bool:
     """Draws the faces in these colours by PyVista into the axes, in the view's coordinates; False without it."""
-    pyvista = renderer()
+    pyvista = import_pyvista()
     if pyvista is None:
         return False
     grid, place = bodies.grid, bodies.place
@@ -205,7 +207,7 @@ def rendered(axes, bodies: Bodies, view: np.ndarray, colours: np.ndarray, opaque
 # ---------------------------------------------------------------- sections and surfaces
 
 
-def facing(normal: np.ndarray) -> np.ndarray:
+def surface_axes(normal: np.ndarray) -> np.ndarray:
     """Two axes in a surface with this normal, and the normal, as rows.
 
     Each points along the coordinate that it is nearest to: a map has x to the right or z upwards, on whichever side of
@@ -230,7 +232,7 @@ def axis_name(view: np.ndarray, k: int) -> str:
     return f"${'xyz'[view[k].argmax()] if view[k].max() > 1 - 1e-9 else 'stn'[k]}$"
 
 
-def axis_words(view: np.ndarray, *shown: int) -> str:
+def axis_directions_caption(view: np.ndarray, *shown: int) -> str:
     """Of the letters on a map's axes the directions along which they are distances from the origin."""
     words = []
     for k in shown:
@@ -239,28 +241,28 @@ def axis_words(view: np.ndarray, *shown: int) -> str:
     return "".join(words)
 
 
-def map_words(bodies: Bodies, contact: int) -> str:
+def map_caption(bodies: Bodies, contact: int) -> str:
     """What its map does not show of a contact: directions of the axes, and the force of the other side."""
-    loads, normal = pressing(bodies, contact)
+    loads, normal = contact_forces(bodies, contact)
     share = loads[~near_side(bodies, contact)].sum() / loads.sum()
     far = f"; {100 * share:.0f} % of its force is on the other side" if share >= 0.005 else ""
-    return axis_words(facing(normal), 0, 1) + far
+    return axis_directions_caption(surface_axes(normal), 0, 1) + far
 
 
 def near_side(bodies: Bodies, contact: int) -> np.ndarray:
     """Which points (p,) lie on the side of a body from which a contact's map is seen."""
-    return bodies.normals @ pressing(bodies, contact)[1] > 0
+    return bodies.normals @ contact_forces(bodies, contact)[1] > 0
 
 
-def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
+def draw_pressure_map(axes: Axes, bodies: Bodies, contact: int, units: style.Units) -> Collection:
     """The pressure on one contact's surface, seen along the mean of the normals where it presses.
 
     Only the side that is seen is drawn: the far side of a shaft lies behind it.
     """
     surface, count = bodies.surface, len(bodies.points)
     touched = bodies.touching(contact)
-    loads, normal = pressing(bodies, contact)
-    view = facing(normal)
+    loads, normal = contact_forces(bodies, contact)
+    view = surface_axes(normal)
     cells = surface.cells[surface.contact == contact]
     # further nodes, of which no normals are known, stand between contact points
     ways = np.where((cells < count)[..., None], bodies.normals[np.minimum(cells, count - 1)], 0)
@@ -283,18 +285,18 @@ def map_pressure(axes, bodies: Bodies, contact: int, units: style.Units):
     return colours
 
 
-def name_axes(axes, view: np.ndarray, across: int, upwards: int, units: style.Units) -> None:
+def name_axes(axes: Axes, view: np.ndarray, across: int, upwards: int, units: style.Units) -> None:
     axes.set_xlabel(f"{axis_name(view, across)} [{units.length}]")
     axes.set_ylabel(f"{axis_name(view, upwards)} [{units.length}]")
 
 
-def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
+def draw_shear_map(axes: Axes, bodies: Bodies, contact: int, beside: Axes) -> float:
     """What sticks and slips on one contact's surface, and arrows: the shear on the slave. Returns the greatest.
 
     beside: the panel with the contact's pressure, of which this one shows the same part.
     """
     table, touched = bodies.table, bodies.touching(contact)
-    view = facing(pressing(bodies, contact)[1])
+    view = surface_axes(contact_forces(bodies, contact)[1])
     shear = (np.column_stack([table[f"shear{axis}"] for axis in "XYZ"]) @ view.T)[:, :2]
     greatest = np.linalg.norm(shear[touched], axis=1).max()
     near = near_side(bodies, contact)
@@ -310,7 +312,7 @@ def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
     axes.imshow(colours[state[np.array(nearest)]], extent=box, origin="lower", interpolation="nearest")
     length = 0.85 * np.ptp(limits, axis=1).max() / np.sqrt(min(max(len(seen), 16), 250))
     part = slice(None, None, 1 + len(seen) // 250)
-    arrows = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
+    arrows: style.Look = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "color": style.VERMILION}
     axes.quiver(*seen[part].T, *(shear[part] / max(greatest, 1e-300) * length).T, pivot="mid", **arrows)
     axes.set_xlim(limits[0])
     axes.set_ylim(limits[1])
@@ -319,17 +321,17 @@ def map_shear(axes, bodies: Bodies, contact: int, beside) -> float:
     return greatest
 
 
-def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
+def draw_section(axes: Axes, bodies: Bodies, contact: int, units: style.Units) -> Collection:
     """The section through the middle of what presses in one contact that holds its normal, with the outlines."""
     grid, count = bodies.grid, len(bodies.points)
-    loads, normal = pressing(bodies, contact)
-    flat = facing(normal)
+    loads, normal = contact_forces(bodies, contact)
+    flat = surface_axes(normal)
     # rows: along the surface, across the section, along the normal; cut() takes the second coordinate for the level
     frame = np.array([flat[0], -flat[1], flat[2]])
     turned = replace(grid, points=grid.points @ frame.T, move=bodies.scale * grid.move @ frame.T)
     level = loads @ (bodies.surface.points[:count] @ frame[1]) / loads.sum()
     aside = 1e-6 * np.ptp(grid.points, axis=0).max()
-    sections = [cut(turned, level + way * aside) for way in (1, -1)]
+    sections = [cut_grid(turned, level + way * aside) for way in (1, -1)]
     pieces, stress, outline = max(sections, key=lambda section: len(section[0]))
     if not len(pieces):
         raise ResultsError(bodies_file(bodies.run.path), "nothing lies in the section through a contact's middle")
@@ -339,10 +341,16 @@ def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
     longest = np.square(np.roll(place, 1, axis=1) - place).sum(axis=2).max(axis=1)
     # without needles, which shading would colour far beyond their ends
     full = abs(np.linalg.det(place[:, 1:] - place[:, :1])) > 0.01 * longest
-    mesh = Triangulation(*pieces.reshape(-1, 2).T, triangles[full])
-    look = {"cmap": "viridis", "shading": "gouraud", "vmin": 0, "vmax": stress_range(bodies), "rasterized": True}
+    mesh = Triangulation(pieces[..., 0].ravel(), pieces[..., 1].ravel(), triangles[full])
+    look: style.Look = {
+        "cmap": "viridis",
+        "shading": "gouraud",
+        "vmin": 0,
+        "vmax": stress_range(bodies),
+        "rasterized": True,
+    }
     colours = axes.tripcolor(mesh, stress.ravel(), **look)
-    axes.add_collection(LineCollection(outline, color=style.BLACK, linewidth=0.5))
+    axes.add_collection(LineCollection(list(outline), color=style.BLACK, linewidth=0.5))
     touched = bodies.points[bodies.touching(contact)] @ frame.T
     middle, half = loads @ bodies.points @ frame.T / loads.sum(), 1.5 * np.ptp(touched, axis=0).max()
     for limits, at, reach, values in (
@@ -355,13 +363,15 @@ def draw_section(axes, bodies: Bodies, contact: int, units: style.Units):
     return colours
 
 
-def section_words(bodies: Bodies, contact: int, units: style.Units) -> str:
+def section_caption(bodies: Bodies, contact: int, units: style.Units) -> str:
     """Where the section through a contact's middle lies, where that is a coordinate; directions of its axes."""
-    loads, normal = pressing(bodies, contact)
-    view = facing(normal)
+    loads, normal = contact_forces(bodies, contact)
+    view = surface_axes(normal)
     middle = loads @ bodies.surface.points[: len(loads)] / loads.sum()
     k = int(view[1].argmax())
     if view[1][k] < 1 - 1e-9:
-        return axis_words(view, 0, 2)
+        return axis_directions_caption(view, 0, 2)
     unit = "" if units.length == style.Units.length else f"\u00a0{units.length}"
-    return f" at ${'xyz'[k]}$ = {place_words(bodies, middle[k : k + 1])[1:-1]}{unit}" + axis_words(view, 0, 2)
+    return f" at ${'xyz'[k]}$ = {coordinates_text(bodies, middle[k : k + 1])[1:-1]}{unit}" + axis_directions_caption(
+        view, 0, 2
+    )

@@ -75,11 +75,11 @@ def closed_forms(run: Run) -> list[Check]:
         return []
     scene = summary["scene"]
     if scene in (*LINES, *CIRCLES) or (scene == "disc-on-block" and about_axis(run)):
-        return beside_hertz(run)
+        return compare_with_hertz(run)
     x, pressure = run.contact["x"], run.contact["pressure"]
     if scene == "flat-punch" and 40 * run.positive("a") <= run.positive("width"):
         middle, a = float(np.interp(0, x, pressure)), run.positive("a")
-        slack = explained(run, a) + a / run.positive("width")
+        slack = mesh_tolerance(run, a) + a / run.positive("width")
         return [
             Check("pressure in the middle", middle, float(punch_pressure(run, np.zeros(1))[0]), slack, "flat punch")
         ]
@@ -87,7 +87,9 @@ def closed_forms(run: Run) -> list[Check]:
         length = run.positive("width") / run.parameter("waves")
         inner = np.abs(x) <= 0.5 * run.positive("width") - 2 * length  # the outermost waves feel the block's sides
         crest = float(wave_pressure(run, np.zeros(1))[0])
-        return [Check("greatest pressure", float(pressure[inner].max()), crest, explained(run, length), "Westergaard")]
+        return [
+            Check("greatest pressure", float(pressure[inner].max()), crest, mesh_tolerance(run, length), "Westergaard")
+        ]
     return []
 
 
@@ -101,14 +103,14 @@ def in_circle(run: Run) -> bool:
     return run.summary["scene"] in CIRCLES or about_axis(run)
 
 
-def beside_hertz(run: Run) -> list[Check]:
+def compare_with_hertz(run: Run) -> list[Check]:
     """Half-width or radius, by the second moment, and greatest pressure of a contact under a force."""
     a, greatest = hertz(run, prescribed_force(run))
     lengths = run.summary["parameters"]
     radius = min(run.positive(name) for name in ("R", "R1", "R2") if name in lengths)
     if is_number(lengths.get("reach")) and 0 < lengths["reach"] < 1.2 * a:
         return []  # cut off, or close to it
-    slack = explained(run, a) + (a / radius) ** 2
+    slack = mesh_tolerance(run, a) + (a / radius) ** 2
     if "depth" in lengths:  # the block's own, which the closed form takes for endless
         slack += (a / min(run.positive("depth"), (1 if about_axis(run) else 0.5) * run.positive("width"))) ** 2
     round_contact = in_circle(run)
@@ -120,7 +122,7 @@ def beside_hertz(run: Run) -> list[Check]:
     ]
 
 
-def explained(run: Run, length: float) -> float:
+def mesh_tolerance(run: Run, length: float) -> float:
     """The relative difference from a closed form that the mesh explains, length: of the contact or its wave."""
     return (0.4 if run.summary["order"] == 1 else 0.1) * float(run.summary["h"]) / length
 
@@ -130,10 +132,11 @@ def paper_test(run: Run) -> dict[str, float]:
     summary, parameters = run.summary, run.summary["parameters"]
     if summary["scene"] not in SCENES or summary["method"] == "signorini" or summary["contactPoints"] < LEAST_POINTS:
         return {}
-    if any(not equal(parameters[name], value) for name, value in PAPER_TEST.items() if name in parameters):
+    if any(not is_equal_parameter(parameters[name], value) for name, value in PAPER_TEST.items() if name in parameters):
         return {}
     law = parameters.get("kappa"), parameters.get("m")
-    return PAPER.get(tuple(map(float, law)), {}) if all(map(is_number, law)) else {}
+    kappa, m = law
+    return PAPER.get((float(kappa), float(m)), {}) if is_number(kappa) and is_number(m) else {}
 
 
 def confined_block(run: Run) -> dict[str, float]:
@@ -252,7 +255,7 @@ def wave_pressure(run: Run, x: np.ndarray) -> np.ndarray:
     return 2 * full * np.abs(np.cos(np.pi * x)) * np.sqrt(inside)
 
 
-def equal(value: object, wanted: object) -> bool:
+def is_equal_parameter(value: object, wanted: object) -> bool:
     if is_number(wanted):
         return is_number(value) and abs(float(value) - wanted) <= 1e-12 * abs(wanted)
     return value == wanted

@@ -6,7 +6,7 @@ import shlex
 from pathlib import Path
 
 from postprocess import style
-from postprocess.results import Run, brief, is_number
+from postprocess.results import Run, is_number, one_line
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -21,17 +21,17 @@ HISTORY_COLUMNS = (
 ).split(",")
 
 
-def captions() -> dict[str, str]:
+def figure_captions() -> dict[str, str]:
     """What each figure shows, by its name: the tables of edp/docs/reference/figures.md. Without that page none."""
     text = FIGURES.read_text(encoding="utf-8") if FIGURES.exists() else ""
     found = re.findall(r"^\| `([\w-]+)` \| (.+) \| `make [\w/. -]+` \|$", text, re.M)
     return {name: content.replace("`", "") + "." for name, content in found}
 
 
-def run_words(run: Run) -> str:
+def run_caption(run: Run) -> str:
     """Scene, method and discretisation."""
     summary = run.summary
-    return f"{summary['scene']}, {summary['method']}, P{summary['order']}, h = {short(summary['h'])}"
+    return f"{summary['scene']}, {summary['method']}, P{summary['order']}, h = {short_number(summary['h'])}"
 
 
 class Units:
@@ -45,7 +45,7 @@ class Units:
         if given and tuple(given) != UNNAMED:
             stated = list(given)
         known = isinstance(stated, list) and len(stated) == 2
-        self.length, self.stress = (brief(str(name), 20) for name in stated) if known else ("", "")
+        self.length, self.stress = (one_line(str(name), 20) for name in stated) if stated and known else ("", "")
         self.plane = summary.get("state") in ("strain", "stress")
         self.force = self.moment = self.energy = ""
         if not known:
@@ -63,7 +63,12 @@ class Units:
         return f"{self.stress} {self.length}" + {1: "", 2: "²", 3: "³"}[power]
 
 
-def short(value: object, digits: int = 6) -> str:
+def first_line(described: object) -> str:
+    """The first line of the docstring of a module or a function."""
+    return (described.__doc__ or "").partition("\n")[0]
+
+
+def short_number(value: object, digits: int = 6) -> str:
     """A number with so many digits; a dash for what is not defined."""
     if value is None:
         return NONE
@@ -76,17 +81,16 @@ def with_error(number: object, error: object = None, unit: str = "") -> str:
     """A number with its error to two digits; without one, five digits of the number."""
     if not is_number(number):
         return NONE
-    known = is_number(error) and error > 0
-    text = rounded(number, error) if known else f"{number:.5g}"
-    return readable(text) + (f" {unit}" if unit else "")
+    text = number_with_error(number, error) if is_number(error) and error > 0 else f"{number:.5g}"
+    return typeset_number(text) + (f" {unit}" if unit else "")
 
 
-def readable(text: str) -> str:
+def typeset_number(text: str) -> str:
     """A number with a true minus sign, and an exponent without zeros in front."""
     return re.sub(r"(?<!e)-", "−", re.sub(r"e([-+])0*(\d)", lambda found: "e" + found[1].strip("+") + found[2], text))
 
 
-def rounded(number: float, error: float) -> str:
+def number_with_error(number: float, error: float) -> str:
     """A number and its error with the digits that the error leaves."""
     power = int(f"{error:.1e}".partition("e")[2])
     if not -6 <= power - 1 <= 4 or abs(number) >= 1e7:
@@ -102,7 +106,7 @@ def history_rows(run: Run) -> list[list[str]]:
     names = "newton adaptation residual contactPoints statusChanges wallPoints overlapMax force backsolves".split()
     rows = zip(*(history[name].tolist() for name in names), strict=True)
     return [
-        [f"{value:.2e}" if name == "residual" else short(value) for name, value in zip(names, row, strict=True)]
+        [f"{value:.2e}" if name == "residual" else short_number(value) for name, value in zip(names, row, strict=True)]
         for row in rows
     ]
 
@@ -125,7 +129,7 @@ def command(run: Run) -> str:
     for name in summary["given"]:
         if name != "out":
             words += [*f"-{name}".split(" "), flag_text(parameters[name])]  # -set NAME of a number of the geometry
-    return shlex.join([*words, "-out", place(run.path)])
+    return shlex.join([*words, "-out", path_in_package(run.path)])
 
 
 def flag_text(value: object) -> str:
@@ -135,7 +139,7 @@ def flag_text(value: object) -> str:
     return repr(value) if isinstance(value, float) else str(value)
 
 
-def place(path: Path | str) -> str:
+def path_in_package(path: Path | str) -> str:
     """A path relative to the repository's root where it lies in it."""
     full = Path(os.path.abspath(path))
     return str(full.relative_to(ROOT)) if full.is_relative_to(ROOT) else str(path)

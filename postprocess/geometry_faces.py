@@ -11,17 +11,20 @@ import time
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from postprocess import bodies as drawn
-from postprocess import labels, raster, space, style
+from postprocess import bodies_3d, labels, raster, style
 from postprocess.results import read_table
 
 FEW = 40  # faces, whose numbers have room on the whole
 WIDE = 72 * style.PAGE  # points
 GAP, MARGIN, EDGE = 5.0, 14.0, 10.0  # points: between views, left and right of a body, above and below it
 PATIENCE = 2.0  # seconds after which a line tells of the progress
+
+Box = tuple[float, float, float, float]  # points of the page: left, low, width, height
 
 
 def draw(path: Path, azimuth: float, elevation: float) -> Figure:
@@ -42,10 +45,10 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
         figure.set_size_inches(style.COLUMN, 0.9 * style.COLUMN)
         draw_curves(figure.subplots(), at, face)
         return figure
-    names = names_of(path.with_name("check-bodies.csv"))
-    views = [space.sight(azimuth, elevation), space.sight(azimuth + 180, -elevation)]
+    names = read_names(path.with_name("check-bodies.csv"))
+    views = [bodies_3d.view_matrix(azimuth, elevation), bodies_3d.view_matrix(azimuth + 180, -elevation)]
     if len(np.unique(face)) > FEW:
-        return page(at, face, body, views, names)
+        return draw_page(at, face, body, views, names)
     sides = [View(at, face, body, view, style.COLUMN * style.DPI) for view in views]
     inner = sorted(set(face.tolist()) - set(sides[0].places) - set(sides[1].places))
     figure = Figure(layout="constrained")
@@ -54,21 +57,21 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
     for panel, side, words in zip(axes[:2], sides, ("", ": the other side"), strict=True):
         side.paint(panel)
         for number, place in side.places.items():
-            write(panel, place, "cut" if number < 0 else number)
+            write_number(panel, place, "cut" if number < 0 else number)
         panel.set_title(f"Faces{words}", loc="left", fontsize=6.5)
     if inner:
-        draw_inner(axes[2], at, face, body, rims(at, face), views[0], inner)
+        draw_inner(axes[2], at, face, body, face_borders(at, face), views[0], inner)
         axes[2].set_title("Faces inside, without what hides them", loc="left", fontsize=6.5)
     figure.supxlabel("\n".join(volumes(face, body, names)), x=0.02, ha="left", fontsize=6)
     return figure
 
 
-def names_of(path: Path) -> dict[int, str]:
+def read_names(path: Path) -> dict[int, str]:
     """By body its name, of those that have one."""
     if not path.exists():
         return {}
     with path.open(encoding="utf-8", newline="") as file:
-        return {int(row["body"]): style.plain(row["name"]) for row in csv.DictReader(file)}
+        return {int(row["body"]): style.without_mathtext(row["name"]) for row in csv.DictReader(file)}
 
 
 def volumes(face: np.ndarray, body: np.ndarray, names: dict[int, str]) -> list[str]:
@@ -81,13 +84,13 @@ def volumes(face: np.ndarray, body: np.ndarray, names: dict[int, str]) -> list[s
     return lines
 
 
-def draw_curves(axes, at: np.ndarray, curve: np.ndarray) -> None:
+def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     """Each curve's number at its middle."""
     place = at[:, :, :2]
-    axes.add_collection(LineCollection(place, color=style.BLUE, linewidth=0.8))
+    axes.add_collection(LineCollection(list(place), color=style.BLUE, linewidth=0.8))
     for number in np.unique(curve):
         own = place[curve == number]
-        write(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
+        write_number(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_xlabel("$x$")
@@ -95,7 +98,7 @@ def draw_curves(axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.set_title("Curves", loc="left", fontsize=6.5)
 
 
-def shaded(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
+def shaded_colours(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
     """Colours of triangles, (triangles, 3): their bodies', darker where they look away from the light."""
     across = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
     size = np.maximum(np.linalg.norm(across, axis=1), 1e-300)
@@ -110,7 +113,7 @@ class View:
     places: by face the place of its number, where most of what is seen is around; room: how far from its edge.
     """
 
-    def __init__(self, at, face, body, view, dots: float) -> None:
+    def __init__(self, at: np.ndarray, face: np.ndarray, body: np.ndarray, view: np.ndarray, dots: float) -> None:
         seen = at @ view.T
         self.low, high = seen[:, :, :2].min(axis=(0, 1)), seen[:, :, :2].max(axis=(0, 1))
         self.size = np.maximum(high - self.low, 1e-9 * np.ptp(seen) + 1e-300)
@@ -122,7 +125,7 @@ class View:
         self.number = np.where(front < 0, -1, index.reshape(-1)[front])
         self.body = np.where(front < 0, -1, body[front])
         self.picture = np.ones((*shape, 3))
-        self.picture[front >= 0] = shaded(seen, body)[front[front >= 0]]
+        self.picture[front >= 0] = shaded_colours(seen, body)[front[front >= 0]]
         self.picture[raster.edges(self.number)] = 0.25
         found = raster.rooms(self.number)
         self.places = {int(numbers[k]): self.place(row, column) for k, (row, column, _) in found.items()}
@@ -135,21 +138,29 @@ class View:
         """By body that is seen the place of its name."""
         return {number: self.place(row, column) for number, (row, column, _) in raster.rooms(self.body).items()}
 
-    def paint(self, axes) -> None:
+    def paint(self, axes: Axes) -> None:
         right, top = self.low + self.step * np.array(self.shape[::-1])
         axes.imshow(
             self.picture, origin="lower", extent=(self.low[0], right, self.low[1], top), interpolation="antialiased"
         )
-        frame(axes)
+        set_plain_frame(axes)
 
 
-def draw_inner(axes, at, face, body, rim, view, inner) -> None:
+def draw_inner(
+    axes: Axes,
+    at: np.ndarray,
+    face: np.ndarray,
+    body: np.ndarray,
+    rim: np.ndarray,
+    view: np.ndarray,
+    inner: list[int],
+) -> None:
     """The faces that nothing else shows, over the edges of all."""
     seen = at @ view.T
-    axes.add_collection(LineCollection((rim @ view.T)[:, :, :2], color="#B0B0B0", linewidth=0.3))
+    axes.add_collection(LineCollection(list((rim @ view.T)[:, :, :2]), color="#B0B0B0", linewidth=0.3))
     own = np.isin(face, inner)
     depth = np.argsort(seen[own][:, :, 2].mean(axis=1))
-    fill = {"facecolor": shaded(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
+    fill: style.Look = {"facecolor": shaded_colours(seen[own], body[own])[depth], "edgecolor": "none", "alpha": 0.7}
     axes.add_collection(PolyCollection(seen[own][depth][:, :, :2], rasterized=True, **fill))
     places: list[tuple[np.ndarray, list[str]]] = []
     for number in inner:
@@ -158,8 +169,8 @@ def draw_inner(axes, at, face, body, rim, view, inner) -> None:
         word = "cut" if number < 0 else str(number)
         near[0].append(word) if near else places.append((place, [word]))
     for place, words in places:
-        write(axes, place, ", ".join(dict.fromkeys(words)))
-    frame(axes)
+        write_number(axes, place, ", ".join(dict.fromkeys(words)))
+    set_plain_frame(axes)
 
 
 def middle_of(seen: np.ndarray) -> np.ndarray:
@@ -168,18 +179,18 @@ def middle_of(seen: np.ndarray) -> np.ndarray:
     return centres[np.argmin(np.linalg.norm(centres - np.median(centres, axis=0), axis=1))]
 
 
-def write(axes, place: np.ndarray, number: int | str) -> None:
-    look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
-    axes.annotate(str(number), place, color=style.BLACK, **look)
+def write_number(axes: Axes, place: np.ndarray, number: int | str) -> None:
+    look: style.Look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
+    axes.annotate(str(number), (place[0], place[1]), color=style.BLACK, **look)
 
 
-def frame(axes) -> None:
+def set_plain_frame(axes: Axes) -> None:
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_axis_off()
 
 
-def rims(at: np.ndarray, face: np.ndarray) -> np.ndarray:
+def face_borders(at: np.ndarray, face: np.ndarray) -> np.ndarray:
     """The sides of triangles that only one triangle of its face has, (sides, 2, 3)."""
     _, node = np.unique(np.round(at.reshape(-1, 3) / (np.ptp(at) + 1e-300), 9), axis=0, return_inverse=True)
     node = node.reshape(-1, 3)
@@ -192,25 +203,27 @@ def rims(at: np.ndarray, face: np.ndarray) -> np.ndarray:
 # ---------------------------------------------------------------- many faces: a page
 
 
-def page(at, face, body, views, names: dict[int, str]) -> Figure:
+def draw_page(
+    at: np.ndarray, face: np.ndarray, body: np.ndarray, views: list[np.ndarray], names: dict[int, str]
+) -> Figure:
     """The whole with its bodies' names, from both sides, then each body alone, its faces' numbers beside them.
 
     A number in brackets is that of a face that neither side shows.
     """
     begun = time.monotonic()
     parts = {int(number): body == number for number in np.unique(body)}
-    words = {n: style.folded(f"{n} {names[n]}" if n in names else f"volume {n}", 18) for n in parts}
+    words = {n: style.wrapped(f"{n} {names[n]}" if n in names else f"volume {n}", 18) for n in parts}
     margin = 6 + max(labels.size(text)[0] for text in words.values())
     top = 0.0
     if len(parts) > 1:
         least = 12 + sum(labels.size(text)[1] for text in words.values()) / 3
-        top = 10 + max(least, needed(at, views, WIDE / 2 - GAP, margin))
-    rows = arranged({n: len(np.unique(face[own])) for n, own in parts.items()})
-    tall = [max(needed(at[parts[n]], views, wide / 2, MARGIN) for n, _, wide in row) + 12 for row in rows]
+        top = 10 + max(least, height_needed(at, views, WIDE / 2 - GAP, margin))
+    rows = arrange_rows({n: len(np.unique(face[own])) for n, own in parts.items()})
+    tall = [max(height_needed(at[parts[n]], views, wide / 2, MARGIN) for n, _, wide in row) + 12 for row in rows]
     height = top + sum(tall)
     figure = Figure(figsize=(style.PAGE, height / 72))
     if top:
-        whole(figure, at, face, body, views, words, (height, top, margin))
+        draw_whole(figure, at, face, body, views, words, (height, top, margin))
     told, low = 0, height - top
     for row, high in zip(rows, tall, strict=True):
         low -= high
@@ -221,15 +234,16 @@ def page(at, face, body, views, names: dict[int, str]) -> Figure:
                 begun = time.monotonic()
             own = parts[number]
             title = f"volume {number}{f': {names[number]}' if number in names else ''}"
-            look = {"fontsize": 6.5, "va": "top"}
-            figure.text((left + 3) / WIDE, (low + high) / height, style.folded(title, int(wide / 3.5)), **look)
-            alone(figure, at[own], face[own], body[own], views, (left, low, wide / 2, high - 12), height)
+            look: style.Look = {"fontsize": 6.5, "va": "top"}
+            figure.text((left + 3) / WIDE, (low + high) / height, style.wrapped(title, int(wide / 3.5)), **look)
+            draw_alone(figure, at[own], face[own], body[own], views, (left, low, wide / 2, high - 12), height)
     return figure
 
 
-def arranged(counts: dict[int, int]) -> list[list[tuple[int, float, float]]]:
+def arrange_rows(counts: dict[int, int]) -> list[list[tuple[int, float, float]]]:
     """Rows of bodies, each with its left end and its width: of many faces wider ones."""
-    rows, left = [[]], 0.0
+    rows: list[list[tuple[int, float, float]]] = [[]]
+    left = 0.0
     for number, count in counts.items():
         wide = WIDE / (1 if count > 40 or len(counts) == 1 else 2 if count > 12 else 3)
         if left + wide > WIDE * 1.001:
@@ -240,21 +254,21 @@ def arranged(counts: dict[int, int]) -> list[list[tuple[int, float, float]]]:
     return rows
 
 
-def needed(at, views, wide: float, margin: float) -> float:
+def height_needed(at: np.ndarray, views: list[np.ndarray], wide: float, margin: float) -> float:
     """The height in points of a view that fills a width, or is nearly as high as that."""
     sizes = [np.ptp((at @ view.T)[:, :, :2].reshape(-1, 2), axis=0) for view in views]
     return min(0.95 * wide, 2 * EDGE + max((wide - 2 * margin) * up / max(right, 1e-300) for right, up in sizes))
 
 
-def panel(figure: Figure, box, height: float):
-    """Axes whose data are points of the page, by left, low, width and height."""
+def panel_in_points(figure: Figure, box: Box, height: float) -> Axes:
+    """Axes whose data are points of the page."""
     left, low, wide, tall = box
-    axes = figure.add_axes([left / WIDE, low / height, wide / WIDE, tall / height])
+    axes = figure.add_axes((left / WIDE, low / height, wide / WIDE, tall / height))
     axes.set_axis_off()
     return axes
 
 
-def fitted(axes, side: View, box, margin: float) -> tuple[np.ndarray, float]:
+def paint_fitted(axes: Axes, side: View, box: Box, margin: float) -> tuple[np.ndarray, float]:
     """Paints a view into the middle of axes in points; where its lower left corner is, and the points of a length."""
     scale = float(((np.array(box[2:]) - [2 * margin, 2 * EDGE]) / side.size).min())
     corner = np.array(box[2:]) / 2 - scale * (side.size / 2 + 2 * side.step)
@@ -265,24 +279,35 @@ def fitted(axes, side: View, box, margin: float) -> tuple[np.ndarray, float]:
     return corner - scale * side.low, scale
 
 
-def dots(at, view, room) -> float:
+def pixels_across(at: np.ndarray, view: np.ndarray, room: tuple[float, float]) -> float:
     """The pixels across a view that fills a room in points."""
     size = np.ptp((at @ view.T)[:, :, :2].reshape(-1, 2), axis=0)
     return float(size.max() * (np.array(room) / np.maximum(size, 1e-300)).min()) * style.DPI / 72
 
 
-def whole(figure, at, face, body, views, words: dict[int, str], sizes) -> None:
-    """All bodies from two sides, the name of each beside the side that shows more of it."""
+def draw_whole(
+    figure: Figure,
+    at: np.ndarray,
+    face: np.ndarray,
+    body: np.ndarray,
+    views: list[np.ndarray],
+    words: dict[int, str],
+    sizes: tuple[float, float, float],
+) -> None:
+    """All bodies from two sides, the name of each beside the side that shows more of it.
+
+    sizes: the page's height, that of this part, and the room for names.
+    """
     height, top, margin = sizes
     wide = WIDE / 2
     room = (wide - GAP - 2 * margin, top - 10 - 2 * EDGE)
-    sides = [View(at, face, body, view, dots(at, view, room)) for view in views]
+    sides = [View(at, face, body, view, pixels_across(at, view, room)) for view in views]
     seen = [side.bodies() for side in sides]
     shares = [{n: np.sum(side.body == n) for n in words} for side in sides]
     for k, (side, view) in enumerate(zip(sides, views, strict=True)):
         box = (k * (wide + GAP), height - top, wide - GAP, top - 10)
-        axes = panel(figure, box, height)
-        zero, scale = fitted(axes, side, box, margin)
+        axes = panel_in_points(figure, box, height)
+        zero, scale = paint_fitted(axes, side, box, margin)
         axes.set_title(("Bodies", "Bodies: the other side")[k], loc="left", fontsize=6.5, pad=0)
         places = {}
         for number, text in words.items():
@@ -295,14 +320,23 @@ def whole(figure, at, face, body, views, words: dict[int, str], sizes) -> None:
         labels.beside(axes, anchors, [text for _, text in places.values()], box[2:])
 
 
-def alone(figure, at, face, body, views, box, height: float) -> None:
+def draw_alone(
+    figure: Figure,
+    at: np.ndarray,
+    face: np.ndarray,
+    body: np.ndarray,
+    views: list[np.ndarray],
+    box: Box,
+    height: float,
+) -> None:
     """A body from two sides, the number of each face on the side that shows more of it."""
     left, low, wide, tall = box
-    sides = [View(at, face, body, view, dots(at, view, (wide - 2 * MARGIN, tall - 2 * EDGE))) for view in views]
+    room = (wide - 2 * MARGIN, tall - 2 * EDGE)
+    sides = [View(at, face, body, view, pixels_across(at, view, room)) for view in views]
     for k, (side, view) in enumerate(zip(sides, views, strict=True)):
         own = (left + k * wide, low, wide, tall)
-        axes = panel(figure, own, height)
-        zero, scale = fitted(axes, side, own, MARGIN)
+        axes = panel_in_points(figure, own, height)
+        zero, scale = paint_fitted(axes, side, own, MARGIN)
         anchors, texts, rooms = [], [], []
         for number in np.unique(face).tolist():
             here, there = (each.room.get(number, 0.0) / max(each.step, 1e-300) for each in (side, sides[1 - k]))
