@@ -276,7 +276,7 @@ def bodies(folder, mesh, case, *flags, space=False):
     (folder / "a.msh").write_text(mesh)
     (folder / "a.case").write_text(case)
     script = (ROOT / "edp/parts.edp").read_text().split('include "input/case/case-file.idp"')[0]
-    head = "macro threeDimensional() 1 //\nmacro inSpace(do, what) //\nmacro behindFloating(do, what) //\n"
+    head = "macro threeDimensional() 1 //\nmacro inSpace(do, what) //\nmacro behindRigidModes(do, what) //\n"
     head = head + 'string scene = "parts-3d";\n' if space else ""
     stdout = snippet(folder, head + script + BODIES, "-mesh", "a.msh", "-case", "a.case", "-order", 2, *flags)
     return told(stdout), stdout
