@@ -26,8 +26,8 @@ LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
 PAGE = "0-algorithm/algorithm1.edp"
 # Of lab 0's page: what a slide has no room for
 LEFT_OUT = re.compile(
-    r"\s*([{}].*|(cout|plot|set|matrix D|int (newton|j)|real (residual|modelError)).*|\w+\+\+;|[TSf] = \w+;"
-    r"|(diagonal|changeCount|modelError) = 0;)"
+    r"\s*([{}].*|(cout|plot|set|matrix D|int (newton|j)|real (residual|modelError|misfit)).*|\w+\+\+;|[TSf] = \w+;"
+    r"|(diagonal|changes|modelError) = 0;)"
 )
 
 

@@ -34,6 +34,12 @@ def test_counts_on_points_that_shrink_to_the_ends(flags):
     assert done.backsolves <= 20
 
 
+def test_start_of_many_points_about_an_axis():
+    """The start on a selection of 250 and more points shall count rings: by lengths it takes 7 linearisations."""
+    flags = ("-geometry", "axisymmetric", "-h", 0.04, "-grading", 240, "-reach", 7)
+    assert run("disc-on-block", *BASE, *flags, "-order", 2).newton <= 3
+
+
 @pytest.mark.parametrize("law", [["-kappa", 1e9], ["-law", "exponential"]], ids=str)
 def test_cold_start(law):
     """Without the half-plane start 10 linearisations shall do, and 16 with a wall that is met."""
