@@ -194,7 +194,7 @@ def test_the_code_is_read():
     assert {"sUndeformed", "approach", "setUpProblem"} <= read("solver/problem/problem.idp")[0]
     assert "applyLoad" in read("solver/problem/problem-of-bodies.idp")[0]
     assert "forceControl" in uses("solver/problem/problem.idp")
-    assert {"computeGraphPoint", "condensed"} <= uses("solver/problem/problem-of-law.idp")
+    assert {"computeGraphPoint", "condensed"} <= uses("solver/problem/problem.idp")
     assert len(owners()) > 300
 
 

@@ -381,7 +381,7 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     loaded = {
         name
         for name in summary["modules"]
-        if name.startswith(("contact/laws/", "solver/newton/methods", "solver/methods/", "solver/surrogate/"))
+        if name.startswith(("contact/laws/", "solver/newton/extended-newton", "solver/methods/", "solver/surrogate/"))
     }
     assert loaded == {
         "contact/laws/laws",
@@ -390,7 +390,7 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
         "contact/laws/increasing-laws",
         "contact/laws/signorini",
     } | {
-        "solver/newton/methods",
+        "solver/newton/extended-newton",
         "solver/methods/newton",
         "solver/surrogate/half-plane",
         "solver/surrogate/horizontal-plane",

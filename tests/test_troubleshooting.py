@@ -140,7 +140,7 @@ def test_the_page_has_no_other(heading):
 
 # advice behind a condition that rules the value out: another inner method, a law's own tangent, a method of its own
 CONDITIONED = {
-    "solver/newton/convergence.idp: -method xnewton",
+    "solver/newton/extended-newton.idp: -method xnewton",
     "solver/methods/ipopt.idp: -method xnewton",
     "solver/steps/finite-sliding.idp: -distance linear",
 }
