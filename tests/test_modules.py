@@ -385,9 +385,7 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
     }
     assert loaded == {
         "contact/laws/laws",
-        "contact/laws/one-law",
         "contact/laws/power",
-        "contact/laws/increasing-laws",
         "contact/laws/signorini",
     } | {
         "solver/newton/extended-newton",
