@@ -42,7 +42,8 @@ def plain(text):
 def source(name):
     """The comment block that opens a source, and its code."""
     text = (EDP / name).read_text()
-    return re.match(r"(?://[^\n]*\n)*", text).group(), plain(re.sub(r"Stringification\([^)]*\)", "", text))
+    no_names = r"Stringification\([^)]*\)|(?<!macro )readReplacement\(\w+\)|IFMACRO\(!?read[A-Z]\w*\)"
+    return re.match(r"(?://[^\n]*\n)*", text).group(), plain(re.sub(no_names, "", text))
 
 
 @cache
@@ -205,7 +206,8 @@ def described(name):
     text = (EDP / name).read_text()
     functions = re.findall(r"^func [^\n(]*?(\w+)\s*\([^{]*?\)(?:\n| \{[^\n]*\} +)//", text, flags=re.M)
     kinds = r"^(?:int|real|bool|string|matrix|mesh3?|meshS|meshL|fespace|varf)(?:\[[a-z,]*\])*"
-    behind = re.findall(rf"{kinds} (\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
+    lines = re.findall(rf"{kinds} (\w[^\n]*?);[^\n]*// \S", text, flags=re.M)
+    behind = [word for line in lines for word in re.findall(r"(?:^|, )(\w+)(?=\(|,| =|$)", line)]
     behind += re.findall(rf"^(?:{'|'.join(spaces())}) \[?(\w+)[^\n]*;[^\n]*// \S", text, flags=re.M)
     above = re.findall(rf"^// [^\n]*\n(?:{kinds[1:]} |(?:New)?[mM]acro )(\w+)", text, flags=re.M)
     return {*functions, *behind, *above}
