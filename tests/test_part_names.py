@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from freefem import part
-from reader.labels import LONGEST, name_of, names_of
+from reader.names import LONGEST, body_names, name_of
 from reader.words import quoted, split_line
 from test_reader import read, refused
 from test_reader_picks import boxes, made_of, module, picks  # noqa: F401
@@ -81,7 +81,7 @@ def test_name_of_many():
     """The second of a name gets a number that no other body has; a word that `size` reads is no name."""
     labels = {3: "A/bolt", 5: "A/bolt", 7: "A/bolt-2", 8: "A/Body", 9: "A/bolt", 10: "A/Body", 11: "A/contact"}
     found = {3: "bolt", 5: "bolt-3", 7: "bolt-2", 8: "", 9: "bolt-4", 10: "", 11: "contact-2"}
-    assert names_of(labels) == found
+    assert body_names(labels) == found
 
 
 @pytest.mark.parametrize("name", ["bolt", "hex nut", "a#1", "#2", "x\ty", "Träger"])

@@ -30,8 +30,7 @@ from .geometry import TRIANGLE, Outline, distance_field, look, nodes_of
 from .gmsh_process import GmshError, end_with, in_child, start, version
 from .groups import Group, Groups, Where
 from .kept import CAD, checksum, stands_alone, write_whole
-from .labels import names_of
-from .names import EVERY_CURVE, keep_names
+from .names import EVERY_CURVE, body_names, keep_names
 from .picks import Picks
 from .words import CONTROL, Refusal
 
@@ -239,7 +238,7 @@ class Session:
         for body in found if self.file.suffix.lower() in STEP else ():
             with suppress(UnicodeDecodeError):
                 found[body] = self.gmsh.model.getEntityName(self.dimension, body)
-        return names_of(found)
+        return body_names(found)
 
     def look(self, closer: Sequence[Any] = (), listed: bool = False) -> Outline:
         try:

@@ -1,22 +1,35 @@
-"""The groups of a file, where they are known without numpy and gmsh's module: a refusal then waits for neither.
+"""The groups of a file, known without numpy and gmsh's module (a refusal then waits for neither), and names of bodies.
 
 A mesh in gmsh's version 2 text has its names near its beginning. For a deck, and a geometry that reads no other file,
 they are kept once it has been read.
+
+CAD programs write a name for each part of a STEP file, and gmsh gives each body a label with it, as
+Shapes/Assembly/1/Plate. `body_names(labels)` makes names of the labels: by body, "" where the file has none. A name
+that a CAD program gives by itself, as Body001, is none. Parts that occur several times get numbers: bolt, bolt-2.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
 from .groups import Group
 from .kept import KINDS, checksum, stands_alone, write_whole
-from .words import CONTROL, whole_number
+from .words import CONTROL, spells_number, whole_number
 
 EVERY_CURVE = "every curve of the geometry"
 KEPT = {*KINDS, ".inp"}
 HEAD = 1 << 20  # bytes of a mesh in which its names are looked for
+LONGEST = 60  # letters of a name
+# what programs write in place of a name: also numbers alone, and what Open CASCADE makes of a reference
+NO_NAME = re.compile(
+    r"open cascade .*|=>.*|(body|solid|part|volume|shape|compound|component|product|assembly"
+    r"|(manifold[ _]?)?(solid[ _]?)?brep|unnamed|untitled|no[ _]?name|none|null|default|unknown)?[ _.-]*[\d.]*",
+    re.I,
+)
+TAKEN = {"contact"}  # size contact
 
 
 def is_text_of_gmsh(file: Path) -> bool:
@@ -80,3 +93,25 @@ def names_of(file: Path, space: bool, sets: object, cache: Path) -> tuple[list[G
     except (OSError, ValueError):
         pass
     return None, {}
+
+
+def name_of(label: str) -> str:
+    """The name of a part: the last component of a label, with plain blanks and without quotes; nothing of none."""
+    last = CONTROL.sub(" ", label.rpartition("/")[2]).replace('"', "").replace("\ufffd", "")
+    found = " ".join(last.split())[:LONGEST].strip()
+    return "" if NO_NAME.fullmatch(found) or spells_number(found) else found
+
+
+def body_names(labels: Mapping[int, str]) -> dict[int, str]:
+    """By body its name; the bodies of one name are numbered from the second on."""
+    found = {body: name_of(label) for body, label in labels.items()}
+    used = {*found.values(), *TAKEN}
+    seen = set(TAKEN)
+    for body, one in found.items():
+        if not one or one not in seen:
+            seen.add(one)
+            continue
+        number = next(k for k in range(2, len(found) + 3) if f"{one}-{k}" not in used)
+        found[body] = f"{one}-{number}"
+        used.add(found[body])
+    return found
