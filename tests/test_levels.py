@@ -69,7 +69,7 @@ STIFF = "sphere-on-block", ["-order", 1, "-h", 0.8, "-kappa", 1e9]
 def test_runs(scene, flags, tmp_path):
     """With the hierarchy in the matrix's place a run shall need hardly more, and find the same."""
     package = tree(tmp_path / "package")
-    name = package / "edp/solver/hierarchical/single-contact-sources.idp"
+    name = package / "edp/solver/hierarchical/grid-products.idp"
     text = name.read_text()
     assert text.count("int gridPointsMin = 1500;") == 1
     usual = run(scene, *flags).summary
@@ -85,7 +85,7 @@ def test_no_convergence(tmp_path):
     package = tree(tmp_path / "package")
     many = package / "edp/solver/hierarchical"
     for name, before, after in (
-        ("single-contact-sources.idp", "int gridPointsMin = 1500;", "int gridPointsMin = 20;"),
+        ("grid-products.idp", "int gridPointsMin = 1500;", "int gridPointsMin = 20;"),
         ("grid-preconditioner.idp", "int innerIterationsMax = 300;", "int innerIterationsMax = 1;"),
     ):
         text = (many / name).read_text()

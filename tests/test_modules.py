@@ -392,8 +392,6 @@ def test_a_scene_loads_the_laws_and_methods_that_it_offers(tmp_path):
         "solver/methods/newton",
         "solver/surrogate/half-plane",
         "solver/surrogate/horizontal-plane",
-        "solver/surrogate/line-loads-plane",
-        "solver/surrogate/no-grids",
     }
     assert summary["method"] == "newton"
     exact = run("confined-block", "-h", 5, "-method", "newton").summary["force"]
