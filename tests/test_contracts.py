@@ -193,7 +193,7 @@ def checked(sources):
 def test_the_code_is_read():
     """What this test takes for declarations and uses shall be what is meant."""
     assert {"sUndeformed", "approach", "setUpProblem"} <= read("solver/problem/problem.idp")[0]
-    assert "applyLoad" in read("solver/problem/loads-and-displacement.idp")[0]
+    assert "applyLoad" in read("solver/problem/problem-of-bodies.idp")[0]
     assert "forceControl" in uses("solver/problem/problem.idp")
     assert {"computeGraphPoint", "condensed"} <= uses("solver/problem/problem.idp")
     assert len(owners()) > 300
