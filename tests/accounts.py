@@ -187,12 +187,13 @@ def imports(file):
     found = set()
     for node in ast.walk(ast.parse((ROOT / file).read_text())):
         names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+        names += [f"{names[0]}.{alias.name}" for alias in node.names] if names else []  # a module of a folder of tests
         names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
         for name in names:
             if name.split(".")[0] == "postprocess":
                 found.add("postprocess")
             for place in ("tests", "tests/campaigns"):
-                path = f"{place}/{name.split('.')[0]}.py"
+                path = f"{place}/{name.replace('.', '/')}.py"
                 if path != file and path not in found and (ROOT / path).exists():
                     found |= {path} | imports(path)
     return frozenset(found)

@@ -75,7 +75,7 @@ def legible_figures(monkeypatch):
 @pytest.fixture
 def go(tmp_path):
     """go(geo, case, *flags) runs a part, each time in a folder of its own: what it told."""
-    from test_truth import Told  # the campaigns that it needs are for its tests alone
+    from error.test_truth import Told  # the campaigns that it needs are for its tests alone
 
     def start(*words, **options):
         folder = tmp_path / str(len(list(tmp_path.iterdir())))

@@ -1,6 +1,6 @@
 """Numbers on the pages that come from runs: `make numbers` runs their commands anew and writes what has changed.
 
-Comments that no reader sees name the run and the value of each number; tests/test_numbers.py compares them.
+Comments that no reader sees name the run and the value of each number; tests/output/test_numbers.py compares them.
 
     <!-- run: COMMAND -->      the run of the numbers below it, as typed after `FreeFem++`; with {c[0]}, ...,
                                the cells of a row, each row of the next table is a run. Without this comment: the
@@ -31,8 +31,8 @@ from types import SimpleNamespace
 import numpy as np
 import reference
 from accounts import shared
+from contact.test_adhesion import flags
 from freefem import FREEFEM, ROOT, execute, table
-from test_adhesion import flags
 
 from postprocess import closed_forms as forms
 

@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
 
-import test_contracts
+from house import test_contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 EDP = ROOT / "edp"

@@ -1,0 +1,1 @@
+"""Tests of contact/: surfaces, pairing, laws, friction, adhesion, wear."""

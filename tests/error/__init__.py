@@ -1,0 +1,1 @@
+"""Tests of error/: estimates, warnings, new meshes."""

@@ -1,0 +1,1 @@
+"""Tests of the sources themselves: arrows, names, heads, the Makefile, the accounts of tests."""

@@ -1,0 +1,1 @@
+"""Tests of input/: the command line, cases and what they read of meshes and geometries."""

@@ -1,0 +1,1 @@
+"""Tests of solver/: methods, models, modes, rotations."""
