@@ -492,7 +492,7 @@ BOXES = {
     "G": (480, 10, 190, "solver/surrogate", "C of a half-plane", "applySurrogate"),
     "law": (10, 214, 150, "contact/laws", "p(s), p′(s), wall at τ", "computeGraphPoint"),
     "tangent": (220, 214, 190, "solver/problem", "s, p, p′, status", "linearise"),
-    "linear": (480, 214, 190, "solver/newton", "contact forces q, overlaps", "solveCondensed"),
+    "linear": (480, 214, 190, "solver/newton", "contact forces q, overlaps", "solveLinearised"),
     "tau": (220, 306, 190, "solver/newton", "next thresholds τ, eq. (6)", "updateThreshold"),
     "error": (480, 412, 190, "error/estimates", "± of each number", "estimateErrors"),
     "files": (220, 412, 190, "output/report", "summary.json, tables", "measureContactSizes"),
