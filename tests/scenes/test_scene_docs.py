@@ -54,7 +54,8 @@ def boundaries(scene):
     geos = re.findall(r'gmshMesh\("([\w-]+)"', text)
     if not geos:
         mesh = text.partition("startClock();")[2]
-        return set(re.findall(r"^int (\w+) = \d+; *(?://.*)?$", mesh, re.M)) - {"block", "lower", "upper"}
+        lists = re.findall(r"^int ((?:\w+ = \d+(?:, )?)+); *(?://.*)?$", mesh, re.M)
+        return set(re.findall(r"(\w+) =", " ".join(lists))) - {"block", "lower", "upper"}
     space = "macro threeDimensional()" in text
     far = re.search(r"^macro fineContact\b", text, re.M) is not None
     fits = [geo for geo in geos if ("far" in geo) == far and ("3d" in geo or not space)]
