@@ -81,7 +81,7 @@ contact hole seat interference 0.01 friction 0.2
 clamp foot
 move rim 0 0.02
 """
-WORST = TELL + """
+WORST = """
 real[int] changes(goals), ranked(goals);
 for (int j = 0; j < goals; j++) changes[j] = slidingFraction(j);
 for (int j = 0; j < goals; j++) ranked[j] = goalIsRanked[j];
@@ -95,7 +95,7 @@ def test_worst_change_of_what_counts(tmp_path):
     """A resultant that friction carries is not ranked: though its change is the greatest, a ranked one shall decide."""
     package = tree(tmp_path / "package")  # friction is read by parts.edp itself alone
     with (package / "edp/parts.edp").open("a") as script:
-        script.write(WORST)
+        script.write(TELL + WORST)
     (package / "a.geo").write_text(CONE)
     (package / "a.case").write_text(PULLED)
     numbers = told(run_in(package, "edp/parts.edp", "-mesh", "a.geo", "-case", "a.case", "-vtu", 0).stdout)

@@ -226,8 +226,8 @@ def test_described():
 
 
 # hard contact and ties, called as any law; functions whose parameters a macro of another file reads
-UNREAD = """signoriniPressure signoriniInverse signoriniPotential tiedPressure tiedInverse tiedPotential solveLawWithSpring
-elasticSolveTo solveForceOverlap advanceStoredDisplacement computeForceSolution""".split()
+UNREAD = """signoriniPressure signoriniInverse signoriniPotential tiedPressure tiedInverse tiedPotential
+solveLawWithSpring elasticSolveTo solveForceOverlap advanceStoredDisplacement computeForceSolution""".split()
 
 
 def test_parameters_are_read():

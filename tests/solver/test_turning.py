@@ -175,7 +175,7 @@ def test_pushed_group(solve):
 
 
 def test_other_scripts(solve, tmp_path):
-    """A script that reads parts.edp rotates bodies by any angle, or by small ones alone: none is left as it was drawn."""
+    """A script that reads parts.edp rotates bodies by any angle, or only by small ones: none stays as it is drawn."""
     (tmp_path / "edp").symlink_to(ROOT / "edp")
     (tmp_path / "own.edp").write_text('include "parts.edp"\n')
     lab, own = {"script": "edp/labs/9-own-part/own-part.edp"}, {"script": tmp_path / "own.edp"}
