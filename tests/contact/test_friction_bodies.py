@@ -267,6 +267,14 @@ def test_moment_of_a_twisted_fit(tmp_path):
     assert moments[0] == pytest.approx(moments[1], rel=1e-4)
 
 
+def test_heated_fit_that_turns(tmp_path):
+    """With linear gaps a rotation is a small one, also with expand, which reads the module of large ones: all slips."""
+    text = FITTED.replace("interference 0.01 ", "").replace("clamp bore", "clamp rim\nrotate bore 0 0 0.002")
+    fit = case(tmp_path, FIT, text + "expand shaft 12e-6 60\n")
+    slips = 0.2 * fit.summary["contacts"][0]["normalForce"]
+    assert fit.summary["prescribed"][0]["moment"] == pytest.approx(8 * slips, rel=1e-4)
+
+
 SLIDERS = """
 For k In {0 : 1}
   left = k / 2;

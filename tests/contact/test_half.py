@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import reference
-from freefem import ROOT, cases_of, flag_lists, named, refusal, run, run_in, script, table, tree
+from freefem import ROOT, cases_of, flag_lists, named, refusal, run, run_in, script, snippet, table, told, tree
 
 from postprocess import vtu
 
@@ -86,6 +86,26 @@ def test_same_as_whole(words, unfolded, tmp_path):
             ours, theirs = half.estimates[name], whole.estimates[name]
             assert (ours is None) == (theirs is None), name
             assert ours is None or ours["error"] == pytest.approx(theirs["error"], rel=2e-3), name
+
+
+ROUNDING = """include "scenes/hertz-line.edp"
+real[int] rounding(points);
+computeRoundingPressure(rounding);
+real[int] unloaded = abs(sFree), removed = abs(Cq);
+tell("amplitude", freeModeAmplitude[0]);
+tell("epsilon", machineEpsilon);
+tell("unloaded", unloaded);
+tell("removed", removed);
+tell("stiffness", bodyStiffness);
+tell("rounding", rounding);
+"""
+
+
+def test_rounding_with_a_free_mode(tmp_path):
+    """With a prescribed force the approach shall count at all points of the whole, not only at those of the half."""
+    numbers = told(snippet(tmp_path, ROUNDING, "-half", 1, "-h", 0.4, "-vtu", 0))
+    size = numbers["unloaded"] + numbers["removed"] + abs(numbers["amplitude"])
+    np.testing.assert_allclose(numbers["rounding"], numbers["epsilon"] * size * numbers["stiffness"], rtol=1e-12)
 
 
 @pytest.mark.parametrize("order", [2, 4])

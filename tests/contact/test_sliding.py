@@ -4,7 +4,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from freefem import data, part, scene_text, snippet
+from freefem import TELL, data, part, run_in, scene_text, snippet, told, tree
 
 BLOCK = """units mm MPa
 body block E 2000 nu 0.3
@@ -69,6 +69,39 @@ def test_forces_that_friction_carries(tmp_path, way, pressure, least):
     assert bore["pressureMax"]["error"] > least
     assert cone["contactLength"]["error"] < 0.2 * cone["contactLength"]["value"]
     assert not [text for text in run.summary["warnings"] if "is estimated at" in text]
+
+
+# a sleeve on a cone of slope 1/50, pulled until all of it slips
+CONE = data("friction-bodies/sleeve.geo").replace("{inner, k", "{inner + 0.02 * k, k")
+CONE = CONE.replace("{outer, 6", "{outer + 0.12 * (1 - k), 6").replace("{inner, 6", "{inner + 0.1 * k, 6")
+PULLED = """state axisymmetric
+body shaft E 200e3 nu 0.3
+body hub E 100e3 nu 0.3
+contact hole seat interference 0.01 friction 0.2
+clamp foot
+move rim 0 0.02
+"""
+WORST = """
+real[int] changes(goals), ranked(goals);
+for (int j = 0; j < goals; j++) changes[j] = slidingFraction(j);
+for (int j = 0; j < goals; j++) ranked[j] = goalIsRanked[j];
+tell("changes", changes);
+tell("ranked", ranked);
+tell("worst", slidingWorstGoal);
+"""
+
+
+def test_worst_change_of_what_counts(tmp_path):
+    """A resultant that friction carries is not ranked: though its change is the greatest, a ranked one shall decide."""
+    package = tree(tmp_path / "package")  # friction is read by parts.edp itself alone
+    with (package / "edp/parts.edp").open("a") as script:
+        script.write(TELL + WORST)
+    (package / "a.geo").write_text(CONE)
+    (package / "a.case").write_text(PULLED)
+    numbers = told(run_in(package, "edp/parts.edp", "-mesh", "a.geo", "-case", "a.case", "-vtu", 0).stdout)
+    changes, ranked = numbers["changes"], numbers["ranked"] > 0
+    assert not ranked[0] and changes[0] > 1.2 * changes[ranked].max()
+    assert numbers["worst"][0] == np.flatnonzero(ranked)[changes[ranked].argmax()]
 
 
 PIECE = """Point(1) = {-10,-10,0}; Point(2) = {10,-10,0}; Point(3) = {10,0,0}; Point(4) = {0.5,0,0};

@@ -71,6 +71,38 @@ def test_between_two_bodies_in_space(solved):
     assert run.estimates["parts"]["line"] < 0.03 * run.force
 
 
+SLAB = """SetFactory("OpenCASCADE"); Rectangle(1) = {0, SIDE, 0, 5, 5};
+Physical Surface("slab") = {1}; Physical Curve("below") = {1}; Physical Curve("above") = {3}; MeshSize{:} = 2;
+"""
+ENDS = """
+tell("pressure", phat);
+tell("x", pointX);
+tell("error", contactEndPressureError(phat.imax));
+"""
+
+
+@pytest.mark.parametrize("name", cases_of(["above", "scene"], ["below"]))
+def test_end_of_contact_about_an_axis(tmp_path, name):
+    """The peak's error by the ends shall count the contact on both sides of the axis, whichever way the chain goes."""
+    flags = ["-order", 3, "-vtu", 0, "-estimate", 0]
+    if name == "scene":
+        flags += ["-h", 1, "-geometry", "axisymmetric", "-kappa", 1e9]
+    else:
+        sign, held = (1, "below") if name == "above" else (-1, "above")
+        (tmp_path / "a.geo").write_text(SLAB.replace("SIDE", "-5" if sign > 0 else "0"))
+        text = f"obstacle {name} circle 0 {10 * sign} R 10 move 0 {-0.1 * sign}\nclamp {held}\nsize contact 0.4\n"
+        (tmp_path / "a.case").write_text("state axisymmetric\nbody slab E 1000 nu 0.3\n" + text)
+        flags += ["-mesh", "a.geo", "-case", "a.case"]
+    lines = f'include "{"main" if name == "scene" else "parts"}.edp"\n{ENDS}'
+    numbers = told(snippet(tmp_path, lines, *flags))
+    order = np.argsort(numbers["x"])
+    x = numbers["x"][order]
+    last = np.flatnonzero(numbers["pressure"][order]).max()
+    spacing = x[last + 1] - x[last]
+    expected = 4 * numbers["pressure"].max() * (2 * spacing / (2 * x[last] + spacing)) ** 3
+    assert numbers["error"][0] == pytest.approx(expected, rel=1e-6)
+
+
 def test_algebra(solved):
     """What the algebra leaves shall be predicted within a fifth."""
     exact = solved("disc-on-block", "-h", 1, "-tol", 1e-12, "-estimate", 0)

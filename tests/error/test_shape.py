@@ -186,6 +186,38 @@ def test_slices(tmp_path):
     assert abs(force["value"] - np.pi) < force["error"] < 0.05
 
 
+DOME = """SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1}; Box(2) = {-2, -2, -2, 4, 4, 2};
+dome() = BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; };
+faces() = Boundary{ Volume{1}; };
+Physical Volume("dome") = {1}; Physical Surface("cap") = {faces(0)}; Physical Surface("base") = {faces(1)};
+MeshSize{:} = 0.5;
+"""
+PRESSED_TWICE = """body dome E 1000 nu 0.3
+clamp base
+obstacle cap plane 0 0 1 0 0 -1 move 0 0 -0.1
+obstacle cap plane 0.6 0 0.8 -0.6 0 -0.8 move -0.06 0 -0.08
+"""
+EQUAL_VALUES = """include "parts-3d.edp"
+real[int] before = goalGeometryError(0 : goals - 1);
+real first = goalValue[0];
+for (int j = 0; j < goals; j++) goalValue[j] = first;
+estimateAllGoals();
+real[int] after = goalGeometryError(0 : goals - 1);
+tell("before", before);
+tell("after", after);
+"""
+
+
+def test_results_of_equal_value(tmp_path):
+    """In space each result shall keep its own part by the shape, if several have the same value too."""
+    (tmp_path / "a.geo").write_text(DOME)
+    (tmp_path / "a.case").write_text(PRESSED_TWICE)
+    files = ["-mesh", "a.geo", "-case", "a.case", "-vtu", 0, "-out", tmp_path / "out"]
+    of = told(snippet(tmp_path, EQUAL_VALUES, *files, "-order", 1))
+    np.testing.assert_allclose(of["after"], of["before"], rtol=1e-9)
+    assert of["before"][0] > 1.2 * of["before"][1] > 0
+
+
 SECTOR = """body inner E 210000 nu 0
 body outer E 210000 nu 0
 contact outof hole

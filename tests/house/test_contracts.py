@@ -4,6 +4,7 @@ Who uses what, which is read here, `make pages` writes into edp/docs/modules.md,
 """
 
 import re
+from collections import Counter
 from functools import cache
 
 from freefem import ROOT
@@ -222,6 +223,29 @@ def test_described():
         if users and of_modules and not any(word in described(path) for path in of_modules):
             wrong.append(f"{', '.join(of_modules)}: {word} is not described, {min(users)} uses it")
     assert not wrong, f"{len(wrong)}\n" + "\n".join(sorted(wrong))
+
+
+# hard contact and ties, called as any law; functions whose parameters a macro of another file reads
+UNREAD = """signoriniPressure signoriniInverse signoriniPotential tiedPressure tiedInverse tiedPotential
+solveLawWithSpring elasticSolveTo solveForceOverlap advanceStoredDisplacement computeForceSolution""".split()
+
+
+def test_parameters_are_read():
+    """A function shall read all its parameters, but one that is written twice: both are called alike."""
+    times, unread = Counter(), []
+    for name in checked(MODULES):
+        code = source(name)[1]
+        for match in re.finditer(r"^func\s[^\n(]*?(?<![\w#])(\w+)\s*\(([^()]*)\)\s*(?=\{)", code, flags=re.M):
+            depth, end = 1, match.end() + 1
+            while depth > 0:
+                depth += (code[end] == "{") - (code[end] == "}")
+                end += 1
+            times[match[1]] += 1
+            named = {parameter.split()[-1] for parameter in match[2].split(",") if " " in parameter.strip()}
+            found = sorted(named - set(re.findall(r"\w+", code[match.end() : end])))
+            unread += [(match[1], f"{name}: {parameter} of {match[1]}") for parameter in found]
+    wrong = [text for function, text in unread if function not in UNREAD and times[function] == 1]
+    assert times.total() > 2000 and not wrong, "\n".join(wrong)
 
 
 def prose(name):

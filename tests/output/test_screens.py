@@ -6,7 +6,7 @@ import re
 import subprocess
 
 import pytest
-from freefem import FREEFEM, ROOT, environment, execute, patience, run, run_in, script
+from freefem import FREEFEM, ROOT, environment, execute, part, patience, run, run_in, script
 from pages import scripts, told
 from scenes.test_examples import example
 
@@ -127,6 +127,19 @@ def test_screen_of_an_own_part(tmp_path):
     ):
         assert re.search(f"^{line}$", said, re.M), line
     assert not re.search(r"e-(0[7-9]|[1-9]\d)", said.split("Results")[1])
+
+
+COLUMN = """SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 4, 2}; MeshSize{:} = 1;
+Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("top") = {3};
+"""
+
+
+@pytest.mark.parametrize("driven, exact", [("move 0 -0.01", False), ("force 0 -20", True)])
+def test_exact_by_equilibrium(tmp_path, driven, exact):
+    """A force on an obstacle fixes the resultant; its motion does not, even if the elements make no error."""
+    case = f"body block E 1000 nu 0\nsymmetry base\nobstacle top plane 0 2 0 -1 {driven}\n"
+    said = part(tmp_path, COLUMN, case, "-tol", 1e-12).stdout
+    assert re.search(r"resultant force +\(0, -20\)", said) and ("exact by equilibrium" in said) is exact
 
 
 def test_gaps_without_rounding(tmp_path):

@@ -174,6 +174,20 @@ def test_pushed_group(solve):
         assert ways[1] == pytest.approx(ways[0], rel=1e-8)
 
 
+def test_other_scripts(solve, tmp_path):
+    """A script that reads parts.edp rotates bodies by any angle, or only by small ones: none stays as it is drawn."""
+    (tmp_path / "edp").symlink_to(ROOT / "edp")
+    (tmp_path / "own.edp").write_text('include "parts.edp"\n')
+    lab, own = {"script": "edp/labs/9-own-part/own-part.edp"}, {"script": tmp_path / "own.edp"}
+    mesh, flags, angle = ring(Mesh(), 36, 3).text(), ["-order", 1, "-estimate", 0], 2 * np.pi * 11 / 36
+    centre = np.linalg.solve(np.eye(2) - rotation(angle)[:2, :2], [0, 0.005])  # about it the disc also goes up by 0.005
+    cases = [(f"{vector(centre)} {angle!r}", lab), ("-1 0 0.005", own)]
+    runs = [solve(mesh, f"{DISC}rotate shaft {numbers}\n", *flags, **how)[0] for numbers, how in cases]
+    for run in runs:
+        assert run["contacts"][0]["normalForce"] == pytest.approx(1.5 * 661, rel=0.02)  # 661 of the disc as it is drawn
+    assert "scripts that read the option" in solve(mesh, f"{DISC}rotate shaft 0 0 0.7\n", expect=10, **own)[1]
+
+
 def test_refused(solve):
     """Large rotations of what is held besides, and by methods that do not know them."""
     mesh = block(Mesh()).text()

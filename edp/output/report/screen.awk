@@ -266,9 +266,12 @@ function thicknessNote(x, word,   unit) {
   unit = forceUnit == "" ? "" : " " forceUnit (word == "moment" ? " " v[".units.0"] : "")
   return roundDigits(x * v[".thickness"], 6) unit " for the thickness " v[".thickness"]
 }
-function printCase(   k, p, e, word, times, j, with) {  # results of a case: contacts, prescribed motions and loads, supports, moments, preloads, stresses, heat
-  for (k = 0; k < count[".prescribed"]; k++)
-    if (v[".prescribed." k ".name"] ~ /^(move|rotate) / || (v[".prescribed." k ".name"] ~ /^obstacle/ && movedObstacle)) drivenByMotion = 1
+function printCase(   k, p, e, word, times, j, with, forced) {  # results of a case: contacts, prescribed motions and loads, supports, moments, preloads, stresses, heat
+  for (k = 0; k < count[".ways"]; k++) forced[v[".ways." k ".name"]]++   # a force on an obstacle has the displacement as a result, a motion has none
+  for (k = 0; k < count[".prescribed"]; k++) {
+    p = v[".prescribed." k ".name"]
+    if (p ~ /^(move|rotate) / || (p ~ /^obstacle / && forced[p]-- <= 0)) drivenByMotion = 1
+  }
   if (thicknessNote(1) != "") print "  forces, moments, work and heat are those of a unit of thickness; all " v[".thickness"] " carry " v[".thickness"] " times as much"
   for (k = 0; k < count[".contacts"]; k++) if (v[".contacts." k ".normalForce"] > maxContactForce) maxContactForce = v[".contacts." k ".normalForce"]
   for (k = 0; k < count[".contacts"]; k++) { printContact(k); printWear(k) }
