@@ -156,11 +156,15 @@ def used(path, hooks=False):
 
 
 @cache
+def hosts():
+    """The files with defaults of their own, `readReplacement(Part)`, whose place an option's module takes."""
+    return {path for path, text in sources().items() if re.search(r"^readReplacement\(", text, re.M)}
+
+
+@cache
 def interfaces():
-    """The files that a host reads unless an option's module takes their place, `readUnless(file, Part)`, and the hosts
-    of defaults, which name it by `readReplacement(Part)`."""
-    hosts = {path for path, text in sources().items() if re.search(r"^readReplacement\(", text, re.M)}
-    return hosts | {
+    """The files that a host reads unless an option's module takes their place, `readUnless(file, Part)`, and hosts."""
+    return hosts() | {
         path for text in sources().values() for path in re.findall(r"^readUnless\((\S+), \w+\)$", text, re.M)
     }
 
@@ -261,8 +265,8 @@ def writers():
 def test_what_is_read():
     """Names in macros shall count, and of names that twins share both files; options' hooks only if they shall."""
     assert "startFullSystem" in arrows()["solver/methods/all.idp"]["solver/newton/full-system.idp"]
-    assert {"solver/surrogate/half-plane.idp", "solver/surrogate/half-space.idp"} <= set(
-        arrows()["solver/surrogate/preconditioner.idp"]
+    assert {"fem/elements/shapes-plane.idp", "fem/elements/shapes-space.idp"} <= set(
+        arrows()["fem/elements/element.idp"]
     )
     of_hook = "contact/adhesion/adhesion.idp", "contact/adhesion/adhesive-run.idp"
     assert of_hook[1] in arrows(hooks=True)[of_hook[0]] and of_hook[1] not in arrows()[of_hook[0]]
