@@ -445,7 +445,7 @@ def test_refused(words, said, tmp_path):
 
 def test_fold_leaves_the_dual(tmp_path):
     """What a fold near by adds to the error is found with a dual of its own; the present one is there again."""
-    code = """setAdjointOfForces(adjointForces, adjointGain);
+    code = """setAdjointOfForces(adjointForces, adjointLoadOverlap);
     real[int] change = adjointDisplacement;
     real unused = 1;
     correctNearLimitPoint(unused, unused);
