@@ -198,7 +198,7 @@ def test_smooth_in_any_order(tmp_path):
 
 def test_mean_of_neighbours(tmp_path):
     """Pressures that are all alike are off their neighbours' mean by nothing."""
-    code = 'real[int] off(points);\nphat = 3;\nneighbourMeanError(off);\ntell("off", off);\n'
+    code = 'real[int] off(points);\nphat = 3;\ncomputeMeanDeviation(off);\ntell("off", off);\n'
     text = (ROOT / "edp/scenes/sphere-on-block.edp").read_text() + code
     off = told(snippet(tmp_path, text, "-order", 1, "-h", 2, "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"))[
         "off"
