@@ -242,7 +242,8 @@ move tight -0.05 0
 
 
 @pytest.mark.parametrize(
-    "size, friction, first, most", cases_of([(3, 0.3, 13, 4)], [(0.8, 0.3, 13, 4), (1.5, 0.8, 13, 21), (3, 1.2, 15, 25)])
+    "size, friction, first, most",
+    cases_of([(3, 0.3, 13, 4)], [(0.8, 0.3, 13, 4), (1.5, 0.8, 13, 21), (3, 1.2, 15, 25)]),
 )
 def test_belt_bends_in_few_solves(tmp_path, size, friction, first, most):
     """A belt's bending compliance is 1e8 times that of its surface: a few factorisations solve each step, no columns.
@@ -261,7 +262,9 @@ def test_belt_bends_in_few_solves(tmp_path, size, friction, first, most):
     assert belt.summary["factorisations"] <= steps.sum() + 1
 
 
-@pytest.mark.parametrize("scene, flags", cases_of([("fretting-bodies", ())], [("fretting-3d", ("-h", 3, "-layers", 2))]))
+@pytest.mark.parametrize(
+    "scene, flags", cases_of([("fretting-bodies", ())], [("fretting-3d", ("-h", 3, "-layers", 2))])
+)
 def test_factor_solves_as_all_columns_do(tmp_path, scene, flags):
     """The system with the stiffness and the dense one with all columns of C have one solution, and so have their adjoints."""
     text = (ROOT / f"edp/scenes/{scene}.edp").read_text() + data("friction-bodies/tangent.edp")
