@@ -266,7 +266,7 @@ def test_belt_bends_in_few_solves(tmp_path, size, friction, first, most):
     "scene, flags", cases_of([("fretting-bodies", ())], [("fretting-3d", ("-h", 3, "-layers", 2))])
 )
 def test_factor_solves_as_all_columns_do(tmp_path, scene, flags):
-    """The system with the stiffness and the dense one with all columns of C have one solution, and so have their adjoints."""
+    """The system with the stiffness has the solution of the dense one with all columns of C; so has its adjoint."""
     text = (ROOT / f"edp/scenes/{scene}.edp").read_text() + data("friction-bodies/tangent.edp")
     found = told(snippet(tmp_path, text, *flags, "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out"))
     assert max(found["forward"][0], found["transposed"][0], found["layer"][0]) < 1e-9
