@@ -448,7 +448,7 @@ def test_fold_leaves_the_dual(tmp_path):
     code = """setAdjointOfForces(adjointForces, adjointLoadOverlap);
     real[int] change = adjointDisplacement;
     real unused = 1;
-    correctNearLimitPoint(unused, unused);
+    correctForSofteningLaw(unused, unused);
     change -= adjointDisplacement;
     tell("share", change.linfty / adjointDisplacement.linfty);
     """

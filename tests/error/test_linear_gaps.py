@@ -274,8 +274,8 @@ def test_open_points_change_nothing(tmp_path):
     package = tree(tmp_path / "package")
     path = package / "edp/error/estimates/sliding-correction.idp"
     text = path.read_text()
-    assert text.count("if (!referenceTrueDistance) restrictPairing(close);") == 1
-    path.write_text(text.replace("if (!referenceTrueDistance) restrictPairing(close);", ""))
+    assert text.count("if (!referenceIsFiniteSliding) restrictPairing(close);") == 1
+    path.write_text(text.replace("if (!referenceIsFiniteSliding) restrictPairing(close);", ""))
     example = ROOT / "edp/examples/crossed-cylinders/crossed-cylinders"
     flags = ["-mesh", f"{example}.geo", "-case", f"{example}.case", "-order", 1, "-vtu", 0]
     places = {"alone": ROOT, "all": package}
