@@ -19,8 +19,8 @@ ROOT = Path(__file__).resolve().parent.parent
 CUT = [f"edp/{name}.md" for name in "docs/WRITING docs/PAPER scenes/README".split()]
 CUT += ["tests/RESULTS.md", "tests/COST.md"]
 THEORY = (
-    "discretisation nonmatching curved-surfaces condensation proximal-newton half-plane-model conditioning thresholds "
-    "sequence-ends linear-model error-of-a-model friction wear adhesion lennard-jones-models heat plasticity "
+    "discretisation nonmatching curved-surfaces condensation proximal-newton half-plane-model bending conditioning "
+    "thresholds sequence-ends linear-model error-of-a-model friction wear adhesion lennard-jones-models heat plasticity "
     "exact-distance "
     "free-bodies rotations mesh-error geometry-error quantity-errors friction-errors preload-errors"
 ).split()

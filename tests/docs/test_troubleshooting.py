@@ -13,7 +13,7 @@ from reader.modules import Run, modules, needs
 
 PAGE = (ROOT / "edp/docs/TROUBLESHOOTING.md").read_text()
 KINDS = {  # heading of the page: the functions whose argument is the text
-    "Warnings": r"warn|prependWarning",
+    "Warnings": r"warn|prependWarning|printWarning",
     "Refused flags and files": r"refuse",
     "Refused case files": r"input/reader",
     "Runs without convergence": r"fail",
