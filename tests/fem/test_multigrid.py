@@ -459,7 +459,8 @@ def test_tie(tmp_path):
     flags = [*names, "-order", 1, "-tol", 1e-9, "-estimate", 0]
     found = [run_in(ROOT, "edp/parts-3d.edp", *flags, "-solver", engine, out=tmp_path / engine) for engine in ENGINES]
     direct, multigrid = (result.summary for result in found)
-    assert multigrid["newton"] == direct["newton"] and multigrid["backsolves"] <= direct["backsolves"] + 5
+    # the direct engine may factorise bodies and tie together
+    assert direct["newton"] <= multigrid["newton"] <= direct["newton"] + 1 and multigrid["backsolves"] <= 55
     assert multigrid["iterations"] < 28 * multigrid["backsolves"]
     assert multigrid["pressureMax"] == pytest.approx(direct["pressureMax"], rel=1e-8)
 

@@ -73,3 +73,30 @@ def test_bent_by_a_soft_law(tmp_path):
     assert quick.summary["factorisations"] > 1 == slow.summary["factorisations"]
     scale = slow.contact["pressure"].max()
     assert quick.contact["pressure"] == pytest.approx(slow.contact["pressure"], abs=1e-5 * scale)
+
+
+def test_errors_by_the_factor(tmp_path):
+    """The adjoint problems of the factor have the solutions of those by conjugate gradients."""
+    load = f"gravity 0 -9.81\nforce right 0 {0.2 * 7850 * 9.81 * 30} free\n"
+    quick, slow = (
+        part(tmp_path / str(k), strip(30), STEEL + load, "-tol", 1e-8, *words).summary
+        for k, words in enumerate([(), ("-start", "none")])
+    )
+    one, other = quick["estimates"], slow["estimates"]
+    assert one["contactStiffness"] == pytest.approx(other["contactStiffness"], rel=1e-4)
+    for name in ("inside", "line"):
+        assert one["parts"][name] == pytest.approx(other["parts"][name], rel=1e-3, abs=1e-9)
+    # a small difference of large terms, which conjugate gradients leave uncertain
+    change, slow_change = (run["linearised"]["pressureMax"][0] for run in (quick, slow))
+    assert 0.5 < change / slow_change < 2
+
+
+def test_series_of_a_lifted_strip(tmp_path):
+    """Each step of a load series begins with the points in contact of the last one, not with a layer again."""
+    load = f"gravity 0 -9.81\nforce right 0 {0.1 * 7850 * 9.81 * 30} free\n"
+    whole = part(tmp_path / "whole", strip(30), STEEL + load)
+    steps = part(tmp_path / "steps", strip(30), STEEL + load, "-history", 1, "-steps", 4)
+    assert steps.contact["pressure"] == pytest.approx(
+        whole.contact["pressure"], abs=1e-5 * whole.contact["pressure"].max()
+    )
+    assert steps.summary["newton"] <= whole.summary["newton"] + 9
