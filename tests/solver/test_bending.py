@@ -86,9 +86,8 @@ def test_errors_by_the_factor(tmp_path):
     assert one["contactStiffness"] == pytest.approx(other["contactStiffness"], rel=1e-4)
     for name in ("inside", "line"):
         assert one["parts"][name] == pytest.approx(other["parts"][name], rel=1e-3, abs=1e-9)
-    # a small difference of large terms, which conjugate gradients leave uncertain
-    change, slow_change = (run["linearised"]["pressureMax"][0] for run in (quick, slow))
-    assert 0.5 < change / slow_change < 2
+    # rotations lower the pressure where the strip comes down: a small difference of large terms, of which the sign is sure
+    assert quick["linearised"]["pressureMax"][0] < -3e-5
 
 
 def test_series_of_a_lifted_strip(tmp_path):
