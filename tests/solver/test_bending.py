@@ -86,7 +86,7 @@ def test_errors_by_the_factor(tmp_path):
     assert one["contactStiffness"] == pytest.approx(other["contactStiffness"], rel=1e-4)
     for name in ("inside", "line"):
         assert one["parts"][name] == pytest.approx(other["parts"][name], rel=1e-3, abs=1e-9)
-    # rotations lower the pressure where the strip comes down: a small difference of large terms, of which the sign is sure
+    # rotations lower the pressure where the strip comes down: a difference of large terms, whose sign is sure
     assert quick["linearised"]["pressureMax"][0] < -3e-5
 
 
