@@ -17,7 +17,7 @@ from pages import FOLDERS, OPTION_FILES, option_of
 EDP = ROOT / "edp"
 ORDER = [folder for folder in FOLDERS if folder not in ("scenes", "labs")]  # each may use those before it
 BARE = "edp/scenes/confined-block.edp"  # without its options
-READ = {"edp/main.edp": (8465, 82), "edp/parts.edp": (19604, 146), BARE: (5871, 54)}  # lines, files
+READ = {"edp/main.edp": (8465, 82), "edp/parts.edp": (19619, 146), BARE: (5871, 54)}  # lines, files
 LIMITS = {  # what is there at present: to be lowered with the code, never raised
     "globals written outside their module": 107,
     "of these by two other files or more": 19,

@@ -99,3 +99,24 @@ def test_series_of_a_lifted_strip(tmp_path):
         whole.contact["pressure"], abs=1e-5 * whole.contact["pressure"].max()
     )
     assert steps.summary["newton"] <= whole.summary["newton"] + 9
+
+
+def test_two_slaves_on_one_strip(tmp_path):
+    """Two contacts that share a node carry what one contact does: the two points there are not dependent."""
+    load = f"gravity 0 -9.81\nforce right 0 {0.1 * 7850 * 9.81 * 30} free\n"
+    one = part(tmp_path / "one", strip(30), STEEL + load)
+    halves = block(Mesh(), size=(30, 1), cells=(60, 2))
+    bottom = [k for k, (_, tag, ends) in enumerate(halves.elements) if halves.names[tag - 1] == (1, "bottom")]
+    for k in bottom[:30]:
+        kind, _, ends = halves.elements[k]
+        halves.elements[k] = (kind, halves.group(1, "inner"), ends)
+    case = STEEL.replace("symmetry", "obstacle inner plane 0 0 0 1\nsymmetry") + load
+    two = part(tmp_path / "two", halves.text(), case)
+    assert two.summary["factorisations"] > 1 and two.summary["newton"] <= one.summary["newton"] + 2
+    (whole,), parts = one.summary["contacts"], two.summary["contacts"]
+    assert sum(contact["force"][1] for contact in parts) == pytest.approx(whole["force"][1], rel=1e-9)
+    assert all(0 < contact["force"][1] < whole["force"][1] for contact in parts)
+    known = dict(zip(one.contact["x"].round(9), one.contact["pressure"], strict=True))
+    expected = [known[x] for x in two.contact["x"].round(9)]
+    assert two.contact["pressure"] == pytest.approx(expected, abs=1e-5 * max(expected))
+    assert two.summary["estimates"]["parts"] == pytest.approx(one.summary["estimates"]["parts"], rel=0.1, abs=1e-6)
