@@ -30,6 +30,8 @@ CHAPTERS = {
         "edp/docs/tutorial/*.md",
         "edp/labs/README.md",
         "edp/labs/*/README.md",
+        "edp/labs/0-algorithm/algorithm1.md",
+        "edp/labs/0-algorithm/xnewton.md",
         "edp/labs/INSTRUCTOR.md",
         "edp/labs/CRIB.md",
     ],

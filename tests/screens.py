@@ -17,7 +17,8 @@ from freefem import ROOT, TIMEOUT, environment, tree
 
 EDP = ROOT / "edp"
 TUTORIALS = sorted((EDP / "docs/tutorial").glob("*.md"))
-PAGES = [*TUTORIALS, *(EDP / f"docs/{name}.md" for name in ("HOW-IT-WORKS", "CHOOSING", "LIMITS", "ERRORS"))]
+PROGRAMS = [EDP / f"labs/0-algorithm/{name}.md" for name in ("algorithm1", "xnewton")]
+PAGES = [*TUTORIALS, *PROGRAMS, *(EDP / f"docs/{name}.md" for name in ("HOW-IT-WORKS", "CHOOSING", "LIMITS", "ERRORS"))]
 DONE = 'make() { command make -o .venv/run.stamp -o .venv/dev.stamp -o system -o python "$@"; }\n'
 FENCE = re.compile(r"^```(sh|text)\n(.*?)^```$", re.M | re.S)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")

@@ -19,6 +19,7 @@ RUN_BY = {
     "edp/examples/*/README.md": "test_examples.py",  # the case on coarser or finer meshes
     "edp/docs/howto/*.md": "test_commands.py::test_page",
     "edp/labs/*/README.md": "test_labs.py",
+    "edp/labs/0-algorithm/*.md": "test_tutorials.py::test_commands",
     "edp/scenes/README.md": "test_scene_docs.py",
     "edp/docs/tutorial/*.md": "test_tutorials.py::test_commands",
     "edp/docs/ERRORS.md": "test_tutorials.py::test_commands",

@@ -37,7 +37,7 @@ def answers(lab):
 
 def lab_script(lab):
     """The lab's script, relative to the repository's root."""
-    (path,) = (ROOT / "edp/labs" / lab).glob("*.edp")
+    (path,) = (ROOT / "edp/labs" / lab).glob("[!x]*.edp")
     return str(path.relative_to(ROOT))
 
 
@@ -289,6 +289,40 @@ def test_the_page_against_the_package(plain):
     assert printed(stdout, "adaptations") == same.adaptations
     assert printed(stdout, "force") == pytest.approx(same.force, rel=1e-9)
     assert printed(stdout, "greatest pressure") == pytest.approx(same.pressureMax, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["algorithm1", "xnewton"])
+def test_narrated_program(name):
+    """The code of the page on a program shall be the program, line by line, in 150 lines at most."""
+    folder = ROOT / "edp/labs" / PAGE
+    lines = (folder / f"{name}.edp").read_text().splitlines()
+    told = "".join(fences((folder / f"{name}.md").read_text(), "freefem")).splitlines()
+    assert [line for line in told if line] == [line for line in lines if line]
+    assert len(lines) <= 150 and not any(line.startswith("include") for line in lines)
+
+
+XNEWTON = {row[0]: row[1:] for row in next(tables((ROOT / "edp/labs" / PAGE / "xnewton.md").read_text()))[1]}
+
+
+@pytest.mark.parametrize("change", cases_of(["none"], XNEWTON))
+def test_xnewton_page(change, plain):
+    """The second program of lab 0, as it is and changed, shall have the counts of its page, and the package's force."""
+    path = plain / "edp/labs" / PAGE / "xnewton.edp"
+    text = (ROOT / "edp/labs" / PAGE / "xnewton.edp").read_text()
+    flags = []
+    if change != "none":
+        name, value = quoted(change)[0].split(" = ")
+        text, count = re.subn(rf"\b{name} = [^,;]+", f"{name} = {value}", text, count=1)
+        assert count == 1
+        flags = [f"-{name}", value] if name in ("kappa", "m") else []
+    path.write_text(text)
+    code, stdout = execute([*FREEFEM, path.relative_to(plain)], plain, BARE)
+    assert code == 0, stdout
+    labels = ("steps on the surrogate", "Newton steps", "back-substitutions")
+    assert [printed(stdout, label) for label in labels] == list(map(int, XNEWTON[change]))
+    same = run("disc-on-block", "-order", 1, "-h", 0.5, "-estimate", 0, "-tol", 1e-8, *flags)
+    assert printed(stdout, "force") == pytest.approx(same.force, rel=1e-6)
+    assert printed(stdout, "greatest pressure") == pytest.approx(same.pressureMax, rel=1e-6)
 
 
 ADHESIVE = {quoted(row[0])[0]: row[1:] for row in next(tables(answers(MODELS)))[1]}  # lab 11: flags, what it prints
