@@ -1,14 +1,18 @@
-"""Notebooks for Jupyter, one a lab, made of the lab's own page.
+"""Notebooks for Jupyter, one a lab, made of the lab's own page, and executed.
 
-Texts become cells of text, each command becomes a cell that runs it, each question gets a cell for its answer. A lab
-may have further cells of Python in `cells.py`: `# %% Theory` stands before the cell that follows the section Theory,
-`# %% 3` before the one that follows question 3. The last cell checks a table of answers as `make check-lab` does.
+Texts become cells of text, each command becomes a call of Python (`lab_session`), each question gets a cell for its
+answer. A lab may have further cells of Python in `cells.py`: `# %% Theory` stands before the cell that follows the
+section Theory, `# %% 3` before the one that follows question 3. The last cell checks a table of answers as `make
+check-lab` does.
 """
 
+import base64
 import json
 import os
 import re
+import shlex
 from pathlib import Path
+from typing import Any
 
 from postprocess import teaching_kit
 
@@ -53,10 +57,10 @@ def of_page(lab: Path, place: Path) -> list[dict]:
     )
     page = LINK.sub(lambda found: Path(os.path.relpath(lab / found[1], place)).as_posix(), page)
     own = own_cells(lab)
-    (script,) = lab.glob("*.edp")
+    script = min(lab.glob("*.edp"))
     head, *sections = re.split(r"^## ", page, flags=re.M)
-    names = f'lab = "{lab.name}"\nscript = "edp/labs/{lab.name}/{script.name}"\n'
-    cells = [text(head), code(names + teaching_kit.template_file("notebook.py"))]
+    program = f'\nprogram = "edp/labs/{lab.name}/{script.name}"\n'
+    cells = [text(head), code(teaching_kit.template_file("notebook.py") + program)]
     for section in sections:
         name, body = section.partition("\n")[0], f"## {section}"
         if name == "Questions":
@@ -83,17 +87,81 @@ def of_section(body: str) -> list[dict]:
             if line.startswith("#"):
                 above += line + "\n"
             elif line:
-                cells.append(code(f"{above}shell(r'''{line}''')"))
+                cells.append(code(above + call(line, above)))
                 above = ""
     return [cell for cell in [*cells, text(body[at:])] if cell["source"]]
+
+
+def call(line: str, above: str = "") -> str:
+    """A command of a page, or a loop of one, as a call of `lab_session`; `above` may announce another exit code."""
+    if loop := re.fullmatch(r"for (\w+) in (.*?); do (.*); done", line):
+        values = ", ".join(json.dumps(value) for value in loop[2].split())
+        return f"for {loop[1]} in ({values}):\n    {call(loop[3])}"
+    name, *words = shlex.split(line)
+    if [name, *words[:2]] == [".venv/bin/python", "-m", "postprocess"]:
+        name, words = "postprocess", words[2:]
+    elif name in ("FreeFem++", "gmsh"):
+        name, words = name.lower().strip("+"), [word for word in words if word != "-nw"]
+    else:
+        raise ValueError(f"a notebook has no call for the command {line}")
+    codes = [f"codes=({code},)" for code in re.findall(r"exit code (\d+)", above)]
+    return f"{name}({', '.join([*map(literal, words), *codes])})"
+
+
+def literal(word: str) -> str:
+    """A word of the shell as Python has it: `$k` is the variable k, also within a text."""
+    if re.fullmatch(r"\$\w+", word):
+        return word[1:]
+    within = re.sub(r"\$(\w+)", r"{\1}", word)
+    return ("f" if within != word else "") + json.dumps(within, ensure_ascii=False)
 
 
 def of_answers(lab: Path) -> list[dict]:
     """A table to fill in, and the command that checks it."""
     file = f"results/labs/notebook/answers-{lab.name}.csv"
     table = teaching_kit.template(teaching_kit.read_page(lab / "ANSWERS.md"))
-    check = f".venv/bin/python -m postprocess check_lab {lab.name.split('-')[0]} {file}"
     lines = [f"answers = r'''{table}'''", f'file = Path("{file}")', "file.parent.mkdir(parents=True, exist_ok=True)"]
-    lines += ["file.write_text(answers)", f'shell("{check}", codes=(0, 1, 2))']
+    lines += ["file.write_text(answers)", f'postprocess("check_lab", {lab.name.split("-")[0]}, file, codes=(0, 1, 2))']
     words = "## Check\n\nWrite your numbers behind the last commas, and run the cell: it says which are right."
     return [text(words), code("\n".join(lines))]
+
+
+def executed(book: bytes, folder: Path) -> bytes:
+    """The notebook run from first to last cell in `folder`, with outputs and figures. Raises for a cell that fails."""
+    import nbclient  # development dependencies: only an executed notebook needs them
+    import nbformat
+
+    cells = nbformat.reads(book.decode(), as_version=4)
+    folder.mkdir(parents=True, exist_ok=True)
+    place = {"metadata": {"path": str(folder)}}
+    kernel: dict[str, Any] = {
+        "kernel_name": "python3",
+        "startup_timeout": 300,
+        "extra_arguments": ["--log-level=ERROR"],
+    }
+    nbclient.NotebookClient(cells, timeout=600, resources=place, **kernel).execute()
+    for cell in cells.cells:
+        cell.metadata.pop("execution", None)  # the time of day
+    return (nbformat.writes(cells) + "\n").encode()
+
+
+def page_of(book: bytes, name: str) -> dict[str, bytes]:
+    """An executed notebook as a page for a folder below the notebook's: `name`.md, `name`-N.png for each figure."""
+    files: dict[str, bytes] = {}
+    parts = []
+    for cell in json.loads(book)["cells"]:
+        source = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            if source != ANSWER:
+                parts.append(LINK.sub(r"../\1", source))
+            continue
+        parts.append(f"```python\n{source}\n```")
+        for output in cell["outputs"]:
+            data = output.get("data", {})
+            if "image/png" in data:
+                picture = f"{name}-{len(files) + 1}.png"
+                files[picture] = base64.b64decode(data["image/png"])
+                parts.append(f"![output of this cell]({picture})")
+            elif printed := "".join(output.get("text", data.get("text/plain", ""))).strip("\n"):
+                parts.append(f"```text\n{printed}\n```")
+    return {f"{name}.md": ("\n\n".join(parts) + "\n").encode(), **files}

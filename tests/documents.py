@@ -138,8 +138,11 @@ def toctree(places, *options):
 class Site:
     """The pages of the site: where each stands, and what each heading's place is."""
 
-    def __init__(self, root, folder, chapters=CHAPTERS, answers=False):
-        self.root, self.folder, self.chapters = root, folder, chapters
+    def __init__(self, root, folder, chapters=CHAPTERS, answers=False, notebooks=()):
+        """`notebooks`: the pages of executed notebooks, below the root; they are a chapter of their own."""
+        own = {"Notebooks": [path.relative_to(root).as_posix() for path in notebooks]} if notebooks else {}
+        self.root, self.folder, self.chapters = root, folder, chapters | own
+        chapters = self.chapters
         self.below = {}  # {long page: the places of its sections}
         self.listed = {"index"}  # what the table of contents has so far
         self.pages = {}  # place in the site, without suffix: (page, text)
@@ -267,14 +270,14 @@ def mend(path):
     path.write_text(text)
 
 
-def build(out, root=ROOT, chapters=CHAPTERS, answers=False):
-    """Builds the site into a folder; the exit code of Sphinx."""
+def build(out, root=ROOT, chapters=CHAPTERS, answers=False, notebooks=()):
+    """Builds the site into a folder; the exit code of Sphinx. `notebooks`: pages below the root."""
     from sphinx.cmd.build import main  # a development dependency: nothing else of the package wants it
 
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "source")
         source.mkdir()
-        Site(root, source, chapters, answers).write()
+        Site(root, source, chapters, answers, notebooks).write()
         told = {key: int(value) if isinstance(value, bool) else value for key, value in SETTINGS.items()}
         values = [word for key, value in told.items() for word in ("-D", f"{key}={value}")]
         words = [*"-q -W --keep-going -b html -C".split(), *values, "-d", f"{folder}/trees", str(source), str(out)]
@@ -291,9 +294,17 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", required=True, type=Path, help="the site's folder")
     parser.add_argument("--answers", action="store_true", help="with the answers to the labs")
+    parser.add_argument(
+        "--notebooks", type=Path, help="the folder with the pages of executed notebooks, if there is one"
+    )
     given = parser.parse_args()
     shutil.rmtree(given.out, ignore_errors=True)
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    if code := build(given.out, answers=given.answers):
+    books = (
+        sorted(given.notebooks.resolve().glob("*.md"), key=lambda path: int(path.name.split("-")[1]))
+        if given.notebooks
+        else ()
+    )
+    if code := build(given.out, answers=given.answers, notebooks=books):
         sys.exit(code)
     print(f"site: {given.out}/index.html")

@@ -9,14 +9,15 @@ import sys
 import types
 from pathlib import Path
 
+import documents
 import pytest
-from docs.test_readme import fences, section
-from freefem import ROOT
+from docs.test_readme import section
+from freefem import ROOT, cases_of, execute
 
-from postprocess import notebook, teaching_kit
+from postprocess import lab_session, notebook, teaching_kit
 from postprocess.command_line import main
 from postprocess.commands import check_lab
-from scenes.test_labs import LABS, answers, package_in, readme
+from scenes.test_labs import LABS, answers, commands, package_in, readme
 
 
 @pytest.fixture(scope="module")
@@ -35,9 +36,11 @@ def codes(book):
 def test_parts(lab, books):
     """A notebook shall have each command of its lab's page once, each question with room for an answer, no answer."""
     book, page = books[lab], readme(lab)
-    commands = [line for fence in fences(page, "sh") for line in fence.splitlines() if not line.startswith("#")]
-    run = [found[1] for code in codes(book) if (found := re.search(r"^shell\(r'''(.*)'''\)$", code, re.M))]
-    assert run == commands
+    calls = [re.sub(r"^#.*\n", "", code, flags=re.M) for code in codes(book)]
+    called = [code for code in calls if re.match(r"(?:for \w+ in .*\n    )?(?:freefem|postprocess|gmsh)\(", code)]
+    assert called == [notebook.call(line, f"exit code {code}" if code else "") for line, code in commands(lab)]
+    assert not any("shell(" in code or "subprocess" in code for code in codes(book))
+    assert any("plt.subplots" in code for code in codes(book))  # Python that reads results
     texts = [cell["source"] for cell in book["cells"] if cell["cell_type"] == "markdown"]
     asked = re.findall(r"^\d+\. ", section(page, "Questions"), re.M)
     assert texts.count(notebook.ANSWER) == len(asked) > 4
@@ -90,42 +93,71 @@ def test_answers_of_a_notebook(books, tmp_path):
             assert all(well for well, _ in found) == (before == ""), (lab, found)
 
 
-def test_first_cell(books, tmp_path, monkeypatch, capsys):
-    """`shell` shall run in the package, show the pictures that are new, and stop at an exit code that is an error."""
+def test_call():
+    """A command of a page shall become a call with the same words; one of another program is an error."""
+    assert notebook.call("FreeFem++ -nw a.edp -path '0 1'") == 'freefem("a.edp", "-path", "0 1")'
+    loop = "for k in 1 2e3; do FreeFem++ a.edp -kappa $k -out r/x-$k; done"
+    assert notebook.call(loop) == 'for k in ("1", "2e3"):\n    freefem("a.edp", "-kappa", k, "-out", f"r/x-{k}")'
+    drawn = notebook.call(".venv/bin/python -m postprocess state r/one", "# exit code 20: stopped\n")
+    assert drawn == 'postprocess("state", "r/one", codes=(20,))'
+    assert notebook.call("gmsh -2 a.geo") == 'gmsh("-2", "a.geo")'
+    with pytest.raises(ValueError, match="no call for the command sed"):
+        notebook.call("sed s/a/b/ file")
+
+
+def test_session(tmp_path, monkeypatch, capsys):
+    """A session shall work in the package's folder, show new pictures, and stop at an exit code that is an error."""
     shown = []
     display = types.SimpleNamespace(Image=lambda path, width: path, display=shown.append)
     monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
     monkeypatch.setitem(sys.modules, "IPython.display", display)
-    monkeypatch.setenv("MPLBACKEND", "agg")
     for name in ("edp/main.edp", "results/old.png", "results/notebooks/lab.ipynb"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("")
     monkeypatch.chdir(tmp_path / "results/notebooks")
-    names = {}
-    exec(codes(books["2-newton"])[0], names)
-    assert names["script"] == "edp/labs/2-newton/newton.edp"
-    names["shell"]("echo done; touch results/new.png; exit 20")
-    names["shell"](".venv/bin/python -c 'print(6 * 7)'")
-    assert [path.as_posix() for path in shown] == ["results/new.png"]
-    assert capsys.readouterr().out == "done\nresults/new.png\n42\n"
-    with pytest.raises(RuntimeError, match="code 10"):
-        names["shell"]("exit 10")
+    assert lab_session.enter_package() == tmp_path == Path.cwd()
+    assert lab_session.execute("sh", "-c", "echo done; exit 20", codes=(0, 20)) == "done\n"
+    with pytest.raises(RuntimeError, match="exit code 10"):
+        lab_session.execute("sh", "-c", "exit 10")
+    (tmp_path / "table.csv").write_text("x,s'\n1,2\n")
+    assert lab_session.columns("table.csv") == {"x": [1], "s'": [2]}
+    typed = []
+    monkeypatch.setattr(lab_session, "main", lambda words: typed.append(words) or Path("results/new.png").touch() or 0)
+    lab_session.postprocess("state", "results/o*.png", 3)
+    assert typed == [["state", "results/old.png", "3"]] and [path.name for path in shown] == ["new.png"]
+    drawn = []
+    monkeypatch.setitem(sys.modules, "ipywidgets", None)
+    lab_session.explore(lambda kappa: drawn.append(kappa), kappa=[3, 1])
+    widgets = types.SimpleNamespace(
+        SelectionSlider=lambda options, **_: options, interact=lambda draw, kappa: drawn.append(kappa)
+    )
+    monkeypatch.setitem(sys.modules, "ipywidgets", widgets)
+    lab_session.explore(lambda kappa: None, kappa=[3, 1])
+    assert drawn == [3, [3, 1]]
 
 
-@pytest.mark.parametrize("lab", LABS)
+@pytest.mark.parametrize("lab", cases_of(["1-law"], LABS))
 def test_runs(lab, tmp_path):
-    """A notebook shall run in a folder of the package: no error, and its commands' pictures in it."""
-    nbformat, nbclient = (pytest.importorskip(name) for name in ("nbformat", "nbclient"))
-    pytest.importorskip("ipykernel")
+    """A notebook shall run in a folder of the package, with outputs and figures, and become a page of the site."""
+    for name in ("nbformat", "nbclient", "ipykernel"):
+        pytest.importorskip(name)
     package = package_in(tmp_path)
-    folder = package / "results/notebooks"
-    assert main(["notebooks", "--out", str(folder)]) == 0
-    book = nbformat.read(folder / f"lab-{lab}.ipynb", as_version=4)
-    nbformat.validate(book)
-    resources = {"metadata": {"path": str(folder)}}
-    nbclient.NotebookClient(book, timeout=300, kernel_name="python3", resources=resources).execute()
-    drawn = {line for cell in book.cells for out in cell.get("outputs", []) for line in out.get("text", "").split()}
+    done = execute(
+        [ROOT / ".venv/bin/python", *"-m postprocess notebooks --execute --out results/notebooks --lab".split(), lab],
+        package,
+    )
+    assert done[0] == 0, done[1]
+    book = json.loads((package / f"results/notebooks/lab-{lab}.ipynb").read_text())
+    cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+    outputs = [output for cell in cells for output in cell["outputs"]]
+    text = "\n".join("".join(output.get("text", "")) for output in outputs)
     (figure,) = re.findall(r"^\*`(\w+\.png)` of these commands: ", readme(lab), re.M)
-    assert any(Path(word).name == figure for word in drawn)
-    assert "has no value" in book.cells[-1].outputs[0].text
-    assert any("image/png" in out.get("data", {}) for cell in book.cells for out in cell.get("outputs", []))
+    assert f"/{figure}" in text and "has no value" in "".join(cells[-1]["outputs"][0]["text"])
+    drawn = [output for output in outputs if "image/png" in output.get("data", {})]
+    own = [cell for cell in cells if "plt.subplots" in cell["source"]]
+    assert own and len(drawn) > len(own) - 1
+    page = (package / f"results/notebooks/pages/lab-{lab}.md").read_text()
+    assert page.count("](lab-") == len(drawn) == len(list((package / "results/notebooks/pages").glob("*.png")))
+    site = documents.Site(package, tmp_path / "site", {"Labs": ["edp/labs/*/README.md"]}, notebooks=[])
+    links = documents.LINK.findall(page)
+    assert links and [to for _, to in links if not site.target(f"results/notebooks/pages/lab-{lab}.md", to)] == []

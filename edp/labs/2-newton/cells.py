@@ -12,15 +12,14 @@ for kappa in (1e3, 1e6, 1e9, 1e12):
 # The points at every step are in steps.csv; in the block all points are alike.
 figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
 for m in (2, 3, 8):
-    steps = read(Path(f"results/labs/2-newton/m-{m}/steps.csv"))
+    steps = columns(f"results/labs/2-newton/m-{m}/steps.csv")
     s = np.array([steps["s"][steps["newton"] == step][0] for step in np.unique(steps["newton"])])
     axes.semilogy(np.maximum(s - s[-1], 1e-17), "o-", label=f"m = {m}")
     print(f"m = {m}: first ratio {(s[1] - s[-1]) / (s[0] - s[-1]):.4f}, 1 − 1/m = {1 - 1 / m:.4f}")
 axes.set_xlabel("Newton step")
-axes.set_ylabel("error s − s*")
+axes.set_ylabel("error s − s* (length)")
 axes.legend();
 
 # %% 7
 for flags in (["-method", "linesearch"], ["-method", "incremental", "-steps", 5]):
-    _, summary, _ = run(flags[1], *flags, "-states", 0)
-    print(flags, summary["newton"])
+    print(flags, run(flags[1], *flags, "-states", 0).summary["newton"])

@@ -1,6 +1,6 @@
 # %% Commands
 # The threshold of each model, and the overlap.
-models = read(Path("results/labs/3-threshold/loop/adaptations.csv"))
+models = columns("results/labs/3-threshold/loop/adaptations.csv")
 numbers = np.unique(models["adaptation"])
 figure, panels = plt.subplots(1, len(numbers), figsize=(3 * len(numbers), 3), sharey=True, layout="constrained")
 for axes, number in zip(panels, numbers, strict=True):
@@ -9,22 +9,21 @@ for axes, number in zip(panels, numbers, strict=True):
     axes.plot(models["x"][of], models["overlap"][of], label="overlap d")
     axes.set_ylim(-0.5, 0.1)
     axes.set_title(f"model {number:.0f}")
-    axes.set_xlabel("x")
+    axes.set_xlabel("x (length)")
 panels[0].legend();
 
 # %% 3
 # One model, then the next threshold from its greatest pressure, at every point. Stop where no wall acts.
-_, summary, _ = run("one", "-maxAdaptations", 1)
-greatest = summary["pressureMax"]
+greatest = run("one", "-maxAdaptations", 1).summary["pressureMax"]
 threshold = None  # d0 + ... of the greatest pressure: your formula
 print(greatest)
 if threshold is not None:
-    screen, summary, _ = run("two", "-T0", threshold)
-    print(screen[-600:])
+    again = run("two", "-T0", threshold).summary
+    print("points at the wall", again["wallPoints"], "Newton steps", again["newton"])
 
 # %% 5
 counts = {}
 for h in (0.5, 0.25):
-    _, summary, _ = run(f"h-{h}", "-h", h)
+    summary = run(f"h-{h}", "-h", h).summary
     counts[h] = summary["adaptations"], summary["newton"]
 counts

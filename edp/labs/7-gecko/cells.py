@@ -1,0 +1,9 @@
+# %% Commands
+# Force over approach, down and up again: the loop is the energy lost.
+series = columns("results/labs/7-gecko/xnewton/series.csv")
+figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
+axes.plot(series["approach"], series["force"], ".-")
+axes.axhline(0, color="grey", linewidth=0.8)
+axes.set_xlabel("approach (length)")
+axes.set_ylabel("force")
+print("greatest tensile force", -series["force"].min())
