@@ -10,6 +10,7 @@ import functools
 import html
 import io
 import re
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
@@ -24,17 +25,22 @@ from postprocess.results import ResultsError, Run, read_run
 
 LABS = Path(__file__).resolve().parent.parent / "edp" / "labs"
 PAGE = "0-algorithm/algorithm1.edp"
-# Of lab 0's page: what a slide has no room for
-LEFT_OUT = re.compile(
-    r"\s*([{}].*|(cout|plot|set|matrix D|int (newton|j)|real (residual|modelError|misfit)).*|\w+\+\+;|[TSf] = \w+;"
-    r"|(diagonal|changes|modelError) = 0;)"
-)
+# Of lab 0's page: the parts that a slide shows, each by a text in its first line, and one in the line after its last
+SLIDES_OF_CODE = {
+    "newton_step": [("real[int] diagonal", "newton++")],
+    "status_and_thresholds": [("real d = g[i]", "real law"), ("modelError = 0;", "cout.precision")],
+}
 
 
 def folders() -> list[Path]:
     """The labs' folders, in their order."""
     found = [path.parent for path in LABS.glob("[0-9]*/README.md")]
     return sorted(found, key=lambda path: int(path.name.partition("-")[0]))
+
+
+def title_of(lab: Path) -> str:
+    """The title of a lab's page."""
+    return read_page(lab / "README.md").partition("\n")[0].removeprefix("# ")
 
 
 def read_page(path: Path) -> str:
@@ -118,20 +124,16 @@ def film(run: Run) -> Markup:
     return element("div", joined([*frames, element("p", buttons, class_="buttons")]), class_="film")
 
 
-def algorithm() -> Markup:
-    """The loops of lab 0's page without brackets, printing and declarations, in two columns."""
-    text = read_page(LABS / PAGE)
-    lines = text[text.index("while (modelError") : text.index("cout.precision")].splitlines()
-    kept = [line for line in lines if line.strip() and not LEFT_OUT.fullmatch(line)]
-    out, number = [], ""
-    for line in kept:
-        code, _, words = line.partition("//")
-        found = re.match(r" line (\d+)", words)
-        number = found[1] if found else number
-        if code.strip():  # a comment's number stands before the line after it
-            out.append(f"{number:>2} {code.rstrip()}")
-            number = ""
-    return Markup(f'<pre class="algorithm" tabindex="0">{html.escape(chr(10).join(out))}</pre>')
+def program_lines(parts: list[tuple[str, str]]) -> Markup:
+    """Parts of lab 0's page as they stand, without comments; an empty line between two parts."""
+    lines = [re.sub(r" *//.*", "", line) for line in read_page(LABS / PAGE).splitlines()]
+    shown: list[str] = []
+    for first, after in parts:
+        begin = next(place for place, line in enumerate(lines) if first in line)
+        end = next(place for place in range(begin, len(lines)) if after in lines[place])
+        shown += [*([" "] if shown else []), *textwrap.dedent("\n".join(lines[begin:end])).splitlines()]
+    spans = "".join(f"<span>{html.escape(line)}</span>" for line in shown if line)
+    return Markup(f'<pre class="algorithm" tabindex="0">{spans}</pre>')
 
 
 # ---------------------------------------------------------------- pages
@@ -178,7 +180,8 @@ def printed_page(title: str, text: str, folder: Path) -> bytes:
 
 def slides(run: Run) -> list[tuple[str, Markup, Markup]]:
     """(title, content, notes) of each slide."""
-    drawn = {"algorithm": algorithm, "film": lambda: film(run)}
+    drawn: dict[str, Callable[[], Markup]] = {"film": lambda: film(run)}
+    drawn |= {name: functools.partial(program_lines, parts) for name, parts in SLIDES_OF_CODE.items()}
     pictures = slide_figures.PICTURES | {"orders": functools.partial(slide_figures.orders, orders())}
     found = []
     with style.look(), mpl.rc_context(slide_figures.LARGE):
@@ -241,7 +244,7 @@ def make_kit(folder: Path) -> dict[str, bytes]:
     found = slides(read_run(folder))
     files = {"slides.html": slide_page(found)}
     notes = [joined([element("h2", f"{place}. {title}"), words]) for place, (title, _, words) in enumerate(found, 1)]
-    files["notes.html"] = html_page.document(
+    files["teacher/notes.html"] = html_page.document(
         "Speaker's notes", element("main", joined([element("h1", "Speaker's notes"), *notes]), id="main")
     ).encode()
     own = program_without_gmsh()
@@ -255,23 +258,29 @@ def make_kit(folder: Path) -> dict[str, bytes]:
         answers = read_page(lab / "ANSWERS.md")
         files[f"answers-{name}.csv"] = template(answers).encode()
         expected.append(answers)
-    files["expected.html"] = printed_page(
+    files["teacher/expected.html"] = printed_page(
         "Expected values", "# For the teacher alone\n\n" + "\n\n".join(expected), LABS
     )
-    words = {
-        "slides.html": "slides: arrow keys; printed, a page each",
-        "notes.html": "the speaker's notes",
-        "algorithm1.edp": "lab 0 in one file, for FreeFEM alone, no gmsh",
-        "algorithm1.html": "the same to print, two columns",
-        "crib.html": "FreeFEM's idioms in it",
-        "expected.html": "answers and expected values: for the teacher alone",
+    groups = {
+        "The lecture": {"slides.html": "slides: arrow keys; printed, a page each"},
+        "Lab 0 without an installation": {
+            "algorithm1.edp": "the program, for FreeFEM alone, no gmsh",
+            "algorithm1.html": "its listing, two columns",
+            "crib.html": "FreeFEM's idioms in it",
+        },
+        "Handouts": {f"handout-{lab.name}.html": title_of(lab) for lab in folders()},
+        "Answers to fill in": {
+            f"answers-{lab.name}.csv": f"then make check-lab {lab.name.split('-')[0]} ANSWERS=file" for lab in folders()
+        },
+        "For the teacher alone": {
+            "teacher/notes.html": "the speaker's notes",
+            "teacher/expected.html": "answers and expected values; keep the folder teacher/ when you hand out the kit",
+        },
     }
-    words |= {f"handout-{lab.name}.html": f"handout, lab {lab.name}" for lab in folders()}
-    words |= {
-        f"answers-{lab.name}.csv": f"to fill in, then make check-lab {lab.name.split('-')[0]} ANSWERS=file"
-        for lab in folders()
-    }
-    items = (element("li", joined([element("a", name, href=name), ": ", text], "")) for name, text in words.items())
-    body = element("main", joined([element("h1", "Teaching kit"), element("ul", joined(items))]), id="main")
+    parts = [element("h1", "Teaching kit")]
+    for title, names in groups.items():
+        items = (element("li", joined([element("a", name, href=name), ": ", text], "")) for name, text in names.items())
+        parts += [element("h2", title), element("ul", joined(items))]
+    body = element("main", joined(parts), id="main")
     files["index.html"] = html_page.document("Teaching kit", body).encode()
     return files
