@@ -28,7 +28,7 @@ PAGE = "0-algorithm/algorithm1.edp"
 # Of lab 0's page: the parts that a slide shows, each by a text in its first line, and one in the line after its last
 SLIDES_OF_CODE = {
     "newton_step": [("real[int] diagonal", "newton++")],
-    "status_and_thresholds": [("real d = g[i]", "real law"), ("modelError = 0;", "cout.precision")],
+    "status_and_thresholds": [("real d = g[i]", "real law"), ("modelError = 0;", "// line 10")],
 }
 
 
@@ -126,12 +126,13 @@ def film(run: Run) -> Markup:
 
 def program_lines(parts: list[tuple[str, str]]) -> Markup:
     """Parts of lab 0's page as they stand, without comments; an empty line between two parts."""
-    lines = [re.sub(r" *//.*", "", line) for line in read_page(LABS / PAGE).splitlines()]
+    lines = read_page(LABS / PAGE).splitlines()
     shown: list[str] = []
     for first, after in parts:
         begin = next(place for place, line in enumerate(lines) if first in line)
         end = next(place for place in range(begin, len(lines)) if after in lines[place])
-        shown += [*([" "] if shown else []), *textwrap.dedent("\n".join(lines[begin:end])).splitlines()]
+        part = textwrap.dedent("\n".join(re.sub(r" *//.*", "", line) for line in lines[begin:end]))
+        shown += [*([" "] if shown else []), *part.splitlines()]
     spans = "".join(f"<span>{html.escape(line)}</span>" for line in shown if line)
     return Markup(f'<pre class="algorithm" tabindex="0">{spans}</pre>')
 

@@ -76,8 +76,8 @@ def test_devcontainer():
 def test_workflow():
     """The hosted tests shall run .ci/run, and every night all tests, in the Debian of the Dockerfile."""
     yaml = pytest.importorskip("yaml")
-    (path,) = (ROOT / ".github/workflows").iterdir()
-    told = yaml.safe_load(path.read_text())
+    folder = ROOT / ".github/workflows"
+    told = yaml.safe_load((folder / "tests.yml").read_text())
     assert set(told[True]) == {"push", "pull_request", "schedule"}  # YAML reads the word `on` so
     (job,) = told["jobs"].values()
     steps = [step.get("run") or step["uses"] for step in job["steps"]]
@@ -90,6 +90,19 @@ def test_workflow():
     assert job["container"] == stages(DOCKERFILE.read_text())["package"][0][1]
     installed = set(re.search(r"install -y --no-install-recommends (.*)", steps[0])[1].split())
     assert installed >= {"git", "make", "ca-certificates"}
+
+
+def test_workflow_of_the_site():
+    """The site that a forge publishes shall be that of `make site`, with the notebooks, from the Dockerfile's Debian."""
+    yaml = pytest.importorskip("yaml")
+    told = yaml.safe_load((ROOT / ".github/workflows/pages.yml").read_text())
+    (job,) = told["jobs"].values()
+    asked = [step["run"] for step in job["steps"] if "run" in step]
+    made = re.search(r"^site: .*\n\t.*--out \$\(RESULTS\)/(\S+)", (ROOT / "Makefile").read_text(), re.M)
+    (uploaded,) = [step["with"]["path"] for step in job["steps"] if "upload-pages-artifact" in step.get("uses", "")]
+    assert asked[-1] == "make setup && make notebooks && make site" and uploaded == f"results/{made[1]}"
+    assert job["container"] == stages(DOCKERFILE.read_text())["package"][0][1]
+    assert told["permissions"] == {"contents": "read", "pages": "write", "id-token": "write"}
 
 
 def test_page_of_containers():

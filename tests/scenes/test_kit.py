@@ -87,7 +87,8 @@ def test_for_everyone(made, tmp_path):
             assert page.evaluate("controls.length") >= least
         # arrows turn the slides, but scroll what is wider than a phone
         page = browser.open(made / "slides.html", 390, 800)
-        page.evaluate("document.querySelector('pre.algorithm').focus()")
+        page.evaluate("Object.assign(document.querySelector('pre').style, {whiteSpace: 'pre', overflowX: 'auto'})")
+        page.evaluate("{ const code = document.querySelector('pre'); code.tabIndex = 0; code.focus(); }")
         before = page.evaluate("scrollY")
         for kind in ("rawKeyDown", "keyUp"):
             page.call(

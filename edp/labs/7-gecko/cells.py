@@ -1,6 +1,6 @@
 # %% Commands
 # Force over approach, down and up again: the loop is the energy lost.
-series = columns("results/labs/7-gecko/xnewton/series.csv")
+series = columns("results/labs/7-gecko/xnewton/path.csv")
 figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
 axes.plot(series["approach"], series["force"], ".-")
 axes.axhline(0, color="grey", linewidth=0.8)
