@@ -165,12 +165,12 @@ labs: $(VENV)/run.stamp | system reader ## run every command of the labs (edp/la
 kit: $(VENV)/run.stamp | system reader ## the teaching kit: slides, notes, handouts, expected values, lab 0 without gmsh
 	@$(FREEFEM) edp/labs/3-threshold/threshold.edp -h 0.25 -vtu 0 -estimate 0 -out $(RESULTS)/labs/kit-film >/dev/null
 	@$(POST) kit $(RESULTS)/labs/kit-film --out $(RESULTS)/kit
-notebooks: $(VENV)/dev.stamp | system reader ## a notebook for Jupyter of each lab, from its page, with outputs, into results/notebooks/
+notebooks: $(VENV)/dev.stamp | system reader ## each lab as a notebook for Jupyter, executed, into results/notebooks/
 	@$(POST) notebooks --execute --out $(RESULTS)/notebooks
 page: $(VENV)/run.stamp | system ## one HTML page that needs nothing installed: Algorithm 1 step by step, into results/page/
 	@$(POST) play --out $(RESULTS)/page/algorithm1.html
 site: $(VENV)/dev.stamp ## all pages as a site to search, without the labs' answers: make site [TEACHER=1], into results/site/
-	@PYTHONPATH=. $(PYTHON) tests/documents.py $(if $(TEACHER),--answers) --notebooks $(RESULTS)/notebooks/pages --out $(RESULTS)/site
+	@PYTHONPATH=. $(PYTHON) tests/documents.py $(if $(TEACHER),--answers) --notebooks $(RESULTS)/notebooks --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
 LABS    := 0 1 2 3 4 5 6 7 8 9 10 11

@@ -294,14 +294,12 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", required=True, type=Path, help="the site's folder")
     parser.add_argument("--answers", action="store_true", help="with the answers to the labs")
-    parser.add_argument(
-        "--notebooks", type=Path, help="the folder with the pages of executed notebooks, if there is one"
-    )
+    parser.add_argument("--notebooks", type=Path, help="the folder of the executed notebooks, if there is one")
     given = parser.parse_args()
     shutil.rmtree(given.out, ignore_errors=True)
     given.out.parent.mkdir(parents=True, exist_ok=True)
     books = (
-        sorted(given.notebooks.resolve().glob("*.md"), key=lambda path: int(path.name.split("-")[1]))
+        sorted(given.notebooks.resolve().glob("pages/*.md"), key=lambda path: int(path.name.split("-")[1]))
         if given.notebooks
         else ()
     )

@@ -79,7 +79,15 @@ def test_for_everyone(made, tmp_path):
     """Slides and sheets: no serious fault on a desk and on a phone, no control that Tab does not come to or show."""
     pytest.importorskip("axe_core_python")
     with Browser(tmp_path) as browser:
-        for name in ("slides", "index", "teacher/notes", "handout-0-algorithm", "handout-3-threshold", "crib", "algorithm1"):
+        for name in (
+            "slides",
+            "index",
+            "teacher/notes",
+            "handout-0-algorithm",
+            "handout-3-threshold",
+            "crib",
+            "algorithm1",
+        ):
             assert access.wrong(browser, made / f"{name}.html") == [], name
         for name, least in (("slides", 4), ("index", 20)):
             page = browser.open(made / f"{name}.html", 1280, 720)
