@@ -4,7 +4,6 @@ The first cell of a notebook imports these functions. Paths are relative to the 
 """
 
 import glob
-import os
 import shlex
 import shutil
 import subprocess
@@ -18,14 +17,6 @@ from postprocess.results import Run, read_run
 
 CONVERGED, NOT_CONVERGED = 0, 20  # exit codes of a run
 PICTURE_WIDTH = 760  # pixels
-
-
-def enter_package(start: Path | None = None) -> Path:
-    """Makes the package's folder, `start` or one above it, the present one, and returns it."""
-    start = start or Path.cwd()
-    root = next(path for path in [start, *start.parents] if (path / "edp/main.edp").exists())
-    os.chdir(root)
-    return root
 
 
 def execute(*words: object, codes: tuple[int, ...] = (CONVERGED,)) -> str:

@@ -1,14 +1,13 @@
-import sys
+import os
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-sys.path[:0] = [str(path) for path in [Path.cwd(), *Path.cwd().parents] if (path / "edp/main.edp").exists()][:1]
-from postprocess.lab_session import columns, enter_package, explore, freefem, gmsh, postprocess, run_of
+above = [Path.cwd(), *Path.cwd().parents]
+os.chdir(next(path for path in above if (path / "edp/main.edp").exists()))  # all paths are relative to the package
+from postprocess.lab_session import columns, explore, freefem, gmsh, postprocess, run_of
 from postprocess.results import read_run
-
-enter_package()
 
 
 def run(name, *flags):

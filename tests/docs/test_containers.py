@@ -93,7 +93,7 @@ def test_workflow():
 
 
 def test_workflow_of_the_site():
-    """The site that a forge publishes shall be that of `make site`, with the notebooks, from the Dockerfile's Debian."""
+    """The site that a forge publishes shall be that of `make site`, with the notebooks, on the same Debian."""
     yaml = pytest.importorskip("yaml")
     told = yaml.safe_load((ROOT / ".github/workflows/pages.yml").read_text())
     (job,) = told["jobs"].values()
