@@ -6,6 +6,9 @@ shift
 exec 3<<END
 $(printf 'macro %s() 1 //\n' $CONTACT_REQUEST)
 include "$CONTACT_SCRIPT"
+IFMACRO(rowsEnd)
+rowsEnd
+ENDIFMACRO
 END
 export CONTACT_REQUESTED=" $CONTACT_REQUEST "
 unset CONTACT_REQUEST
