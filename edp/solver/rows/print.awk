@@ -37,5 +37,7 @@ END {
   printf "%s", lines
   if (failed > 10) printf "  and %d more, in the column message\n", failed - 10
   if (warned) printf "  %-10s%s\n", "warnings", warned " rows have some, in the column warnings"
+  for (code in number) if (code + 0 > worst) worst = code + 0
   printf "  %-10s%s\n", "files", ENVIRON["FOLDER"] "rows.csv, rows.json"
+  exit worst
 }
