@@ -22,8 +22,9 @@ function cells(line, cell,   n, text, more) {  # the cells of a line of the tabl
 { n = cells($0, cell) }
 NR == 1 { for (k = 1; k <= n; k++) at[cell[k]] = k; next }
 {
-  code = cell[at["code"]]
+  code = cell[at["code"]] + 0
   number[code]++
+  if (code > worst) worst = code
   if (code != 0 && failed++ < 10) lines = lines sprintf("  row %-6d%s\n", cell[1], cell[at["message"]])
   warned += cell[at["warnings"]] != ""
   seconds += cell[n]
@@ -36,6 +37,7 @@ END {
   printf "  %-10s%s, %.2f CPU s\n", "rows", text, seconds
   printf "%s", lines
   if (failed > 10) printf "  and %d more, in the column message\n", failed - 10
-  if (warned) printf "  %-10s%s\n", "warnings", warned " rows have some, in the column warnings"
+  if (warned) printf "  %-10s%s\n", "warnings", "in " warned " rows: column warnings"
   printf "  %-10s%s\n", "files", ENVIRON["FOLDER"] "rows.csv, rows.json"
+  exit worst
 }

@@ -1,6 +1,6 @@
 # results.awk: the table rows.csv from rows.json: a line a row, a column for each number of the summaries
 # Read by awk after output/report/json.awk. The columns are those of all rows, in the order of the first row that has them; lists count from
-# 1. A number under .estimates is left out, and its error stands as NAME.error; true and false are 1 and 0. What is no finite number is empty.
+# 1. estimates.NAME.error stands as NAME.error, without the value; true and false are 1 and 0. What is no finite number is empty.
 function csv(text) {
   if (text !~ /[",\n]/ && text !~ /^ | $/) return text
   gsub(/"/, "\"\"", text)
@@ -24,7 +24,8 @@ function collect(row, path, name,   k, n, entry) {  # stores all numbers below t
   } else if (path in count) {
     for (k = 0; k < count[path]; k++) collect(row, path "." k, name "." k + 1)
   } else if (path in v) {
-    if (sub(/^estimates\./, "", name) && name ~ /\.value$/) return
+    if (name ~ /^estimates\..*\.value$/) return
+    if (name ~ /\.error$/) sub(/^estimates\./, "", name)
     store(row, name, v[path])
   }
 }
@@ -33,21 +34,21 @@ END {
   parse("")
   split("package freefem gmsh date parameters given modules plugins warnings seconds", list, " ")
   for (k in list) omitted[list[k]] = 1
-  rows = count[""]
-  n = split(names[".0.inputs"], input, SUBSEP)
+  rows = count[".rows"]
+  n = split(names[".rows.0.inputs"], input, SUBSEP)
   line = "row"
   for (k = 2; k <= n; k++) line = line "," csv(input[k])
-  for (r = 0; r < rows; r++) if (("." r ".summary") in names) collect(r, "." r ".summary", "")
+  for (r = 0; r < rows; r++) if ((".rows." r ".summary") in names) collect(r, ".rows." r ".summary", "")
   line = line ",code,message,warnings"
   for (k = 1; k <= columns; k++) line = line "," csv(column[k])
   print line ",seconds"
   for (r = 0; r < rows; r++) {
     line = r + 1
-    for (k = 2; k <= n; k++) line = line "," csv(v["." r ".inputs." input[k]])
+    for (k = 2; k <= n; k++) line = line "," csv(v[".rows." r ".inputs." input[k]])
     warnings = ""
-    for (k = 0; k < count["." r ".summary.warnings"]; k++) warnings = warnings (k ? "; " : "") v["." r ".summary.warnings." k]
-    line = line "," v["." r ".code"] "," csv(v["." r ".message"]) "," csv(warnings)
+    for (k = 0; k < count[".rows." r ".summary.warnings"]; k++) warnings = warnings (k ? "; " : "") v[".rows." r ".summary.warnings." k]
+    line = line "," v[".rows." r ".code"] "," csv(v[".rows." r ".message"]) "," csv(warnings)
     for (k = 1; k <= columns; k++) line = line "," cell[r, column[k]]
-    print line "," v["." r ".seconds"]
+    print line "," v[".rows." r ".seconds"]
   }
 }
