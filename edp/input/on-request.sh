@@ -9,7 +9,7 @@ export CONTACT_SCRIPT="$1"
 shift
 exec 3<<END
 $(printf 'macro %s() 1 //\n' $CONTACT_REQUEST)
-$(test -z "$CONTACT_ROWS" || echo 'include "solver/rows/refused-rows.idp"')
+$(test -z "$CONTACT_ROWS" || echo 'include "input/refused-rows.idp"')
 include "$CONTACT_SCRIPT"
 ${CONTACT_ROWS:+rowLoopEnd}
 END
