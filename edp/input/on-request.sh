@@ -9,10 +9,9 @@ export CONTACT_SCRIPT="$1"
 shift
 exec 3<<END
 $(printf 'macro %s() 1 //\n' $CONTACT_REQUEST)
+$(test -z "$CONTACT_ROWS" || echo 'include "input/refused-rows.idp"')
 include "$CONTACT_SCRIPT"
-IFMACRO(rowsEnd)
-rowsEnd
-ENDIFMACRO
+${CONTACT_ROWS:+rowLoopEnd}
 END
 export CONTACT_REQUESTED=" $CONTACT_REQUEST "
 unset CONTACT_REQUEST
