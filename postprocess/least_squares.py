@@ -120,9 +120,7 @@ def fit(model: Model, parameters: list[Parameter], measured: Vector, deviation: 
         residuals, jacobian, _ = now
         gradient = jacobian.T @ residuals
         free = ~(((z <= bounds[:, 0]) & (gradient > 0)) | ((z >= bounds[:, 1]) & (gradient < 0)))
-        # on the gradient over the lengths of columns and residual, which noise and units do not change
-        size = np.linalg.norm(jacobian, axis=0) * np.linalg.norm(residuals)
-        if not free.any() or np.all(np.abs(gradient[free]) <= 1e-7 * size[free] + 1e-300):
+        if not free.any() or is_orthogonal(jacobian[:, free], residuals):
             converged = True
             break
         accepted = False
@@ -137,7 +135,7 @@ def fit(model: Model, parameters: list[Parameter], measured: Vector, deviation: 
                 moved = np.abs(trial - z)
                 fell = residuals @ residuals - new[0] @ new[0]
                 # below the accuracy of the model's own solution nothing more is gained
-                converged = bool(np.all(moved < 1e-6) or fell < 1e-9 * (residuals @ residuals))
+                converged = bool(np.all(moved < 1e-6) or (np.all(moved < 1e-2) and fell < 1e-9 * (residuals @ residuals)))
                 z, now, damping = trial, new, damping / 10
             if not accepted and np.all(np.abs(trial - z) < 1e-7):
                 converged = accepted = True
@@ -157,6 +155,12 @@ def evaluate(
     modelled, jacobian = found
     factors = np.array([values[one.name] if one.is_logarithmic else 1.0 for one in parameters])
     return (modelled - measured) / deviation, jacobian * factors / deviation[:, None], modelled
+
+
+def is_orthogonal(jacobian: np.ndarray, residuals: Vector) -> bool:
+    """Whether a step would move the values by less than a thousandth of their interval (Bates and Watts, 1981)."""
+    explained = jacobian @ np.linalg.lstsq(jacobian, residuals, rcond=1e-10)[0]
+    return bool(np.linalg.norm(explained) <= 1e-3 * np.linalg.norm(residuals - explained) + 1e-7)
 
 
 def damped_step(jacobian: np.ndarray, residuals: Vector, damping: float, free: Vector) -> Vector:
