@@ -43,7 +43,7 @@ function range(text, log10,   part, k, from, to) {  # appends FROM:TO:COUNT to t
   for (k = 0; k < part[3]; k++)
     value[columns, ++count[columns]] = sprintf("%.12g", log10 ? exp(log(from) + (log(to) - log(from)) * k / (part[3] - 1)) : from + (to - from) * k / (part[3] - 1))
 }
-function product(   item, items, word, words, i, k, log10) {  # all combinations of the lists, the last one running fastest
+function product(   item, items, word, words, i, k) {  # all combinations of the lists, the last one running fastest
   items = split(ENVIRON["VARY"], item, ",")
   for (i = 1; i <= items; i++) {
     words = split(item[i], word, /[ \t]+/)
@@ -51,11 +51,11 @@ function product(   item, items, word, words, i, k, log10) {  # all combinations
     if (k > words) refuse("list " i " is empty; allowed: a flag and its values, as kappa 1 10 100")
     while (words > 0 && word[words] == "") words--
     addColumn(word[k])
-    log10 = word[words] == "log"
-    if (log10) words--
     for (k++; k <= words; k++) {
-      if (word[k] ~ /:/) range(word[k], log10)
-      else value[columns, ++count[columns]] = word[k]
+      if (word[k] ~ /:/) {
+        range(word[k], word[k + 1] == "log")
+        if (word[k + 1] == "log") k++
+      } else value[columns, ++count[columns]] = word[k]
     }
     if (count[columns] == 0) refuse(name[columns] ": no values; allowed: " name[columns] " and values")
   }
