@@ -1,6 +1,6 @@
 """Probabilities and quantiles of the distributions of Student and of chi squared, by continued fractions.
 
-Sources: Press and others, Numerical Recipes, 3rd edition 2007, sections 6.2 (incomplete gamma) and 6.4 (incomplete beta).
+Source: Press and others, Numerical Recipes, 3rd edition 2007, sections 6.2 (incomplete gamma), 6.4 (incomplete beta).
 """
 
 import math

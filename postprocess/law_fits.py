@@ -1,4 +1,4 @@
-"""Laws fitted to measurements: their parameters with bounds and first values, fits from several of these, their ranking."""
+"""Laws fitted to measurements: their parameters with bounds and first values, and fits from the best of these."""
 
 import math
 from dataclasses import dataclass

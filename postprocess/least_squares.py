@@ -1,4 +1,4 @@
-"""Weighted nonlinear least squares with bounds: parameters of a model from measured values, and how well these determine them.
+"""Weighted nonlinear least squares with bounds: parameters from measured values, and how well these determine them.
 
 `fit` minimises the sum of the squares of (model - measured)/deviation by Levenberg's and Marquardt's method. Positive
 parameters vary in their logarithms, so a step is a factor. Parameters at a bound that the sum would pass are held.
@@ -45,7 +45,7 @@ class Parameter:
 
 @dataclass
 class Fit:
-    """A solution: values, covariance in inner variables, residuals in standard deviations, and what was not determined."""
+    """A solution: values, covariance of inner variables, residuals in standard deviations, what was not determined."""
 
     parameters: list[Parameter]
     values: dict[str, float]
@@ -94,7 +94,7 @@ class Fit:
         return self.covariance / np.outer(size, size)
 
     def misfit_probability(self) -> float:
-        """The probability of a sum of squares as large as this one, if law and stated deviations are right; else NaN."""
+        """The probability of a sum of squares as large as this one, if law and deviations are right; else NaN."""
         if not self.is_scatter_known or self.freedom < 1:
             return math.nan
         return chi_squared_tail(self.sum_of_squares, self.freedom)
@@ -108,7 +108,7 @@ class Fit:
 
 
 def fit(model: Model, parameters: list[Parameter], measured: Vector, deviation: Vector, known: bool) -> Fit | None:
-    """The best fit from the first values on; None if the model has no solution there. known: deviations are absolute."""
+    """The best fit from the first values on; None without a solution there. known: deviations are absolute."""
     bounds = np.array([one.bounds() for one in parameters])
     z = np.clip([one.inner(one.first) for one in parameters], *bounds.T)
     now = evaluate(model, parameters, z, measured, deviation)
@@ -135,7 +135,9 @@ def fit(model: Model, parameters: list[Parameter], measured: Vector, deviation: 
                 moved = np.abs(trial - z)
                 fell = residuals @ residuals - new[0] @ new[0]
                 # below the accuracy of the model's own solution nothing more is gained
-                converged = bool(np.all(moved < 1e-6) or (np.all(moved < 1e-2) and fell < 1e-9 * (residuals @ residuals)))
+                converged = bool(
+                    np.all(moved < 1e-6) or (np.all(moved < 1e-2) and fell < 1e-9 * (residuals @ residuals))
+                )
                 z, now, damping = trial, new, damping / 10
             if not accepted and np.all(np.abs(trial - z) < 1e-7):
                 converged = accepted = True
@@ -187,9 +189,7 @@ def summarise(
     _, singular, directions = np.linalg.svd(jacobian, full_matrices=True)
     singular = np.concatenate([singular, np.zeros(len(parameters) - len(singular))])
     safe = np.maximum(singular, 1e-12 * max(float(singular.max()), 1e-300))
-    at_bound = [
-        one.name for one, at, (low, high) in zip(parameters, z, bounds, strict=True) if at <= low or at >= high
-    ]
+    at_bound = [one.name for one, at, (low, high) in zip(parameters, z, bounds, strict=True) if at <= low or at >= high]
     found = Fit(
         parameters,
         {one.name: one.outer(inner) for one, inner in zip(parameters, z, strict=True)},

@@ -50,7 +50,9 @@ def number(path: Path, line: int, column: str, text: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ResultsError(path, f"line {line}, {column}: {text!r} is not a number; allowed: a number, or an empty cell")
+        raise ResultsError(
+            path, f"line {line}, {column}: {text!r} is not a number; allowed: a number, or an empty cell"
+        )
     return value
 
 
@@ -64,11 +66,14 @@ def read_measurements(path: Path) -> Measurements:
     measured = [n for n in head if n not in loads and n != "sd" and not n.endswith("_sd")]
     if len(loads) != 1 or not measured or len(set(head)) < len(head):
         raise ResultsError(
-            path, f"columns {','.join(head)}: allowed: one load (approach, load or a flag as -drag), and measured results"
+            path,
+            f"columns {','.join(head)}: allowed: one load (approach, load or a flag as -drag), and measured results",
         )
     unknown = [n for n in measured if n not in RESULTS and "." not in n]
     if unknown:
-        raise ResultsError(path, f"column {unknown[0]}: allowed: {' '.join(RESULTS)}, or the name of a number in rows.csv")
+        raise ResultsError(
+            path, f"column {unknown[0]}: allowed: {' '.join(RESULTS)}, or the name of a number in rows.csv"
+        )
     if "sd" in head and len(measured) > 1:
         raise ResultsError(path, f"column sd: of which result? allowed: {' '.join(f'{n}_sd' for n in measured)}")
     found = Measurements(LOADS.get(loads[0], loads[0][1:]), [])
@@ -140,13 +145,13 @@ class ContactModel:
 
     def has_sensitivities(self, rows: list[Row | None], names: list[str]) -> bool:
         """Whether all derivatives are known without differences."""
-        return all(
-            rows[at] is None
-            or f"sensitivities.{DERIVED.get(name, name)}.{parameter}" in rows[at]
-            or f"sensitivities.{DERIVED.get(name, name)}.{parameter}.above" in rows[at]
-            for name, at in zip(self.measured.names, self.measured.at, strict=True)
-            for parameter in names
-        )
+        for name, at in zip(self.measured.names, self.measured.at, strict=True):
+            row = rows[at]
+            for parameter in names:
+                key = f"sensitivities.{DERIVED.get(name, name)}.{parameter}"
+                if row is not None and key not in row and f"{key}.above" not in row:
+                    return False
+        return True
 
     def result(self, row: Row, name: str) -> float:
         """A result of a row; the stiffness is the derivative of the force by the approach."""
@@ -155,5 +160,7 @@ class ContactModel:
                 return 1 / row["sensitivities.approach.force"]
             return row.get("sensitivities.force.u0", row.get("sensitivities.force.u0.above", math.nan))
         if name not in row:
-            raise ResultsError(name, "no such result of this run; allowed: a number in its rows.csv, or in summary.json")
+            raise ResultsError(
+                name, "no such result of this run; allowed: a number in its rows.csv, or in summary.json"
+            )
         return row[name]

@@ -1,7 +1,7 @@
-"""The problem of a finished run, solved again with other numbers: all at once by a table of problems, with sensitivities.
+"""The problem of a finished run, solved again with other numbers: all in one table of problems, with sensitivities.
 
-A problem is {flag: number}. Flags that change mesh or stiffness, as -E, are given on the command line: one run of FreeFEM
-for each of their values. What has no table of problems, as friction, takes a run for each problem.
+A problem is {flag: number}. Flags that change mesh or stiffness, as -E, are given on the command line: one run of
+FreeFEM for each of their values. What has no table of problems, as friction, takes a run for each problem.
 """
 
 import csv
@@ -42,9 +42,7 @@ class Problem:
             ).append(k)
         found: list[Row | None] = [None] * len(problems)
         for common, members in groups.items():
-            part = [
-                {n: v for n, v in problems[k].items() if self.has_rows and n in ROW_FLAGS} for k in members
-            ]
+            part = [{n: v for n, v in problems[k].items() if self.has_rows and n in ROW_FLAGS} for k in members]
             for k, row in zip(members, self.solve_group(dict(common), part, sensitivities), strict=True):
                 found[k] = row
         return found

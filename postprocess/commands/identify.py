@@ -52,7 +52,9 @@ def run(arguments: argparse.Namespace) -> None:
     sought = read_parameters(wanted, problem)
     fits = [found for law in laws if (found := fit_law(law, problem, measured, sought, arguments.starts))]
     if not fits:
-        raise ResultsError(arguments.measured, "no first values have a solution at all loads; allowed: another RUN or --fit")
+        raise ResultsError(
+            arguments.measured, "no first values have a solution at all loads; allowed: another RUN or --fit"
+        )
     fits.sort(key=lambda one: one.fit.criteria()[0])
     for line in report(fits, measured, problem):
         print(line)
@@ -67,7 +69,9 @@ def check_loads(problem: Problem, measured: Measurements) -> None:
         raise ResultsError("MEASURED.csv", f"-{measured.flag}: no flag of this run")
     by_force = measured.flag == "force"
     if not by_force and float(problem.parameters.get("force", 0)) > 0 and measured.flag == "u0":
-        raise ResultsError("MEASURED.csv", "approach: RUN has a prescribed force; allowed: load, or a RUN without -force")
+        raise ResultsError(
+            "MEASURED.csv", "approach: RUN has a prescribed force; allowed: load, or a RUN without -force"
+        )
     prescribed = "force" if by_force else "approach"
     if measured.flag in LOADS.values() and prescribed in measured.names:
         raise ResultsError("MEASURED.csv", f"{prescribed}: is the load; allowed: other results")
@@ -93,9 +97,13 @@ def warnings_of(one: LawFit) -> list[str]:
     found = one.fit
     said = []
     if found.freedom < 0:
-        said.append(f"{len(found.residuals)} values cannot determine {len(found.parameters)} parameters: measure at more loads")
+        said.append(
+            f"{len(found.residuals)} values cannot determine {len(found.parameters)} parameters: measure at more loads"
+        )
     for direction in found.undetermined:
-        said.append(f"the data do not determine {direction_text(found, direction)}: measure at other loads, or fit less")
+        said.append(
+            f"the data do not determine {direction_text(found, direction)}: measure at other loads, or fit less"
+        )
     if found.at_bound:
         said.append(f"{' '.join(found.at_bound)} at a bound: widen it, or fit less")
     if not found.converged:

@@ -15,13 +15,18 @@ from pathlib import Path
 import numpy as np
 
 from postprocess.law_fits import LINEAR
-from postprocess.problem_rows import Problem, Row, read_problem
+from postprocess.problem_rows import Problem, Row, Setting, read_problem
 from postprocess.results import ResultsError
 
 NORMAL = 1.959963984540054  # half the 95 % interval of a normal distribution, in standard deviations
 LINEAR_WITHIN = 0.1  # relative difference of first order and samples that is called linear
 SAME = 0.1  # of a standard deviation: how far the run's parameters may be from the identified ones
-NAMES = {"force": "contact force", "approach": "approach", "pressureMax": "greatest pressure", "overlapMax": "greatest overlap"}
+NAMES = {
+    "force": "contact force",
+    "approach": "approach",
+    "pressureMax": "greatest pressure",
+    "overlapMax": "greatest overlap",
+}
 
 
 @dataclass
@@ -120,7 +125,9 @@ def absolute_deviation(path: Path, problem: Problem, name: str, one: dict) -> fl
     if not isinstance(problem.parameters.get(name), int | float):
         raise ResultsError(path, f"{name}: no number of this run")
     if abs(float(problem.parameters[name]) - one["value"]) > SAME * deviation:
-        raise ResultsError(path, f"{name} is {one['value']:.6g}, in RUN {problem.parameters[name]:.6g}: run with the former")
+        raise ResultsError(
+            path, f"{name} is {one['value']:.6g}, in RUN {problem.parameters[name]:.6g}: run with the former"
+        )
     return float(deviation)
 
 
@@ -140,7 +147,7 @@ def sample(problem: Problem, uncertain: Uncertain, count: int, seed: int) -> lis
     spread = np.linalg.cholesky(uncertain.covariance / np.outer(scale, scale) + 1e-14 * np.eye(len(scale)))
     normal = np.random.default_rng(seed).standard_normal((count, len(scale))) @ spread.T
     values = np.where(linear, uncertain.values + normal, uncertain.values * np.exp(normal))
-    settings = [dict(zip(uncertain.names, map(float, row), strict=True)) for row in values]
+    settings: list[Setting] = [dict(zip(uncertain.names, map(float, row), strict=True)) for row in values]
     found = [row for row in problem.solve(settings, False) if row is not None]
     if len(found) < 0.9 * count:
         raise ResultsError("--samples", f"only {len(found)} of {count} problems have a solution: smaller deviations")

@@ -1,9 +1,10 @@
-"""Synthetic measurements with known parameters: how often the 95 % intervals contain them, and whether a wrong law is found out.
+"""Synthetic measurements with known parameters: how often 95 % intervals contain them, and whether a wrong law shows.
 
-python tests/campaigns/identification.py [SETS [SEED]]: draws SETS tables (default 200) of 8 forces on a compliant layer with
-normal noise of 1 %, each with its own kappa and m, and identifies them by the power law: with the deviations stated, and
-with estimated ones. Then it draws half as many from the exponential law, and fits both laws. All tables are
-identified at the same time: each step of all fits is one run of FreeFEM. Writes results/identification/identification.csv.
+python tests/campaigns/identification.py [SETS [SEED]]: draws SETS tables (default 200) of 8 forces on a compliant layer
+with normal noise of 1 %, each with its own kappa and m, and identifies them by the power law: with the deviations
+stated, and with estimated ones. Then it draws half as many from the exponential law, and fits both laws. All tables are
+identified at the same time: each step of all fits is one run of FreeFEM. Writes
+results/identification/identification.csv.
 """
 
 import csv
