@@ -33,7 +33,8 @@ def under_a_layer(x, young, poisson, k, depth, length, loaded, load, count=150):
 
 
 def solved(folder, case, *flags):
-    part(folder, BEAM, case, *flags)
+    screen = part(folder, BEAM, case, *flags).stdout
+    assert ("greatest displacement along gravity\n    beam " in screen) == ("gravity" in case)
     return json.loads((folder / "out/summary.json").read_text()), table(folder / "out/contact.csv")
 
 
@@ -71,3 +72,13 @@ def test_refusals():
         with pytest.raises(Refusal) as refused:
             read_case(PLATE + FOUNDATION.replace("k 0.5", words), Where(), groups)
         assert told in refused.value.text("a.case")
+
+
+def test_gravity(tmp_path):
+    """A column on a foundation shall sink by its weight and its own compression; the place and the error are given."""
+    case = f"state strain\nbody beam E 50 nu 0 density 2\n{FOUNDATION}symmetry left\nsymmetry right\ngravity 0 -0.01\n"
+    summary, _ = solved(tmp_path, case, "-set", "length", 10, "-set", "part", 5)
+    (found,) = summary["deflections"]
+    sunk = 0.02 * 4 / 0.5 + 0.02 * 4**2 / (2 * 50)
+    assert found["body"] == "beam" and found["at"][1] == 4
+    assert abs(found["value"] - sunk) <= found["error"] < 1e-5 * sunk
