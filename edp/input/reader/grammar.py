@@ -768,6 +768,13 @@ class Flux(Statement, word="flux", example="flux top 0.3"):
     value: float = number("the flux", "q", unit="power/area")
 
 
+class Source(Statement, word="source", example="source pellet 0.3"):
+    does = "heat made in a body"
+    synonyms = "dflux heatsource bodyflux"
+    on: Group = body()
+    value: float = number("the source", "q", unit="power/volume")
+
+
 class Film(Statement, word="film", example="film outside 25e-6 20"):
     does = "heat exchanged with what is around"
     synonyms = "convection"
