@@ -75,7 +75,7 @@ def test_law_over_its_range(tmp_path, kappa, m):
 
 PAIRS = [(0, 0), (0.1, 0.3), (0.25, 1), (0.3, 2.5), (0.7, 4), (1, 40)]
 CURVES = [((100 / kappa) ** (1 / m), ("-kappa", kappa, "-m", m)) for kappa, m in [(1e3, 3), (1e12, 1.05), (1e30, 30)]]
-CURVES += [(0.05, ("-law", "exponential")), (0.02, ("-law", "barrier"))]
+CURVES += [(0.05, ("-law", "exponential")), (0.02, ("-law", "barrier")), (0.3, ("-law", "linear", "-k", 7))]
 CURVES += [(0.29, ("-law", "table", "-table", "pairs.csv"))]
 
 

@@ -204,7 +204,7 @@ def test_examples_of_statements(space):
     where = Where(space=bool(space))
     examples = {word: shown(cls.example, where).split() for word, cls in STATEMENTS.items() if cls.example}
     assert len(examples) >= 25
-    bodies = ("body", "expand", "weight", "spin", "conduct", "plastic")
+    bodies = ("body", "expand", "weight", "spin", "conduct", "source", "plastic")
     for word, words in examples.items():
         left_out = ("group", "size", "preload", "leg", "cut", "join", "cycles")
         if word in left_out or (space and word in ("thickness", "state", "plastic")):
@@ -214,7 +214,7 @@ def test_examples_of_statements(space):
         if word in ("contact", "tie"):
             words[2] = "bottom"
         first = "" if word == "body" else "body block E 100 nu 0.3 density 1\n"
-        if word in ("conduct", "temperature", "flux", "film"):  # none without the others
+        if word in ("conduct", "temperature", "flux", "film", "source"):  # none without the others
             first += "conduct block 1\n" * (word != "conduct") + "temperature bottom 0\n"
         obstacle = f"obstacle {'left' if space else 'right'} plane 9 0 {'0 -1 0 0' if space else '-1 0'}\n"
         lines = first + " ".join(words) + "\n" if word not in ("state", "thickness") else " ".join(words) + "\n" + first

@@ -147,7 +147,7 @@ force bottom 0 1 free | bottom: a free force on what line 2 holds (clamp) does n
 force bottom 0 1 rigid | bottom: force after clamp in line 2
 line a.b 0 0 1 1 | a.b: a name for files; allowed: letters, digits, - and _
 line a 0 1 0 1 | line a: begins where it ends; allowed: line NAME x y x y
-temperature left 3 | line 4: a temperature, flux or film, and no body conducts
+temperature left 3 | line 4: a temperature, flux, film or source, and no body conducts
 conduct block 3 | conduct, and no temperature anywhere
 conduct block 3 / temperature left 1 / flux left 2 | line 6: left: a flux or film where line 5 gives the temperature
 conduct block 3 / film left 1 1 / expand block 1 1 | line 6: expand with conduct; allowed: conduct block k expand
@@ -613,7 +613,7 @@ def test_bodies_without_names():
 
 
 OF_BODIES = {"body", "weight", "expand", "plastic", "conduct", "spin"}
-WITH_OTHERS = "preload leg cut join cycles group units stresses temperature flux film conduct spin".split()
+WITH_OTHERS = "preload leg cut join cycles group units stresses temperature flux film source conduct spin".split()
 
 
 @pytest.mark.parametrize("space", [False, True])

@@ -309,11 +309,14 @@ def body_loads(case: Case) -> Iterable[Refusal]:
 
 def heat(case: Case) -> Iterable[Refusal]:
     conducts, each = case.on(g.Conduct), "with a line conduct BODY k for each body"
-    given: list[Statement] = [s for s in case.statements if isinstance(s, (g.Temperature, g.Flux, g.Film))]
+    given: list[Statement] = [s for s in case.statements if isinstance(s, (g.Temperature, g.Flux, g.Film, g.Source))]
     with_conductance = [s for s in case.of(g.Contact) if s.conductance]
+    for s in with_conductance:
+        if s.conductance and s.conductance.fault():
+            yield Refusal(f"conductance: {s.conductance.fault()}; allowed: one of them", s.line)
     if not conducts:
         for s in given:
-            yield Refusal(f"a temperature, flux or film, and no body conducts; allowed: {each}", s.line)
+            yield Refusal(f"a temperature, flux, film or source, and no body conducts; allowed: {each}", s.line)
         for s in with_conductance[-1:]:
             yield Refusal(f"a conductance, and no body conducts; allowed: {each}", s.line)
         return

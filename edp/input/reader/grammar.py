@@ -249,9 +249,24 @@ class Hardness(Part):
     exponent: float = option("exponent", number("the exponent", "m", above=0, below=3), default=0.95)
 
 
+class Gas(Part):
+    conductivity: float = number("the conductivity in the gap", "k", above=0, unit="power/(length temperature)")
+    layer: float = option("layer", number("the gap's rest in contact", "d", above=0, unit="length"), default=0.0)
+
+
 class Conductance(Part):
     value: float = number("the conductance", "h0", above=0, unit="power/(area temperature)")
     hardness: Hardness | None = option("hardness", Hardness)
+    gap: Gas | None = option("gap", Gas)
+
+    def fault(self) -> str:
+        """Why the gap cannot conduct so, or nothing."""
+        if self.gap and bool(self.gap.layer) != bool(self.hardness):
+            return (
+                "with a hardness a gap has a layer: conductance h0 hardness H gap k layer d; "
+                "without, its layer is k/h0: conductance h0 gap k"
+            )
+        return ""
 
 
 def no_profile(path: str) -> str:
@@ -766,6 +781,13 @@ class Flux(Statement, word="flux", example="flux top 0.3"):
     synonyms = "hflux heatflux"
     on: Group = boundary()
     value: float = number("the flux", "q", unit="power/area")
+
+
+class Source(Statement, word="source", example="source pellet 0.3"):
+    does = "heat made in a body"
+    synonyms = "dflux heatsource bodyflux"
+    on: Group = body()
+    value: float = number("the source", "q", unit="power/volume")
 
 
 class Film(Statement, word="film", example="film outside 25e-6 20"):

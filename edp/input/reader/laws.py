@@ -12,11 +12,19 @@ from .words import meant
 PARAMETERS = {
     "kappa": Number("kappa", above=0, unit="pressure/length^m"),
     "m": Number("m", above=1, below=1000),
+    "k": Number("k", above=0, unit="pressure/length"),
     "p0": Number("p0", above=0, unit="pressure"),
     "beta": Number("beta", above=0, unit="1/length"),
     "d0": Number("d0", below=0, unit="length"),
 }
-LAWS = {"power": "kappa m d0", "exponential": "p0 beta d0", "barrier": "p0 d0", "table": "d0", "signorini": ""}
+LAWS = {
+    "power": "kappa m d0",
+    "exponential": "p0 beta d0",
+    "barrier": "p0 d0",
+    "table": "d0",
+    "linear": "k",
+    "signorini": "",
+}
 EXAMPLE = "law power kappa 1e6 m 3 d0 -0.001"
 NAMES = ", ".join(f"{law}{' FILE' * (law == 'table')} {takes}".rstrip() for law, takes in LAWS.items())
 
@@ -29,6 +37,7 @@ class Law(Part):
     file: str = ""
     kappa: float = 0.0
     m: float = 0.0
+    k: float = 0.0
     p0: float = 0.0
     beta: float = 0.0
     d0: float = 0.0

@@ -27,6 +27,7 @@ class Needs:
     loads: bool
     forces: bool  # free and rigid forces, moments, springs, spins
     moments: bool  # to be told about a point
+    gravity: bool
     wear: bool
     plastic: bool
 
@@ -69,6 +70,7 @@ def needs(case: Case) -> Needs:
         loads=case.has(g.Pressure, g.Traction, g.Weight, g.Gravity),
         forces=bool(pushed) or case.has(g.Moment, g.Spin, g.Spring),
         moments=friction or case.has(g.AboutPoint, g.Moment, g.Rotate),
+        gravity=case.has(g.Gravity),
         wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
     )
@@ -114,7 +116,8 @@ def modules(need: Needs, run: Run) -> Modules:
         "plastic": need.plastic,
         "friction": need.friction,
         "initialStrain": need.strains,
-        "stresses": need.stresses,
+        "stresses": need.stresses or need.gravity,
+        "deflections": need.gravity,
         "largeRotation": far,
     }
     return Modules([name for name, on in asked.items() if on], [name for name, on in options.items() if on and run.own])

@@ -244,22 +244,6 @@ function printMoments(   k, p, i, e, m, unit, note, some) {  # requested moments
     printTrimmed(sprintf("    %-24s %14s %s  %s", v[p ".name"], vectorText(p ".moment", 3, 0), unit, joinNotes(note, e > 0 ? "size " valueText(m ^ 0.5, e) " ± " errorText(m ^ 0.5, e) " " bracketedPercent(e, m ^ 0.5) : "")))
   }
 }
-function printHeat(   k, p, greatest) {  # temperatures and heat flows
-  print "  heat, errors not known"
-  for (k = 0; k < count[".heat.bodies"]; k++) {
-    p = ".heat.bodies." k
-    printTrimmed(sprintf("    %-24s %14s", v[p ".name"] " is at", roundDigits(v[p ".least"], 6) " to " roundDigits(v[p ".greatest"], 6)))
-  }
-  greatest = v[".heat.in"] > v[".heat.out"] ? v[".heat.in"] : v[".heat.out"]
-  for (k = 0; k < count[".heat.contacts"]; k++) {
-    p = ".heat.contacts." k
-    printResult("  " v[p ".name"] " conducts", zeroIfRounding(v[p ".heat"], greatest), 0, "", known(p ".jump") ? "over a jump of " roundDigits(v[p ".jump"], 6) ", mean conductance " roundDigits(v[p ".conductance"], 6) : "")
-  }
-  for (k = 0; k < count[".heat.groups"]; k++)
-    printResult("  " v[".heat.groups." k ".name"] " gives", zeroIfRounding(v[".heat.groups." k ".heat"], greatest), 0, "", "")
-  if (greatest > 0) print "    heat in = heat out (to " roundDigits(absolute(v[".heat.in"] - v[".heat.out"]) / greatest, 1) ")"
-}
-function zeroIfRounding(x, greatest) { return absolute(x) < 1e-9 * greatest ? 0 : x + 0 }  # x, or 0 if it is below rounding of the greatest number
 # text with the force or moment x (per unit of thickness) for the whole thickness of a plane case
 function thicknessNote(x, word,   unit) {
   if (dimension == 3 || v[".state"] == "axisymmetric" || v[".thickness"] == 1) return ""
@@ -313,30 +297,9 @@ function printCase(   k, p, e, word, times, j, with, forced) {  # results of a c
     printResult("preload " v[p ".name"], v[p ".force"], e, contactForceUnit, "under the loads; tightened to " joinNotes(roundDigits(v[p ".preload"], 6), thicknessNote(v[p ".preload"], "force")) ", shortened by " \
       (e < 0 ? roundDigits(v[p ".shortened"], 6) ", errors not known" : valueText(v[p ".shortened"], v[p ".shortenedError"]) " ± " errorText(v[p ".shortened"], v[p ".shortenedError"])))
   }
+  printDeflections()
   printStresses()
   if (known(".heat.rounds")) printHeat()
-}
-function printPlastic(   k, p, c, s, unit) {  # plastic strains and energies of bodies that yield; the error of the mesh is not known
-  if (v[".plastic.yielded"] != "true") { print "  no body yields: the results are elastic ones"; return }
-  unit = v[".units.0"] (known(".units.0") ? (v[".state"] == "axisymmetric" ? "^3" : "^2") : "")
-  print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations: the error of the mesh is not known"
-  for (k = 0; k < count[".plastic.bodies"]; k++) {
-    p = ".plastic.bodies." k
-    printTwoErrors("greatest of " v[p ".body"], v[p ".strainMax"], -1, known(p ".strainMaxError") ? v[p ".strainMaxError"] : -1, "", "at " vectorText(p ".at", 2, 0))
-    printTwoErrors("yielded " (v[".state"] == "axisymmetric" ? "volume" : "area"), v[p ".volume"], -1, known(p ".volumeError") ? v[p ".volumeError"] : -1, unit, \
-      "(" roundDigits(100 * v[p ".share"], 3) " % of " v[p ".body"] ")")
-  }
-  for (c = 0; c < count[".contacts"]; c++) {
-    p = ".plastic.contacts." c
-    if (!known(p ".normalForceError") || v[".contacts." c ".contactPoints"] == 0) continue
-    printTwoErrors("force of " v[".contacts." c ".name"], v[".contacts." c ".normalForce"], -1, v[p ".normalForceError"], contactForceUnit, "")
-    printTwoErrors("greatest pressure", v[".contacts." c ".pressureMax"], -1, v[p ".pressureMaxError"], v[".units.1"], "")
-  }
-  printTwoErrors("dissipated", v[".plastic.dissipated"], -1, known(".plastic.dissipatedError") ? v[".plastic.dissipatedError"] : -1, "", "", 1e-3 * v[".plastic.work"])
-  s = v[".plastic.storedElastic"] + v[".plastic.storedByHardening"]
-  print "  work on the bodies " roundDigits(v[".plastic.work"], 6) ", stored " roundDigits(s, 6) ", dissipated " roundDigits(v[".plastic.dissipated"], 6) \
-    ", left over " roundDigits(v[".plastic.work"] - s - v[".plastic.dissipated"], 2)
-  if (v[".plastic.loadStepsError"] != "measured") print "  error of the load steps " v[".plastic.loadStepsError"]
 }
 function printPath(   e) {  # results of a path of an adhesive law
   e = known(".pathErrors.pullOff") ? v[".pathErrors.pullOff"] : -1
