@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from . import grammar as g
 from .case import Case
+from .rigid.shapes import has_edges
 from .words import Refusal
 
 
@@ -29,6 +30,7 @@ class Needs:
     moments: bool  # to be told about a point
     wear: bool
     plastic: bool
+    surface: bool  # rigid shapes with edges
 
 
 @dataclass
@@ -71,6 +73,7 @@ def needs(case: Case) -> Needs:
         moments=friction or case.has(g.AboutPoint, g.Moment, g.Rotate),
         wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
+        surface=any(has_edges(s.shape) for s in case.of(g.Obstacle)),
     )
 
 
@@ -116,5 +119,6 @@ def modules(need: Needs, run: Run) -> Modules:
         "initialStrain": need.strains,
         "stresses": need.stresses,
         "largeRotation": far,
+        "rigidSurface": need.surface,
     }
     return Modules([name for name, on in asked.items() if on], [name for name, on in options.items() if on and run.own])
