@@ -8,6 +8,7 @@ from reader import Group, Refusal, Where, read_case
 from reader import grammar as g
 from reader.fields import STATEMENTS, Statement, boundary, number, option, shown, usage
 from reader.modules import Run, modules, needs
+from reader.rigid.shapes import Ball
 from reader.values import table
 from reader.words import distance, nearest, split_line
 
@@ -398,7 +399,7 @@ def test_values_have_names():
         3,
     )
     obstacle = only(case, g.Obstacle)
-    assert isinstance(obstacle.shape, g.Ball) and isinstance(obstacle.drive, g.Moved)
+    assert isinstance(obstacle.shape, Ball) and isinstance(obstacle.drive, g.Moved)
     assert (obstacle.shape.place, obstacle.shape.radius, obstacle.shape.inside) == ((0, 12, 0), 10, True)
     assert (obstacle.drive.by, obstacle.interference) == ((0, -0.1, 0), 0.01)
     assert (obstacle.law.name, obstacle.law.kappa, obstacle.law.m, obstacle.law.d0) == ("power", 1e6, 3, -0.001)
@@ -642,7 +643,7 @@ def test_usages():
     assert usage("move", space).startswith("move NAME x y z, or *") and usage("clamp", plane) == "clamp NAME [x] [y]"
     assert usage("spring", space) == "spring NAME kx ky kz" and usage("spring", plane) == "spring NAME kx ky"
     assert usage("expand", plane) == "expand NAME alpha dT, two numbers"
-    assert usage("obstacle", space).endswith("sphere x y z R r, cylinder x y z dx dy dz R r")
+    assert "sphere x y z R r, cylinder x y z dx dy dz R r, box x y z x y z," in usage("obstacle", space)
 
 
 # ---------------------------------------------------------------- modules

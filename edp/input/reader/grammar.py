@@ -35,6 +35,7 @@ from .fields import (
 )
 from .groups import Group, Where
 from .laws import NAMES, Law, LawKind, is_file
+from .rigid.shapes import SHAPES, Shape
 from .words import Line, nearest, whole_number
 
 FILE_NAME = "[A-Za-z0-9_-]+"
@@ -333,39 +334,12 @@ class Contact(Pair, word="contact", example="contact bore pin friction 0.15"):
         return self.wear.fault(self.law, self.friction) if self.wear else ""
 
 
-class Shape(Part):
-    """A rigid shape: a point of it, a direction or a radius where it has one, and whether the body is in it."""
-
-    place: Vector3 = vector("the obstacle's place")
-    direction: Vector3 = (0.0, 0.0, 0.0)
-    radius: float = 0.0
-    inside: bool = False
-
-
-class Plane(Shape):
-    direction: Vector3 = vector("the obstacle's direction", "nx ny{| nz}", nonzero=True)
-
-
-class Ball(Shape):
-    """A circle, in space a sphere."""
-
-    radius: float = number("the radius", "r", above=0, prefix="R", unit="length")
-    inside: bool = option("inside", default=False)
-
-
-class Cylinder(Ball):
-    direction: Vector3 = vector("the obstacle's direction", "dx dy dz", nonzero=True)
-
-
 class Moved(Part):
     by: Vector3 = vector("the obstacle's move", counted="move")
 
 
 class Pushed(Part):
     by: Vector3 = vector("the obstacle's force", counted="force", nonzero=True)
-
-
-SHAPES = {"plane": Plane, "{circle|}": Ball, "{|sphere}": Ball, "{|cylinder}": Cylinder}
 
 
 def shape_names(where: Where) -> str:
@@ -380,7 +354,7 @@ class Obstacle(Statement, word="obstacle", in_legs=True):
     stray = "not allowed here"
     note = f", SHAPE one of: {{{OneOf('', '', SHAPES).all(Where())}|{OneOf('', '', SHAPES).all(Where(space=True))}}}"
     on: Group = boundary("SLAVE")
-    shape: Shape = one_of("a shape", "SHAPE [inside]", SHAPES, noun=" shape", allowed=shape_names)
+    shape: Shape = one_of("a shape", "SHAPE [inside] [round r]", SHAPES, noun=" shape", allowed=shape_names)
     drive: Moved | Pushed | None = perhaps("move or force x y{| z}", {"move": Moved, "force": Pushed})
     interference: float = option("interference", number("the interference", above=0, unit="length"), default=0.0)
     law: Law | None = option("law", custom(LawKind()))
@@ -389,13 +363,14 @@ class Obstacle(Statement, word="obstacle", in_legs=True):
 
     def check(self, where: Where) -> str:
         kind = "force" if isinstance(self.drive, Pushed) else "move"
-        return (off_axis(f"obstacle: a {kind}", self.drive.by, where) if self.drive else "") or (
-            self.wear.fault(self.law, self.friction) if self.wear else ""
+        return (
+            (off_axis(f"obstacle: a {kind}", self.drive.by, where) if self.drive else "")
+            or self.shape.fault(where)
+            or (self.wear.fault(self.law, self.friction) if self.wear else "")
         )
 
     def key(self) -> object:
-        shape = self.shape
-        return "obstacle", self.on, type(shape), shape.place, shape.direction, shape.radius, shape.inside
+        return "obstacle", self.on, type(self.shape), *vars(self.shape).items()
 
 
 class ObstacleMove(Statement):

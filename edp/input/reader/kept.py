@@ -15,7 +15,7 @@ from pathlib import Path
 CAD = {".step", ".stp", ".brep", ".iges", ".igs"}
 KINDS = {".geo", *CAD}  # of geometries
 WHOLE = "whole"  # the file that says which others there are
-FILES = re.compile(rb"(^|[ \t\"])(table|from)([ \t\"]|$)", re.M)  # what names a file in a case
+FILES = re.compile(rb"(^|[ \t\"])(table|from|surface)([ \t\"]|$)", re.M)  # what names a file in a case
 
 
 def module_version() -> str:
@@ -50,7 +50,7 @@ def checksum(file: Path, *more: object) -> str:
     import hashlib  # takes time to load
 
     own = [repr([module_version(), *more]).encode(errors="surrogateescape"), file.read_bytes()]
-    own += [source.read_bytes() for source in sorted(Path(__file__).parent.glob("*.py"))]
+    own += [source.read_bytes() for source in sorted(Path(__file__).parent.rglob("*.py"))]
     return hashlib.blake2b(b"\0".join(own), digest_size=12).hexdigest()
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from . import grammar as g
 from .case import Case
+from .rigid.shapes import has_edges
 from .words import Refusal
 
 
@@ -30,6 +31,7 @@ class Needs:
     gravity: bool
     wear: bool
     plastic: bool
+    surface: bool  # rigid shapes with edges
 
 
 @dataclass
@@ -73,6 +75,7 @@ def needs(case: Case) -> Needs:
         gravity=case.has(g.Gravity),
         wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
+        surface=any(has_edges(s.shape) for s in case.of(g.Obstacle)),
     )
 
 
@@ -119,5 +122,6 @@ def modules(need: Needs, run: Run) -> Modules:
         "stresses": need.stresses or need.gravity,
         "deflections": need.gravity,
         "largeRotation": far,
+        "rigidSurface": need.surface,
     }
     return Modules([name for name, on in asked.items() if on], [name for name, on in options.items() if on and run.own])

@@ -10,6 +10,7 @@ is nearest where they cross. In the plane a piece inside the other body is in co
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -164,7 +165,7 @@ class Store:
         return np.where(clear | (square < 0), 0, times).sum(axis=1) % 2 == 1
 
     def nearest(
-        self, slave: Numbers, master: Numbers, grain: float, margin: float, shape: Shape | None, around: Numbers
+        self, slave: Numbers, master: Numbers, grain: float, margin: float, shape: Distance | None, around: Numbers
     ) -> Numbers:
         """Pieces of the slave, no larger than the grain; around: the boundary of the master's bodies, in the plane.
 
@@ -235,7 +236,7 @@ class Store:
 
     asks = True  # whether a closer outline may be asked for
 
-    def look(self, slave: Numbers, at: Numbers, of: Numbers, margin: float, shape: Shape | None) -> None:
+    def look(self, slave: Numbers, at: Numbers, of: Numbers, margin: float, shape: Distance | None) -> None:
         """Where the error is too large for the margin: it falls with the third power of the size of pieces."""
         doubt, other = self.doubt[self.root[slave]], self.doubt[self.root[of]]
         wrong = doubt[at] + other > margin
@@ -253,8 +254,14 @@ class Store:
         return self.centre[self.unsure[first_of_cell(self.centre[self.unsure], self.finest / 2)]]
 
 
+class Distance(Protocol):
+    """A rigid shape."""
+
+    def distance(self, places: Array) -> Array: ...
+
+
 class Shape:
-    """An obstacle's rigid shape."""
+    """A plane, circle, sphere or cylinder."""
 
     def __init__(self, place: Array, way: Array, radius: float) -> None:
         self.place, self.radius = place, radius

@@ -23,6 +23,8 @@ from .geometry import Array, Face, Outline, faces, table, triple
 from .groups import Group
 from .near import PAIRS, Numbers, Shape, Store, first_of_cell
 from .neighbours import Touching, by_face, distances, normals, statements, touching
+from .rigid.shapes import has_edges
+from .rigid.surfaces import surface_of
 from .sides import lies_in
 from .words import Refusal, quoted
 
@@ -494,7 +496,11 @@ class Picks:
             shape, master, around = None, np.zeros(0, int), np.zeros(0, int)
             slave = store.of(self.of(low, (s.on if isinstance(s, g.Obstacle) else s.slave).name))
             if isinstance(s, g.Obstacle):
-                shape = Shape(np.array(s.shape.place), np.array(s.shape.direction), s.shape.radius)
+                shape = (
+                    surface_of(s.shape, self.case.where, s.line)
+                    if has_edges(s.shape)
+                    else Shape(np.array(s.shape.place), np.array(s.shape.direction), s.shape.radius)
+                )
             else:
                 master = store.of(self.of(low, s.master.name))
                 around = self.inside(s)

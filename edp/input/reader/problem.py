@@ -25,6 +25,7 @@ from .mesh import Mesh, MeshRefusal, groups_of
 from .mesher import Prepared, Reader, Sets, check_file, convert, pick_on, prepare, refuse_surface
 from .msh import read_msh
 from .names import is_text_of_gmsh, keep_names
+from .rigid.shapes import has_edges
 from .sides import pick_on_mesh
 from .values import table
 from .words import Refusal, quoted, split_case, text_of
@@ -114,6 +115,17 @@ def write_faces(folder: Path, made: Prepared) -> None:
         write(folder / name, text)
 
 
+def surfaces_of(case: Case) -> str:
+    """The rigid shapes with edges, in the order of their statements; nothing without any."""
+    edged = [s for s in case.of(g.Obstacle) if has_edges(s.shape)]
+    if not edged:
+        return ""
+    from .rigid.surfaces import surface_of  # takes time to load
+
+    texts = [surface_of(s.shape, case.where, s.line).text() for s in edged]
+    return "\n".join([str(len(texts)), *texts]) + "\n"
+
+
 def tell_faces(of: Problem) -> None:
     """-check 1 without a case: the table of bodies and faces, or of sets."""
     check_file(of.file, of.sets)
@@ -146,6 +158,8 @@ def read_problem(of: Problem) -> None:
     written = write_bodies(mesh, case, of.folder, of.where.space, straight, smooth)
     write(of.folder / "regions", written.text)
     write(of.folder / "case", table(case, written.groups, written.split))
+    if surfaces := surfaces_of(case):
+        write(of.folder / "surfaces", surfaces)
     told = [made.version, made.plan, made.finer, made.left, str(len(made.touch)), *made.touch]
     write(of.folder / "told", "\n".join(told) + "\n")
     if made.table:

@@ -14,6 +14,7 @@ from . import grammar as g
 from .case import Case
 from .fields import Part, Statement, Vector3
 from .groups import Group, Where
+from .rigid.shapes import has_edges
 
 Value = tuple[str, float | str]
 ASIDE = (g.Units, g.State, g.Thickness, g.PickedGroup, g.Size, g.Join, g.Gravity)  # no statements of their own there
@@ -39,11 +40,15 @@ def vector(name: str, value: Vector3) -> list[Value]:
     return [(f"{name}.{axis}", component) for axis, component in zip("xyz", value, strict=True)]
 
 
-def values(s: Statement, where: Where, density: float) -> list[Value]:
+def values(s: Statement, where: Where, density: float, surface: int = -1) -> list[Value]:
     """Those of a statement, and those that follow from them."""
     found = [(name, value) for name, value in flat(s) if name != "line"]
     if isinstance(s, g.Moment):
         found += vector("couple", s.couple)
+    if surface >= 0:  # the number of a surface has the place of a radius
+        given = ("shape.radius", "shape.inside")
+        found = [(name, value) for name, value in found if name not in given]
+        found += [("shape.radius", float(surface)), ("shape.inside", 0.0)]
     if isinstance(s, g.Spin):
         found.append(("density", density))
         if s.axis is None:
@@ -70,6 +75,7 @@ def table(case: Case, groups: Sequence[Group] = (), split: Mapping[int, int] | N
     label = {group: k + 1 for k, group in enumerate(used)}
     groups = groups or used
     dense = {s.on: s.density for s in case.of(g.Body) if s.density}
+    edged = [s for s in case.of(g.Obstacle) if has_edges(s.shape) and s.changes is None]
     rows: list[str] = []
     place: dict[int, int] = {}  # by statement
 
@@ -88,7 +94,8 @@ def table(case: Case, groups: Sequence[Group] = (), split: Mapping[int, int] | N
             place[id(s)] = len(rows)
             word = s.word if changes < 0 else "change"
             density = dense.get(s.on, 0.0) if isinstance(s, g.Spin) else 0.0
-            found = values(s, case.where, density)
+            surface = next((n for n, one in enumerate(edged) if one is s), -1)
+            found = values(s, case.where, density, surface)
             if changes >= 0:  # only what it changes
                 found = [(name, value) for name, value in found if isinstance(value, float)]
                 if isinstance(s, (g.Obstacle, g.ObstacleMove)):
