@@ -41,6 +41,9 @@ test "$script" != none || {
     exit 10
 }
 shift
+space=1                            # for input/on-request.sh
+for plane in main parts; do test ! "$script" -ef "$edp/$plane.edp" || space=; done
+test -n "$space$OPENBLAS_NUM_THREADS$GOTO_NUM_THREADS$OMP_NUM_THREADS" || export OPENBLAS_NUM_THREADS=1
 case $edp in *\;*)
     echo "$edp: FreeFEM's lists of folders have ; between them; allowed: a path without ;"
     exit 10 ;;

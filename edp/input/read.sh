@@ -6,6 +6,8 @@
 # Exit codes: those of the command, 12 no Python.
 here=${0%/*}
 export CONTACT_RUN="$1"
+# numpy and gmsh calculate little: threads of OpenBLAS would wait, by spinning
+test -n "$OPENBLAS_NUM_THREADS$GOTO_NUM_THREADS$OMP_NUM_THREADS" || export OPENBLAS_NUM_THREADS=1
 shift
 cache=$(sh "$here/cache.sh" "$CONTACT_RUN" "$here/../..")
 set -- "$@" "cache=${cache:-$here/../..}/meshes$(test -n "$cache" || echo /generated)"

@@ -56,7 +56,7 @@ def without(package, tmp_path, *missing):
 
 
 INTERFACES = {
-    "fast-plugin-3": "8858a082a62d92041f0777026077b373",
+    "fast-plugin-4": "6295d4fb0ec79055702883e3d7e3b6d1",
     "multigrid-plugin-5": "525b881089a64134bb6e4413f842575f",
 }
 

@@ -7,6 +7,8 @@
 //        addMatrixEntries(K, rows, columns, values): adds these to entries of an ordered K; findOpposingTriangles(...): searchTree of
 //        contact/surfaces/triangle-tree.idp, by the same sums; squaredDistancesFrom(...): squaredFrom of solver/rigid-modes/chord-influence-space.idp.
 // FreeFEM adds each entry to a hash table, and sorts by heap what it then factorises. Here a row is added up where it stands.
+//        setBlasThreads(several): from now on several threads of OpenBLAS, at most 4, or one, as from the beginning; returns how many, 0 if the
+//        environment says how many and nothing is changed. Threads that wait spin.
 // CHOLMOD copies between its supernodes by four OpenMP threads, whose waking costs more than they save: here it uses one.
 #include "ff++.hpp"
 #include "AFunction_ext.hpp"
@@ -25,6 +27,9 @@ typedef KN<double> Row;
 extern "C" {
 void omp_set_max_active_levels(int) __attribute__((weak));
 int openblas_get_parallel(void) __attribute__((weak));
+int openblas_get_num_threads(void) __attribute__((weak));
+void openblas_set_num_threads(int) __attribute__((weak));
+int blas_thread_shutdown_(void) __attribute__((weak));
 }
 
 static bool alike() { return std::abs(VersionNumber() - atof(FREEFEM_VERSION)) < 1e-6; }
@@ -219,14 +224,30 @@ long squaresFrom(List *const &pI, Row *const &pX, Row *const &pY, Row *const &pZ
     return 1;
 }
 
+static long threadsMost = 0;                                 // what OpenBLAS would use, up to 4; 0: the user says how many, or there is no OpenBLAS
+
+long threadsSet(long const &several)
+{
+    if (!threadsMost) return 0;
+    openblas_set_num_threads(several ? threadsMost : 1);
+    // those that wait spin for 25 ms each time; by OpenMP they do not
+    if (!several && blas_thread_shutdown_ && openblas_get_parallel && openblas_get_parallel() == 1) blas_thread_shutdown_();
+    return openblas_get_num_threads();
+}
+
 static void Load_Init()
 {
+    bool isUsersChoice = false;
+    for (const char *name : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"}) isUsersChoice |= getenv(name) != nullptr;
+    if (!isUsersChoice && openblas_set_num_threads && openblas_get_num_threads) threadsMost = std::min(openblas_get_num_threads(), 4);
+    threadsSet(0);
     // OpenBLAS by OpenMP would wait for threads that are not there
     if (omp_set_max_active_levels && openblas_get_parallel && openblas_get_parallel() != 2) omp_set_max_active_levels(0);
     Global.Add("assembleOrdered", "(", new OneOperator7_<long, Matrix *, Whole *, Whole *, Real *, Real *, Whole *, Real *>(assembledInOrder));
     Global.Add("addMatrixEntries", "(", new OneOperator4_<long, Matrix *, List *, List *, Row *>(entriesAdded));
     Global.Add("findOpposingTriangles", "(", new OneOperator8_<long, List *, Real *, Real *, Real *, Real *, Row *, List *, List *>(facingTriangles));
     Global.Add("squaredDistancesFrom", "(", new OneOperator8_<long, List *, Row *, Row *, Row *, List *, long, double, Row *>(squaresFrom));
+    Global.Add("setBlasThreads", "(", new OneOperator1_<long, long>(threadsSet));
     Global.Add("sortMatrixRows", "(", new OneOperator1_<long, Matrix *>(sortedRows));
 }
 LOADFUNC(Load_Init)
