@@ -16,7 +16,7 @@ from peers import SECONDS
 from tables import DOCUMENTS, MARKED
 
 from postprocess import style
-from postprocess.output import write_files
+from postprocess.output import DRAWN, drawn_numbers, write_files
 
 SIZE = (style.COLUMN, 0.8 * style.COLUMN)
 DOTS = 210  # an inch: twice what a screen shows of half a page
@@ -150,7 +150,8 @@ def main(argv: list[str] | None = None) -> int:
     for path in parser.parse_args(argv).out:
         written = io.BytesIO()
         with style.look():
-            PICTURES[path.name]().savefig(written, dpi=DOTS, facecolor="white")
+            drawn = PICTURES[path.name]()
+            drawn.savefig(written, dpi=DOTS, facecolor="white", metadata={DRAWN: drawn_numbers(drawn)})
         write_files({path: written.getvalue()})
         print(path)
     return 0
