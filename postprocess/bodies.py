@@ -27,6 +27,7 @@ ZONES = {1: "#CFE8DC", 2: "#FBE3C4"}  # behind curves: sticks, slips
 SHEAR: style.Look = {"marker": "", "linestyle": (0, (4, 1.5))}
 LIGHT = np.array([-0.35, -0.5, 0.79])
 FARTHEST = 1.5  # an obstacle is drawn as far from the surface as that times the contact's size
+ARROWS = 0.06  # from one to the next, of the contact's length
 TOUCHING = 1e-3  # of the greatest pressure: what is shown of a contact
 
 
@@ -47,6 +48,7 @@ class Chain:
         default_factory=lambda: NONE
     )  # with friction: traction on the slave, and 0 open, 1 sticks, 2 slips
     slide: np.ndarray = field(default_factory=lambda: NONE)
+    rest: np.ndarray = field(default_factory=lambda: NONE)  # (n, 2) undeformed places
 
     @property
     def joined(self) -> np.ndarray:
@@ -113,14 +115,14 @@ class Bodies:
 
     @property
     def coloured(self) -> float:
-        """A scale's end: of pressures without bound what a fiftieth of the contact's force lies above."""
+        """A scale's end: of pressures without bound what a tenth of the contact's force lies above."""
         table, tops = self.table, []
         estimates = (self.run.summary.get("estimates") or {}).get("contacts") or []
         for contact in set(table["contact"].tolist()):
             strength = np.sort(np.abs(table["pressure"][table["contact"] == contact]))
             order = np.argsort(np.abs(table["pressure"][table["contact"] == contact]))
             force = np.cumsum(strength * table["weight"][table["contact"] == contact][order])
-            most = strength[np.searchsorted(force, 0.98 * force[-1])] if force[-1] > 0 else 0
+            most = strength[np.searchsorted(force, 0.9 * force[-1])] if force[-1] > 0 else 0
             # where the run does not tell, it stands out
             known = contact < len(estimates)
             bound = estimates[contact].get("pressureMax") is not None if known else strength[-1] < 2 * most
@@ -239,7 +241,8 @@ def contact_chains(bodies: Bodies) -> list[Chain]:
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
         rubs = (table["shear"][rows], table["slide"][rows]) if "shear" in table else ()
         stated = bodies.rigid[contact], origin
-        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, *stated, *rubs))
+        rest = bodies.surface.points[rows, :2]
+        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, *stated, *rubs, rest=rest))
     return found
 
 
@@ -288,16 +291,21 @@ def plane_areas(bodies: Bodies) -> np.ndarray:
     return 0.5 * np.abs(ux * vy - uy * vx)
 
 
-def stress_range(bodies: Bodies) -> float:
+def stress_range(bodies: Bodies, boxes: list[np.ndarray] | None = None) -> float:
     """Where the colours of von Mises' stress end near contacts.
 
-    The greatest outside singular places where the run tells it, else what one node in 1000 lies above; all where that
-    is nearly the greatest.
+    The greatest outside singular places where the run tells it, else what one node in 1000 lies above, in the plane one
+    of those in the boxes; all where that is nearly the greatest. A peak in a corner far away ends no scale.
     """
     stresses = [body["vonMises"] for body in bodies.run.summary.get("stresses") or []]
-    most = bodies.grid.stress.max()
-    top = max(stresses) if stresses else np.percentile(bodies.grid.stress, 99.9)
-    return top if 0 < top < most / 1.3 else most
+    seen, place = bodies.grid.stress, bodies.place[:, :2]
+    for box in [np.array(boxes)] if boxes else []:
+        inside = ((place > box[:, :1]) & (place < box[:, 1:])).all(axis=2).any(axis=0)
+        seen = seen[inside] if inside.any() else seen
+    top = max(stresses) if stresses else np.percentile(seen, 99.9)
+    return (
+        min(top, seen.max()) if 0 < min(top, seen.max()) < bodies.grid.stress.max() / 1.3 else bodies.grid.stress.max()
+    )
 
 
 def whole_stress_range(bodies: Bodies) -> float:
@@ -379,9 +387,10 @@ def mark_singular(axes: Axes, at: np.ndarray) -> None:
 
 
 def draw_pressure_diagram(axes: Axes, bodies: Bodies, box: np.ndarray, contact: int | None, units: style.Units) -> None:
-    """The pressure on the surface of one contact, or of all, in a box; its scale; rigid obstacles.
+    """The pressure on the undeformed surface of one contact, or of all, in a box; its scale; rigid obstacles.
 
-    Where it is greatest it stands not higher than the contact is long.
+    Where it is greatest it stands not higher than the contact is long. On a surface that has moved by more than half of
+    its contact the arrows stand where it is now.
     """
     touched = bodies.touching(contact)
     greatest = np.abs(bodies.table["pressure"][touched]).max()
@@ -396,12 +405,17 @@ def draw_pressure_diagram(axes: Axes, bodies: Bodies, box: np.ndarray, contact: 
             axes.add_collection(LineCollection(line, color=style.GREY, linewidth=1.4, zorder=2.5))
         if contact is not None and chain.contact != contact:
             continue
-        foot, top = chain.place, chain.place + scale * chain.pressure[:, None] * chain.normal
+        moved = np.linalg.norm(chain.place - chain.rest, axis=1).max(initial=0)
+        foot = chain.rest if moved < 0.5 * long else chain.place
+        top = foot + scale * chain.pressure[:, None] * chain.normal
         carries = ((chain.pressure[:-1] != 0) | (chain.pressure[1:] != 0)) & chain.joined
         walls = np.stack([foot[:-1], foot[1:], top[1:], top[:-1]], axis=1)[carries]
-        axes.add_collection(PolyCollection(walls, facecolor=style.VERMILION, alpha=0.3, linewidth=0, zorder=4))
+        axes.add_collection(PolyCollection(walls, facecolor="white", alpha=0.6, linewidth=0, zorder=4))
         crest = np.stack([top[:-1], top[1:]], axis=1)[carries]
         axes.add_collection(LineCollection(crest, color=style.VERMILION, linewidth=0.9, zorder=5))
+        surface = np.stack([foot[:-1], foot[1:]], axis=1)[chain.joined]
+        axes.add_collection(LineCollection(surface, color=style.BLACK, linewidth=0.6, linestyle=(0, (3, 2)), zorder=4))
+        draw_arrows(axes, foot, top, max(ARROWS * long, np.ptp(box[:, 0]) / 80))
         if chain.origin == "middle" and chain.reached(TOUCHING * bodies.greatest).any():
             axes.plot(*chain.zero, marker="o", markersize=2.5, color=style.BLACK, zorder=6)
     marked = style.round_below(greatest)
@@ -410,6 +424,49 @@ def draw_pressure_diagram(axes: Axes, bodies: Bodies, box: np.ndarray, contact: 
     unit = "" if units.stress == style.Units.stress else f" {units.stress}"
     look: style.Look = {"textcoords": "offset points", "va": "bottom", "fontsize": 7, "bbox": style.HALO, "zorder": 8}
     axes.annotate(f"pressure ${style.number(marked)}${unit}", begin, (0, 3.5), color=style.VERMILION, **look)
+
+
+def draw_arrows(axes: Axes, foot: np.ndarray, top: np.ndarray, spacing: float) -> None:
+    """Arrows (n, 2) from top to foot, at points of a line that are so far apart."""
+    along = np.cumsum(np.append(0, np.hypot(*np.diff(foot, axis=0).T)))
+    shown = np.flatnonzero(np.diff(np.floor(along / spacing), prepend=-1) > 0)
+    shown = shown[np.hypot(*(top - foot)[shown].T) > 0.1 * spacing]
+    look: style.Look = {"angles": "xy", "scale_units": "xy", "scale": 1, "units": "inches", "width": 0.007}
+    look |= {"headwidth": 5, "headlength": 6, "headaxislength": 5.5, "minlength": 0.1, "zorder": 5}
+    axes.quiver(*top[shown].T, *(foot - top)[shown].T, color=style.VERMILION, **look)
+
+
+def draw_mesh(axes: Axes, bodies: Bodies, box: np.ndarray, coloured: bool) -> None:
+    """The elements' sides in a box, as thin as can be told from each other; white on colours."""
+    place = bodies.place[:, :2]
+    near = ((place > box[0]) & (place < box[1])).all(axis=1)
+    cells = bodies.grid.cells[near[bodies.grid.cells].any(axis=1)]
+    sides = place[Triangulation(*place.T, cells).edges]
+    # points on paper, in a panel of a column's width
+    size = np.median(np.linalg.norm(sides[:, 1] - sides[:, 0], axis=1)) * 0.8 * 72 * style.COLUMN / np.ptp(box[:, 0])
+    look: style.Look = {"color": "white" if coloured else style.BLACK, "alpha": 0.45 if coloured else 0.35}
+    look |= {"linewidth": float(np.clip(0.06 * size, 0.05, 0.4)), "zorder": 2, "rasterized": True}
+    axes.add_collection(LineCollection(list(sides), **look))
+
+
+def force_caption(bodies: Bodies, contact: int, units: style.Units) -> str:
+    """The normal force of a contact and its error, as far as the run tells them."""
+    summary = bodies.run.summary
+    known, estimates = summary.get("contacts") or [], summary.get("estimates") or {}
+    if len(known) <= contact or "normalForce" not in known[contact]:
+        return ""
+    told = (
+        estimates.get("contacts") or [{"normalForce": estimates.get("force")}] * (len(known) == 1) or [{}] * len(known)
+    )
+    error = ((told[contact] or {}).get("normalForce") or {}).get("error")
+    unit = {("mm", "MPa"): "N", ("m", "Pa"): "N"}.get((units.length, units.stress), "")
+    per = f"/{units.length}" if unit and not (bodies.about_axis or bodies.grid.space) else ""
+    value = known[contact]["normalForce"]
+    digits = (
+        max(0, 1 - int(np.floor(np.log10(error)))) if error else max(0, 3 - int(np.floor(np.log10(abs(value) or 1))))
+    )
+    words = f"{value:.{digits}f}" + (f" ± {error:.{digits}f}" if error else "")
+    return "; force " + f"{words} {unit}{per}".rstrip().replace(" ", "\u00a0")  # on one line
 
 
 def coordinates_text(bodies: Bodies, place: np.ndarray) -> str:

@@ -20,14 +20,10 @@ from postprocess.results import ResultsError, check_file
 
 CONVERGED = "converged"
 METHODS = ("xnewton", "paper 0", "paper d0", "newton", "linesearch", "incremental", "ipopt")
-NAMES = {
-    "xnewton": "xnewton",
-    "paper 0": "paper, $T^0 = 0$",
-    "paper d0": "paper, $T^0 = d_0$",
-    "newton": "Newton",
-    "linesearch": "Newton, line search",
+NAMES = style.METHODS | {
+    "paper 0": "paper's scheme, $T^0 = 0$",
+    "paper d0": "paper's scheme, $T^0 = d_0$",
     "incremental": "Newton, 5 load steps",
-    "ipopt": "Ipopt",
 }
 LAWS = {
     "exponential 0.02 60": "exp.\n60",

@@ -58,11 +58,11 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
         side.paint(panel)
         for number, place in side.places.items():
             write_number(panel, place, "cut" if number < 0 else number)
-        panel.set_title(f"Faces{words}", loc="left", fontsize=6.5)
+        panel.set_title(f"Faces{words}", loc="left", fontsize=7)
     if inner:
         draw_inner(axes[2], at, face, body, face_borders(at, face), views[0], inner)
-        axes[2].set_title("Faces inside, without what hides them", loc="left", fontsize=6.5)
-    figure.supxlabel("\n".join(volumes(face, body, names)), x=0.02, ha="left", fontsize=6)
+        axes[2].set_title("Faces inside, without what hides them", loc="left", fontsize=7)
+    figure.supxlabel("\n".join(volumes(face, body, names)), x=0.02, ha="left", fontsize=7)
     return figure
 
 
@@ -95,7 +95,7 @@ def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
     axes.set_aspect("equal")
     axes.set_xlabel("$x$")
     axes.set_ylabel("$y$")
-    axes.set_title("Curves", loc="left", fontsize=6.5)
+    axes.set_title("Curves", loc="left", fontsize=7)
 
 
 def shaded_colours(seen: np.ndarray, body: np.ndarray) -> np.ndarray:
@@ -180,7 +180,7 @@ def middle_of(seen: np.ndarray) -> np.ndarray:
 
 
 def write_number(axes: Axes, place: np.ndarray, number: int | str) -> None:
-    look: style.Look = {"ha": "center", "va": "center", "fontsize": 6, "bbox": style.HALO, "zorder": 6}
+    look: style.Look = {"ha": "center", "va": "center", "fontsize": 7, "bbox": style.HALO, "zorder": 6}
     axes.annotate(str(number), (place[0], place[1]), color=style.BLACK, **look)
 
 
@@ -234,7 +234,7 @@ def draw_page(
                 begun = time.monotonic()
             own = parts[number]
             title = f"volume {number}{f': {names[number]}' if number in names else ''}"
-            look: style.Look = {"fontsize": 6.5, "va": "top"}
+            look: style.Look = {"fontsize": 7, "va": "top"}
             figure.text((left + 3) / WIDE, (low + high) / height, style.wrapped(title, int(wide / 3.5)), **look)
             draw_alone(figure, at[own], face[own], body[own], views, (left, low, wide / 2, high - 12), height)
     return figure
@@ -308,7 +308,7 @@ def draw_whole(
         box = (k * (wide + GAP), height - top, wide - GAP, top - 10)
         axes = panel_in_points(figure, box, height)
         zero, scale = paint_fitted(axes, side, box, margin)
-        axes.set_title(("Bodies", "Bodies: the other side")[k], loc="left", fontsize=6.5, pad=0)
+        axes.set_title(("Bodies", "Bodies: the other side")[k], loc="left", fontsize=7, pad=0)
         places = {}
         for number, text in words.items():
             hidden = not any(number in each for each in seen)

@@ -15,7 +15,7 @@ from matplotlib.textpath import TextPath
 
 from postprocess import style
 
-FONT = 6.0
+FONT = 7.0
 PAD = 0.8  # around letters
 
 Place = np.ndarray | tuple[float, float]

@@ -5,11 +5,13 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from postprocess.results import ResultsError, system_message
 
 # No dates and no versions: the same results give the same bytes.
+DRAWN = "Drawn"
 METADATA = {"pdf": {"CreationDate": None, "Producer": None, "Creator": None}, "png": {"Software": None}}
 
 
@@ -38,7 +40,20 @@ def write_figures(figures: dict[Path, Figure]) -> list[Path]:
 
 
 def figure_writer(figure: Figure, kind: str, metadata: dict) -> Callable[[Path], object]:
-    return lambda path: figure.savefig(path, format=kind, metadata=metadata)
+    told = {DRAWN: drawn_numbers(figure)} if kind == "png" else {}
+    return lambda path: figure.savefig(path, format=kind, metadata=metadata | told)
+
+
+def drawn_numbers(figure: Figure) -> str:
+    """What a figure shows, in numbers: of each panel the limits, of each line its means and its greatest height."""
+    found: list[float] = []
+    for axes in figure.axes:
+        found += [*axes.get_xlim(), *axes.get_ylim()]
+        for line in axes.lines:
+            points = np.asarray(line.get_xydata(), float)
+            points = points[np.isfinite(points).all(axis=1)]
+            found += [*points.mean(axis=0), points[:, 1].max()] if len(points) else []
+    return " ".join(f"{value:.4g}" for value in found)
 
 
 def write_files(contents: dict[Path, bytes]) -> list[Path]:

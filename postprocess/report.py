@@ -50,10 +50,10 @@ def build(tree: ResultsFolder) -> str:
     own = [path for path in pictures if path.parent.name == "figures"]
     own.sort(key=lambda path: order.index(path.stem) if path.stem in order else len(order))
     parts = [
+        section("accuracy", "Error against run time", *accuracy(tree)) if tree.runs else "",
         section("figures", "Figures", *(figure(path, pictures[path]) for path in own)) if own else "",
         section("movies", "Movies", *(movie(tree, path, part) for path, part in movies.items())) if movies else "",
         section("references", "Results against references", *references(tree, verdicts)) if tree.runs else "",
-        section("accuracy", "Error against run time", *accuracy(tree)) if tree.runs else "",
         section("runs", "Runs", *scenes(tree)) if tree.runs else "",
         *campaigns,
         section("machine", "Machine and versions", machine()),
@@ -83,7 +83,7 @@ def header(tree: ResultsFolder, verdicts: list[tuple[Run, list[Check]]], parts: 
     if newest is not None:
         when = datetime.datetime.fromtimestamp(newest, datetime.UTC)
         sentences.append(f"Newest run: {when:%Y-%m-%d %H:%M} UTC.")
-    names = {"figures": "Figures", "movies": "Movies", "references": "References", "accuracy": "Error against run time"}
+    names = {"accuracy": "Error against run time", "figures": "Figures", "movies": "Movies", "references": "References"}
     names |= {"runs": "Runs"}
     names |= {name: title for name, (title, _, _) in CAMPAIGNS.items()} | {"machine": "Machine and versions"}
     there = [name for name in names if any(f'<section id="{name}"' in part for part in parts)]
@@ -199,6 +199,7 @@ def accuracy(tree: ResultsFolder) -> list[Markup]:
             found.append(replace(run, summary={**run.summary, "parameters": {**given, "reference": force}}))
     words = element(
         "p",
+        "For an error of 1e-4 take the default method with P2, for 1e-6 with P4. "
         "The paper's test at the default tolerances. The error is that of the contact force against an independent "
         "computation, the reference of the table above. CPU seconds are from assembly to displacement: no start, mesh, "
         "error estimate or file. The seconds waited are a clock's, from the start of FreeFEM to the results, the mesh "

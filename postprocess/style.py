@@ -21,7 +21,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.legend import Legend
 from matplotlib.text import Text
-from matplotlib.ticker import FixedLocator, NullFormatter
+from matplotlib.ticker import FixedFormatter, FixedLocator, LogLocator, NullFormatter, NullLocator
 from matplotlib.tri import Triangulation
 
 from postprocess.results import ResultsError, Run, is_number
@@ -41,6 +41,16 @@ Look = dict[str, Any]  # keyword arguments of matplotlib's drawing functions
 
 # behind text that stands on a picture
 HALO: Look = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+
+# Methods in words: their names on the command line say nothing in a legend.
+METHODS = {
+    "xnewton": "default method",
+    "paper": "paper's scheme",
+    "newton": "Newton",
+    "linesearch": "Newton, line search",
+    "signorini": "hard contact",
+    "ipopt": "Ipopt",
+}
 
 RC: Look = {
     "font.family": "STIXGeneral",
@@ -303,6 +313,13 @@ def number(value: float) -> str:
     return {"1": power, "-1": f"-{power}"}.get(mantissa, rf"{mantissa} \times {power}")
 
 
+def power_text(value: float) -> str:
+    """A positive number as a power of ten, for readers: 10^{-3}, 2 x 10^{-3}, as mathtext."""
+    mantissa, exponent = f"{value:.1e}".split("e")
+    mantissa = mantissa.removesuffix(".0")
+    return f"${'' if mantissa == '1' else mantissa + chr(92) + 'times '}10^{{{int(exponent)}}}$"
+
+
 def without_mathtext(text: str) -> str:
     """Text from a file or the command line, which is not to be read as mathtext."""
     return text.replace("$", r"\$")
@@ -320,9 +337,7 @@ def method(run: Run) -> str:
     if name == "incremental":
         steps = parameters.get("steps")
         return f"Newton, {count(int(steps), 'load step')}" if is_number(steps) else "Newton in load steps"
-    words = {"paper": "paper's scheme", "newton": "Newton", "signorini": "hard contact"}.get(
-        name, without_mathtext(name)
-    )
+    words = METHODS.get(name, without_mathtext(name))
     first = first_threshold(run)
     return f"{words}, ${first}$" if name not in ("newton", "signorini") and first else words
 
@@ -407,14 +422,55 @@ def labelled_indices(amount: int) -> set[int]:
     return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
 
 
-def set_decades(axes: Axes, values: np.ndarray, most: int = 9) -> None:
-    """A logarithmic vertical axis over whole decades around the positive values, at most so many."""
-    positive = values[values > 0]
-    top = np.floor(np.log10(positive.max()) + 0.2) + 1
-    bottom = max(np.ceil(np.log10(positive.min()) - 0.2) - 1, top - most)
-    axes.set_yscale("log")
-    axes.set_ylim(10**bottom, 10**top)
-    axes.yaxis.set_minor_formatter(NullFormatter())
+def set_log(axes: Axes, which: str, most: int = 6) -> None:
+    """Logarithmic axes "x", "y" or "xy" over the curves drawn so far: at most so many labels, near both ends one.
+
+    Curves of panels that share the axis count too. Labels are 1, 1.5, 2, 3, 5, 7 times a power of ten, or fewer, down
+    to every second or third power.
+    """
+    for name in which:
+        axis, side = getattr(axes, f"{name}axis"), "xy".index(name)
+        lines = [
+            line
+            for each in getattr(axes, f"get_shared_{name}_axes")().get_siblings(axes)
+            for line in each.lines
+            if line.get_transform() == each.transData
+        ]
+        values = np.concatenate([[], *(np.asarray(line.get_xydata(), float)[:, side] for line in lines)])
+        values = values[np.isfinite(values) & (values > 0)]
+        low, high = float(values.min(initial=np.inf)), float(values.max(initial=0))
+        if low > high / 1.5:  # no curve, or one value
+            low, high = (low / 2, high * 2) if high else (0.1, 1.0)
+        ticks = log_ticks(low, high, most)
+        margin = (max(high, ticks[-1]) / min(low, ticks[0])) ** 0.04
+        getattr(axes, f"set_{name}scale")("log")
+        getattr(axes, f"set_{name}lim")(min(low / margin, ticks[0]), max(high * margin, ticks[-1]))
+        plain = ticks[0] > 5e-4 and ticks[-1] < 5e3
+        axis.set_major_locator(FixedLocator(ticks))
+        axis.set_major_formatter(FixedFormatter([f"{tick:g}" if plain else power_text(tick) for tick in ticks]))
+        axis.set_minor_formatter(NullFormatter())
+        axis.set_minor_locator(LogLocator(subs="auto") if np.ptp(np.log10(ticks)) < len(ticks) else NullLocator())
+
+
+def log_ticks(low: float, high: float, most: int) -> list[float]:
+    """Ticks from below to above these numbers, or but a little within them."""
+    near = 1 + 1e-9
+    first, last = int(np.floor(np.log10(low) + 1e-9)), int(np.ceil(np.log10(high) - 1e-9))
+    decades = range(first, last + 1)
+    every = [[10.0**k * step for k in decades for step in steps] for steps in ((1, 1.5, 2, 3, 5, 7), (1, 2, 5), (1, 3))]
+    coarse = len(every)
+    every += [[10.0**k for k in range(last, first - step, -step)][::-1] for step in range(1, 12)]
+    for number, ticks in enumerate(every):
+        enough = 1.25 if number < coarse else 2.4  # of a value to the last label, which can still be read there
+        below = [tick for tick in ticks if tick <= low * near][-1:]
+        above = [tick for tick in ticks if tick * near >= high][:1]
+        found = [tick for tick in ticks if low < tick < high and tick not in below + above]
+        # an end is left out where the next label is near enough to read the value
+        below = [] if len(found) > 1 and found[0] < enough * low else below
+        above = [] if len(found) > 1 and found[-1] > high / enough else above
+        if 2 <= len(below + found + above) <= most:
+            return below + found + above
+    return [low, high]
 
 
 def contact_triangulation(run: Run) -> Triangulation:

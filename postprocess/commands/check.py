@@ -80,6 +80,9 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     for panel in (axes, *close):
         size = paint(panel, at, cells, label[types == solid], sides, groups, colours, view, line_widths(content))
         draw_points(panel, points, np.eye(3) if plane else view, size, panel in close or not plane)
+    for panel in (axes, *close) if plane else ():
+        length = (str(content.get("units", "")).split() or [style.Units.length])[0]
+        panel.set(xlabel=f"$x$ [{length}]", ylabel=f"$y$ [{length}]")
     for panel in close:
         near = np.argmin(np.where(points["paired"] > 0, np.abs(points["gap"]), np.inf))
         reach = 8 * size + 2 * abs(points["gap"][near])
@@ -91,12 +94,12 @@ def draw(folder: Path, view: np.ndarray) -> Figure:
     ]
     entries.append(Line2D([], [], color=style.BLACK, linewidth=0.6, marker="o", markersize=2))
     words = [style.without_mathtext(group_caption(content, group)) for group in colours]
-    look: style.Look = {"ncols": 3, "fontsize": 6, "handlelength": 1.4} if many else {"ncols": 1}
+    look: style.Look = {"ncols": 3, "fontsize": 7, "handlelength": 1.4} if many else {"ncols": 1}
     style.legend_outside(figure, "lower left", entries, [*words, "contact points and normals"], **look)
     if many:
-        figure.suptitle(style.without_mathtext(held), x=0.01, ha="left", fontsize=6.5)
+        figure.suptitle(style.without_mathtext(held), x=0.01, ha="left", fontsize=7)
     else:
-        axes.set_title(style.without_mathtext(held), loc="left", fontsize=6.5)
+        axes.set_title(style.without_mathtext(held), loc="left", fontsize=7)
     return figure
 
 
@@ -176,8 +179,6 @@ def draw_plane(
         axes.add_collection(LineCollection(place[sides[groups == group]], **look))
     axes.autoscale_view()
     axes.set_aspect("equal")
-    axes.set_xlabel("$x$")
-    axes.set_ylabel("$y$")
     edges = place[sides[:, 1]] - place[sides[:, 0]]
     return float(np.median(np.hypot(*edges.T)))
 

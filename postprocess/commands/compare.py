@@ -139,16 +139,19 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     reached = np.concatenate(touched)
     if len(reached):
         span = max(float(np.ptp(reached)), 0.02 * abs(float(reached.max())), 1e-300)
-        overlaps.set_ylim(reached.min() - 0.5 * span, reached.max() + 0.1 * span)
+        low = reached.min() - 0.5 * span
+        overlaps.set_ylim(low, reached.max() + 0.1 * span)
+        for line in overlaps.lines:  # points far from contact have no marker at the panel's edge
+            line.set_ydata(np.where(line.get_ydata() > low, line.get_ydata(), np.nan))
     across = "distance from the axis" if "z" in header(runs[0]) else "$x$"
     for axes in (pressures, overlaps):
         axes.set_xlabel(f"{across} [{units.length}]")
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
     pressures.set_ylabel(f"pressure $p$ [{units.stress}]")
     overlaps.set_ylabel(f"overlap $d$ [{units.length}]")
-    residuals.set_ylabel("relative residual")
-    residuals.set_xlabel("Newton step")
-    residuals.set_yscale("log")
+    residuals.set_ylabel("relative residual [–]")
+    residuals.set_xlabel("Newton step [–]")
+    style.set_log(residuals, "y")
     residuals.xaxis.set_major_locator(MaxNLocator(integer=True))
     style.legend_outside(figure, "upper left", alignment="left")
     return figure

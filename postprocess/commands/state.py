@@ -73,14 +73,16 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
     each = 1 if len(near) < 3 else 2
     rows = [(near[k : k + each], 0.75 * wide / each + 0.2) for k in range(0, len(near), each)]
     page = [*rows, (body, shape * wide + 0.2), (curve, 0.6)]
-    tall = shape > 0.6
+    tall = shape > 0.8
     figure, panels = style.figure_with_panels(page, slide_layout(near, body + curve, tall or not near), slide)
     width = (28 if tall or each == 2 else 44) if slide else 56 // each - 2
     boxes = [*zones, (None, whole)]
     for index, (letter, (contact, box)) in enumerate(zip(near + body, boxes, strict=True)):
         axes, shown = panels[letter], bodies if contact is None else true
-        top = None if not stress else (drawn.whole_stress_range if contact is None else drawn.stress_range)(bodies)
+        ends = drawn.whole_stress_range(bodies), drawn.stress_range(bodies, [zone for _, zone in zones])
+        top = ends[contact is not None] if stress else None
         colours = drawn.fill_plane(axes, shown, top)
+        drawn.draw_mesh(axes, shown, box, stress)
         if contact is not None or not zones:
             drawn.draw_pressure_diagram(axes, shown, box, contact, units)
         axes.set_xlim(*box[:, 0])
@@ -94,7 +96,8 @@ def in_plane(bodies: Bodies, units: style.Units, stress: bool = False, slide: bo
             drawn.colour_bar(figure, colours, [axes], bodies, units)
         words = drawn.displacement_caption(bodies, units) + more
         if contact is not None:
-            words = (style.without_mathtext(bodies.names[contact]) or "contact") + drawn.origin_caption(true, contact)
+            words = style.without_mathtext(bodies.names[contact]) or "contact"
+            words += drawn.force_caption(true, contact, units) + drawn.origin_caption(true, contact)
         axes.set_anchor("W")
         drawn.set_panel_title(axes, index, words, width if contact is not None or slide else 54)
     if stress and each == 2:

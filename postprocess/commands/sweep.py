@@ -277,5 +277,5 @@ def draw_results(what: str, rows: list[dict], names: list[str]) -> Figure:
             axes.errorbar(at[order], column, bars, label=label, capsize=2, elinewidth=0.8, **style.curve(index))
         axes.set_xlabel(style.without_mathtext(what.replace("*", "...")))
         axes.set_ylabel(title)
-        axes.legend(fontsize=6)
+        axes.legend(fontsize=7)
     return figure

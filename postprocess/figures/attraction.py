@@ -42,8 +42,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         length = run.positive("eps0") if spheres else 1.0
         unit = np.pi * run.positive("w") * run.positive("R") if spheres else 1.0
         whole = run.summary["parameters"].get("branch") == "unstable"
-        name = rf"$\mu$ = {tabor(run):.3g}" if spheres else run.summary["scene"]
-        name += ", all states" if whole else ""
+        name = rf"Tabor's number $\mu$ = {tabor(run):.3g}" if spheres else run.summary["scene"].replace("-", " ")
+        name = "all states, dotted: unstable" if whole else name
         rows["approach"], rows["force"] = rows["approach"] / length, rows["force"] / unit
         rows["stiffness"] = rows["stiffness"] * length / unit
         drawn.append((rows, style.CURVES[index], name, whole, run))
@@ -55,9 +55,10 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     if spheres:
         draw_theories(axes, runs[0])
     axes.axhline(0, color=style.GREY, linewidth=0.4)
-    axes.set_xlabel(r"approach $\delta/\varepsilon$" if spheres else f"approach [{units.length}]")
-    axes.set_ylabel(r"force $F/(\pi w R)$" if spheres else f"force [{units.stress} × {units.length}]")
-    style.legend_outside(figure, "upper center", *axes.get_legend_handles_labels(), ncols=2)
+    over = r"approach / equilibrium gap, $\delta/\varepsilon$ [–]", r"force / adhesion × radius, $F/(\pi w R)$ [–]"
+    plain = f"approach [{units.length}]", f"force [{units.stress} × {units.length}]"
+    axes.set(**dict(zip(("xlabel", "ylabel"), over if spheres else plain, strict=True)))
+    style.legend_outside(figure, "upper center", *axes.get_legend_handles_labels(), ncols=2, columnspacing=1.2)
     style.name_elements(figure, runs)
     return figure
 
@@ -118,6 +119,8 @@ def draw_theories(axes: Axes, run: Run) -> None:
     axes.plot(pressed, hertz, color=style.GREY, linewidth=0.8, linestyle=(0, (2, 1.5)), label="DMT")
     for number, least in PULL_OFF.items():
         if abs(number / mu - 1) < 0.01:
-            axes.plot([left, right], [least, least], color=style.BLACK, linewidth=0.5, label="pull-off, half-space")
+            axes.plot(
+                [left, right], [least, least], color=style.BLACK, linewidth=0.5, label="pull-off, boundary elements"
+            )
     axes.set_xlim(left, right)
     axes.set_ylim(min(down, -2.1), up)

@@ -4,7 +4,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
 from postprocess.campaign import (
@@ -53,20 +52,14 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         for name in SERIES:
             draw_series(axes, select(rows, name=name, **wanted), LOOKS[name])
         draw_peers(axes, select(peers, m=3.0, **wanted))
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
-        axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
-        axes.yaxis.set_minor_formatter(NullFormatter())
+        style.set_log(axes, "xy", 5)
         axes.set_title(title, loc="left", fontsize=8, pad=3)
         axes.grid(color="0.92", linewidth=0.4)
         axes.tick_params(labelsize=7)
-        axes.margins(0.1)
     for axes in (grid[2, 0], grid[1, 1]):
-        axes.set_xlabel("CPU seconds", fontsize=8, labelpad=1)
+        axes.set_xlabel("CPU time [s]", fontsize=8, labelpad=1)
     for axes in grid[:, 0]:
-        axes.set_ylabel("relative error", fontsize=8, labelpad=1)
+        axes.set_ylabel("relative error [–]", fontsize=8, labelpad=1)
     draw_legend(grid[2, 1], bool(peers))
     name_meshes(figure, rows)
     return figure

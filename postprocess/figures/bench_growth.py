@@ -54,17 +54,16 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             if len(done) > 2:
                 powers = f"$n^{{{exponent(dofs, ours):.2f}}}$, elastic $n^{{{exponent(dofs, elastic):.2f}}}$"
                 texts.append(f"{place(which[0])}: {powers}")
-    seconds.text(0.97, 0.04, "\n".join(texts), transform=seconds.transAxes, ha="right", fontsize=7.5)
-    for axes, title in ((seconds, "CPU seconds"), (memory, "memory [GB]"), (ratio, "cost ratio")):
-        axes.set_xscale("log")
-        axes.set_title(title, loc="left")
-        axes.set_xlabel("degrees of freedom $n$")
+    seconds.plot([], [], " ", label="CPU time grows as " + "; ".join(texts)) if texts else None
+    labels = "CPU time [s]", "memory [GB]", "cost over an elastic solve [–]"
+    for index, (axes, label) in enumerate(zip((seconds, memory, ratio), labels, strict=True)):
+        axes.set(xlabel="degrees of freedom $n$ [–]", ylabel=label)
+        axes.set_title(style.panel(index), loc="left")
         axes.grid(color="0.9", linewidth=0.5)
-    seconds.set_yscale("log")
-    memory.set_yscale("log")
+        style.set_log(axes, "x" if axes is ratio else "xy", 5)
     ratio.axhline(1.25, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
     ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if is_converged(row)], "costRatio"))))
-    style.legend_outside(figure, "upper center", ncols=3)
+    style.legend_outside(figure, "upper center", ncols=2)
     name_meshes(figure, rows)
     return figure
 

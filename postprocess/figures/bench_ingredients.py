@@ -36,9 +36,10 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             counts[at] = number(row, measure)
             failed[at] |= not is_converged(row)
         most = max(np.nanmax(counts), 10)
-        heat_map(axes, counts, failed, (mpl.colormaps["viridis_r"], LogNorm(1, most)), size=6.5)
+        heat_map(axes, counts, failed, (mpl.colormaps["viridis_r"], LogNorm(1, most)), size=7)
         axes.set_yticks(range(len(variants)), variants, fontsize=7)
         axes.invert_yaxis()
+        axes.set_ylabel("exchanged ingredients")
         axes.set_title(f"{title} (hatched: failed)", loc="left")
         for place in range(1, len(columns)):
             if columns[place][0] != columns[place - 1][0]:
@@ -48,6 +49,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         places = [place for place, column in enumerate(columns) if column[0] == scene]
         above = panels[0].get_xaxis_transform()
         panels[0].text(np.mean(places), 1.03, scene, transform=above, ha="center", fontsize=7.5)
+    panels[-1].set_xlabel(r"stiffness $\kappa$ [stress/length$^m$], exponent $m$ [–]; or another law")
     panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=16)
     name_meshes(figure, rows)
     return figure

@@ -3,7 +3,6 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from postprocess import style
 from postprocess.campaign import (
@@ -56,9 +55,6 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             if not known:
                 axes.set_visible(False)
                 continue
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-            axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
             for place, name in enumerate(ELEMENTS):
                 draw_front(
                     [row for row in known if method(row) == "xnewton" and element(row) == name], column, axes, place
@@ -68,16 +64,17 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
                 axes.plot(seconds(rival), numbers(rival, column), **rival_look(name))
             axes.set_title(f"{title}: {quantity}", loc="left", fontsize=8)
             axes.grid(color="0.9", linewidth=0.5)
+            style.set_log(axes, "xy", 4)
     for axes in (*grid[-1, :2], *grid[-2, 2:]):
-        axes.set_xlabel("CPU seconds")
+        axes.set_xlabel("CPU time [s]")
     for axes in grid[:, 0]:
-        axes.set_ylabel("relative error")
+        axes.set_ylabel("relative error [–]")
     for place, name in enumerate(ELEMENTS):
-        grid[0, 0].plot([], [], **style.curve(place), label=f"xnewton, {name}")
+        grid[0, 0].plot([], [], **style.curve(place), label=f"default method, {name}")
     for name in RIVALS:
         if any(method(row) == name for row in rows):
             grid[0, 0].plot([], [], **rival_look(name), label=NAMES[name])
-    style.legend_outside(figure, "upper center", ncols=5)
+    style.legend_outside(figure, "upper center", ncols=4)
     name_meshes(figure, rows)
     return figure
 

@@ -3,7 +3,6 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from postprocess import style
 from postprocess.campaign import Campaign, Row, contact_seconds, is_converged, name_meshes, number, read_campaign
@@ -39,18 +38,15 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         for code, color in enumerate(COLORS):
             draw_code(axes, [row for row in rows if problem(row) == which and code_index(row) == code], color)
         annotate_failures(axes, [row for row in every if not is_converged(row) and problem(row) == which])
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.xaxis.set_minor_formatter(NullFormatter())  # within a decade every tick would have a label
         axes.set_title(panel_title(*which), loc="left", fontsize=8)
         axes.grid(color="0.9", linewidth=0.5)
-        axes.margins(0.08)
+    style.set_log(grid[0, 0], "xy")
     for axes in grid.flat[len(problems) :]:
         axes.set_visible(False)
     for axes in grid[-1]:
-        axes.set_xlabel("CPU seconds")
+        axes.set_xlabel("CPU time [s]")
     for axes in grid[:, 0]:
-        axes.set_ylabel("error in force")
+        axes.set_ylabel("error of the force [–]")
     for name, color in zip(CODES, COLORS, strict=True):
         grid[0, 0].plot([], [], color=color, label=name)
     for degree in sorted({round(number(row, "order")) for row in rows}):

@@ -25,7 +25,7 @@ RUNS = (1, 1)
 READ = read_campaign
 
 FLOOR = 1e-13  # below, an error is the reference's own
-MEASURES = {"seconds": "CPU seconds", "factorisations": "factorisations", "backsolves": "back-substitutions"}
+MEASURES = {"seconds": "CPU time [s]", "factorisations": "factorisations [–]", "backsolves": "back-substitutions [–]"}
 COLUMNS = "status order h method T0 kappa m tol pressureError seconds_assembly seconds_factorisation seconds_contact"
 
 
@@ -38,15 +38,14 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     grid = figure.subplots(len(MEASURES), len(laws), sharex="row", sharey=True, squeeze=False)
     for column, (kappa, m) in enumerate(laws):
         for axes, (measure, label) in zip(grid[:, column], MEASURES.items(), strict=True):
-            axes.set_xscale("log")
-            axes.set_yscale("log")
             for name in present:
                 draw_curve(axes, [row for row in select(rows, kappa=kappa, m=m) if method(row) == name], name, measure)
             axes.set_xlabel(label)
             axes.grid(color="0.9", linewidth=0.5)
+            style.set_log(axes, "xy")
         grid[0, column].set_title(rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$")
     for axes in grid[:, 0]:
-        axes.set_ylabel("relative error of $p$")
+        axes.set_ylabel("relative error of $p$ [–]")
     for name in present:
         grid[0, 0].plot([], [], **method_look(name), label=NAMES[name])
     grid[0, 0].plot([], [], "x", color=style.GREY, label="failed")

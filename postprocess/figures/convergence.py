@@ -14,8 +14,7 @@ RUNS = (1, None)
 def draw(runs: list[Run], units: style.Units) -> Figure:
     """One curve per run, interrupted where the next model or load step begins; the last step before is a full marker.
 
-    A residual of exactly zero has no place on a logarithmic axis: it is drawn at the lower edge, pointing down. The
-    legend stands within the axes, above the curves.
+    A residual of exactly zero has no place on a logarithmic axis: it is drawn below all others, pointing down.
     """
     for run in runs:
         if len(run.history["newton"]) == 0:
@@ -26,35 +25,19 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
     figure = Figure(figsize=(style.COLUMN, 0.8 * style.COLUMN + 0.16 * len(runs)), layout="constrained")
     axes = figure.subplots()
-    axes.set_yscale("log")
     for index, (run, label) in enumerate(zip(runs, style.labels(runs), strict=True)):
         draw_curve(axes, run, index, f"{label}: {style.cost_text(run, 'step')}", floor)
     draw_tolerances(axes, runs)
     if len(runs) == 1:
         mark_adaptations(axes, runs[0])
-    axes.set_xlabel("cumulative Newton step")
-    axes.set_ylabel("relative residual")
+    axes.set_xlabel("cumulative Newton step [–]")
+    axes.set_ylabel("relative residual [–]")
+    style.set_log(axes, "y", 8)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_xlim(0, max(run.history["newton"][-1] for run in runs) + 0.5)
-    place_legend(axes)
+    style.legend_outside(figure, "upper center", *axes.get_legend_handles_labels(), labelspacing=0.3)
     style.name_elements(figure, runs)
     return figure
-
-
-def place_legend(axes: Axes) -> None:
-    """The legend at the top within the axes, whose upper end is raised until no curve is behind it."""
-    white: style.Look = {
-        "frameon": True,
-        "facecolor": "white",
-        "edgecolor": "none",
-        "framealpha": 1,
-    }  # over the adaptations' lines
-    legend = axes.legend(loc="upper right", labelspacing=0.3, borderaxespad=0.1, **white)
-    style.figure_of(axes).draw_without_rendering()
-    bottom, top = np.log10(axes.dataLim.y0) - 0.5, np.log10(axes.dataLim.y1) + 0.5
-    covered = min(0.8, legend.get_window_extent().height / axes.get_window_extent().height + 0.03)
-    axes.set_ylim(10**bottom, 10 ** (bottom + (top - bottom) / (1 - covered)))
-    axes.set_yticks([tick for tick in axes.get_yticks() if tick <= 10 ** (top + 1e-9)])
 
 
 def draw_curve(axes: Axes, run: Run, index: int, label: str, floor: float) -> None:

@@ -3,7 +3,6 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from postprocess import style
 from postprocess.results import ResultsError, Run
@@ -49,19 +48,15 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     left.plot([], [], color=style.GREY, linewidth=0.9, linestyle=(0, (4, 1.5)), label="one linear elastic solve")
     left.plot([], [], color=style.GREY, linewidth=0.9, linestyle=":", label="waited, from start to results")
     for axes in (left, right):
-        axes.set_xscale("log")
         axes.grid(axis="x" if axes is right and not alike else "both", color="0.9", linewidth=0.5)
         axes.set_title(style.panel(int(axes is right)), loc="left")
-    left.xaxis.set_major_locator(LogLocator(subs=(1, 3)))  # the seconds of small meshes lie within a decade
-    left.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: f"{seconds:g}"))
-    left.xaxis.set_minor_formatter(NullFormatter())
-    left.set_xlabel("CPU seconds from assembly to displacement;\ndotted: seconds waited")
-    left.set_yscale("log")
-    left.set_ylabel("relative error of the force")
-    right.set_xlabel("unknowns" if alike else "factorisations")
+    style.set_log(left, "xy")
+    style.set_log(right, "x")
+    left.set_xlabel("CPU time from assembly to displacement [s];\ndotted: time waited [s]")
+    left.set_ylabel("relative error of the force [–]")
+    right.set_xlabel("unknowns [–]" if alike else "factorisations [–]")
     if alike:
         right.sharey(left)
-        right.set_yscale("log")
         right.tick_params(labelleft=False)
     else:
         right.set_yticks(range(len(groups)), list(groups))

@@ -62,28 +62,31 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     for row, label in zip(grid, (f"$y$ [{units.length}]",) * 2 + (f"overlap [{units.length}]",), strict=True):
         row[0].set_ylabel(label)
         row[0].xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True))
-        row[0].yaxis.set_major_locator(MaxNLocator(nbins=4, integer=row is not grid[2]))
+        row[0].yaxis.set_major_locator(MaxNLocator(nbins=4, integer=True))
     low, high = run.parameter("d0"), max(table["overlap"].max() for table in run.adaptations)
-    own = []  # the panels whose overlap is of another size: that of the prescribed motion alone
+    near = 1.4 * low, high + 0.4 * (high - low)
     for place, row in enumerate(grid):
-        for axes in row:
-            if place == 2 and axes.lines[0].get_ydata().max() > 3 * high:
-                own.append(axes)
-            elif axes is not row[0]:
-                axes.sharey(row[0])
-                axes.tick_params(labelleft=False)
-    grid[2, 0].set_ylim(1.4 * low, high + 0.4 * (high - low))
-    for axes in own:
-        axes.set_ylim(1.4 * low, None)
+        for axes in row[1:] if place < 2 else ():
+            axes.sharey(row[0])
+            axes.tick_params(labelleft=False)
+    for axes in grid[2]:
+        top = axes.lines[0].get_ydata().max()
+        far = not low < top < 3 * high  # the prescribed motion alone, apart or overlapping
+        axes.set_ylim(*(run.parameter("u0") * np.array([-0.4, 1]) if far else near))
+        if far:  # what the other panels of the row show of its scale
+            axes.axhspan(*near, color="0.9", linewidth=0, zorder=0)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    free: style.Look = {"loc": "best"} if own else {"loc": "center", "bbox_to_anchor": (0.5, 0.42)}
-    grid[2, -1].legend(fontsize=8, handlelength=1.5, labelspacing=0.2, **free)
-    grid[2, 0].annotate(
-        "$d_0$", (close[0], low), xytext=(3, 2), textcoords="offset points", fontsize=8, color=style.GREY
-    )
+        axes.yaxis.set_major_formatter(two_decimals)  # as wide in all panels
+    handles, names = grid[2, -1].get_legend_handles_labels()
+    band = Rectangle((0, 0), 1, 1, color="0.9", linewidth=0)
+    style.legend_outside(figure, "lower center", [*handles, band], [*names, "range of the other panels"], ncols=4)
     figure.align_ylabels()
     style.name_elements(figure, runs)
     return figure
+
+
+def two_decimals(value: float, _: object = None) -> str:
+    return f"{value:.2f}".replace("-", "\N{MINUS SIGN}")
 
 
 def draw_overlap(axes: Axes, run: Run, state: int) -> None:
@@ -100,7 +103,7 @@ def draw_overlap(axes: Axes, run: Run, state: int) -> None:
     axes.plot(x, overlap, color=style.VERMILION, label="$d$, overlap")
     if np.isfinite(table["threshold"]).all():
         axes.plot(x, table["threshold"], color=style.BLUE, linestyle=(0, (4, 1.5)), label="$T$, threshold")
-    axes.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6)
+    axes.axhline(run.parameter("d0"), color=style.GREY, linewidth=0.6, label="$d_0$, first touch")
 
 
 def choose_states(run: Run) -> list[tuple[int, str]]:
@@ -128,7 +131,7 @@ def state_caption(run: Run, state: int) -> str:
         return "undeformed"
     if states.newton[state] == 0:
         return "before Newton step 1"
-    return f"adaptation {states.adaptation[state]}, Newton step {states.newton[state]}"
+    return f"adaptation {states.adaptation[state]}, step {states.newton[state]}"
 
 
 def line_weight(run: Run, window: tuple, columns: int) -> float:

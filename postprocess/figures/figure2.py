@@ -56,7 +56,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
     draw_difference(below, x[touched], difference[touched])
     if not same_points:
-        below.set_title("reference interpolated to the run's points", fontsize=8, loc="right", pad=2)
+        below.set_title("reference interpolated", fontsize=8, loc="right", pad=2)
     below.set_xlabel(f"$x$ [{units.length}]")
     below.set_xlim(middle - edge, middle + edge)
     figure.align_ylabels()
@@ -66,7 +66,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
 
 def draw_difference(axes: Axes, x: np.ndarray, difference: np.ndarray) -> None:
     """The relative difference at the points in contact; where it is exactly zero there is nothing to draw."""
-    axes.set_ylabel(r"$|p - p_{\mathrm{ref}}| \,/\, \max\, p_{\mathrm{ref}}$")
+    axes.set_ylabel(r"$|p - p_{\mathrm{ref}}| \,/\, \max\, p_{\mathrm{ref}}$ [–]")
     if not difference.any():
         axes.text(0.5, 0.5, "no difference", transform=axes.transAxes, ha="center", va="center", color=style.GREY)
         axes.set_yticks([])
@@ -74,16 +74,9 @@ def draw_difference(axes: Axes, x: np.ndarray, difference: np.ndarray) -> None:
     seen = np.where(difference > 0, difference, np.nan)
     axes.plot(x, seen, color=style.BLUE, marker=".", markersize=3, linewidth=0.7)
     greatest = difference.max()
-    style.set_decades(axes, np.append(difference, 10 * greatest))
-    axes.annotate(
-        f"greatest: ${style.number(float(f'{greatest:.2g}'))}$",
-        (0.5, 0.97),
-        xycoords="axes fraction",
-        ha="center",
-        va="top",
-        fontsize=8,
-        color=style.BLUE,
-    )
+    style.set_log(axes, "y", 5)
+    words = f"greatest: ${style.number(float(f'{greatest:.2g}'))}$"
+    axes.set_title(words, loc="left", fontsize=8, color=style.BLUE)
 
 
 def legend_entries(runs: list[Run]) -> list[str]:

@@ -36,8 +36,8 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         "color": style.VERMILION,
     }
     above.plot(x[shown], pressure[shown], label=f"run, {run.summary['contactPoints']} points in contact", **dots)
-    above.set_xlabel("$r/a$" if round_contact else "$x/a$")
-    above.set_ylabel("pressure $p/p_0$")
+    above.set_xlabel("$r/a$ [–]" if round_contact else "$x/a$ [–]")
+    above.set_ylabel("pressure $p/p_0$ [–]")
     draw_shear(below, run, axis["depth"] / a, np.abs(axis["s11"] - axis["s22"]) / 2 / greatest, round_contact)
     for index, axes in enumerate((above, below)):
         axes.set_title(style.panel(index), loc="left")
@@ -52,7 +52,7 @@ def draw_shear(axes: Axes, run: Run, below: np.ndarray, shear: np.ndarray, round
     expected = shear_below(depth, run, round_contact)
     axes.plot(expected, depth, color=style.BLACK)
     axes.plot(shear, below, color=style.VERMILION, linestyle=(0, (4, 1.5)))
-    end, greatest = min(3, below.max()), max(shear.max(), expected.max())
+    end, greatest = min(3.0, np.ceil(below.max())), max(shear.max(), expected.max())
     for place, name, colour, at, values in (
         (0.1, "Hertz", style.BLACK, depth, expected),
         (0.55, "run", style.VERMILION, below, shear),
@@ -63,13 +63,11 @@ def draw_shear(axes: Axes, run: Run, below: np.ndarray, shear: np.ndarray, round
         text = f"{name}: {values[peak]:.3f} at {at[peak]:.2f} $a$"
         look: style.Look = {"fontsize": 8, "color": colour, "va": "center", "arrowprops": line}
         axes.annotate(text, (values[peak], at[peak]), (1.14 * greatest, place * end), **look)
-    if not round_contact:  # twice the size halves it
-        axes.text(1.14 * greatest, 0.8 * end, "offset: bodies of\nfinite size", fontsize=8, va="center")
     axes.set_ylim(end, 0)
     axes.set_xlim(0, 1.85 * greatest)
     axes.set_xticks(np.arange(0, greatest + 1e-9, 0.1))
-    axes.set_xlabel(r"greatest shear stress $\tau/p_0$")
-    axes.set_ylabel("depth $z/a$")
+    axes.set_xlabel(r"greatest shear stress $\tau/p_0$ [–]")
+    axes.set_ylabel("depth $z/a$ [–]")
 
 
 def shear_below(z: np.ndarray, run: Run, round_contact: bool) -> np.ndarray:

@@ -2,7 +2,6 @@
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from postprocess import style
 from postprocess.reference_values import CIRCLES, LINES, about_axis, hertz, prescribed_force, scene_of
@@ -11,23 +10,24 @@ from postprocess.results import ResultsError, Run
 RUNS = (2, None)
 
 PLANE = (*LINES, "axisymmetric")  # meshes of triangles, the others of tetrahedra
+LEAST = 1e-5  # an error that changes its sign between two meshes may be as small as one likes
 FLOOR = 3e-5  # of the first two errors: less than what Hertz leaves out, as a/R and the size of the bodies
-WHAT = ("half-width or radius", "greatest pressure", "pressure, r.m.s.")
+WHAT = ("half-width or radius", "greatest pressure", "pressure, root mean square")
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
     """Relative errors over h/a, a row each: of the second moment, of the greatest value, of all points, weighted.
 
     Scenes with meshes of triangles at the left, of tetrahedra at the right. The legends have each curve's slopes, least
-    squares over what is not below FLOOR, which is shaded; none where the error changes its sign. a and p0 are Hertz's
-    own, from the prescribed force and the parameters: nothing of the runs enters them.
+    squares over what is not below FLOOR, which is shaded; none where the error changes its sign. Errors below LEAST
+    stand there. a and p0 are from the prescribed force and the parameters: nothing of the runs enters them.
     """
     groups: dict[tuple, list[Run]] = {}
     for run in runs:
         groups.setdefault((scene(run), run.summary["order"]), []).append(run)
     scenes = list(dict.fromkeys(name for name, _ in groups))
     sides = [side for side in (True, False) if any((name in PLANE) is side for name in scenes)]
-    figure = Figure(figsize=(style.COLUMN, 1.95 * style.COLUMN), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, 2.1 * style.COLUMN), layout="constrained")
     grid = figure.subplots(len(WHAT), len(sides), sharex="col", sharey="row", squeeze=False)
     for (name, order), group in groups.items():
         panels = grid[:, sides.index(name in PLANE)]
@@ -37,30 +37,25 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             look |= {"markerfacecolor": "white", "linestyle": (0, (4, 1.5))}
         text = ", ".join(slope(sizes, each) for each in found)
         for axes, each in zip(panels, found, strict=True):
-            axes.plot(sizes, np.abs(each), label=f"{name} P{order}: {text}", **look)
+            axes.plot(sizes, np.maximum(np.abs(each), LEAST), label=f"{words(name)}, P{order}: {text}", **look)
     for panels, side in zip(grid.T, sides, strict=True):
-        panels[0].set_title("triangles" if side else "tetrahedra")
-        panels[-1].set_xlabel("$h/a$")
-        panels[0].set_xscale("log")
-        panels[0].set_xticks([0.05, 0.1, 0.2] if side else [0.14, 0.2, 0.4])
-        panels[0].xaxis.set_major_formatter("{x:g}")
-        panels[0].xaxis.set_minor_formatter(NullFormatter())
+        panels[-1].set_xlabel("element size $h/a$ [–]")
+        style.set_log(panels[0], "x", 4)
         place, entries = "lower left" if side else "lower right", panels[0].get_legend_handles_labels()
         small: style.Look = {"fontsize": 7, "handlelength": 1.5, "title_fontproperties": {"size": 7}}
-        style.legend_outside(figure, place, *entries, title="slopes of the three rows", **small)
+        title = "slopes in (a), (b), (c); ×: sign changes\ngrey: below the error of Hertz's solution"
+        style.legend_outside(figure, place, *entries, title=title if side is sides[0] else " ", **small)
     for index, (row, what) in enumerate(zip(grid, WHAT, strict=True)):
-        row[0].set_yscale("log")
-        row[0].yaxis.set_minor_formatter(NullFormatter())
-        row[0].set_ylabel(f"{style.panel(index)} {what}")
+        style.set_log(row[0], "y", 5)
+        row[0].set_ylabel("relative error [–]")
+        row[0].set_title(f"{style.panel(index)} {what}", loc="left")
         for axes in row:
             axes.grid(color="0.9", linewidth=0.5)
             if index < 2:
-                axes.axhspan(0.3 * FLOOR, FLOOR, color="0.9", linewidth=0, zorder=0)
-        if index < 2:
-            row[0].set_ylim(0.3 * FLOOR, None)
-        else:  # over whole decades: two labels at least
-            drawn = np.log10(np.concatenate([line.get_ydata() for axes in row for line in axes.lines]))
-            row[0].set_ylim(10 ** np.floor(drawn.min()), 10 ** np.ceil(drawn.max()))
+                axes.axhspan(LEAST / 10, FLOOR, color="0.9", linewidth=0, zorder=0)
+    for axes, side in zip(grid[0], sides, strict=True):
+        kind = "triangles" if side else "tetrahedra"
+        axes.set_title(f"{kind}\n{axes.get_title(loc='left')}", loc="left")
     figure.align_ylabels()
     return figure
 
@@ -73,8 +68,13 @@ def slope(sizes: np.ndarray, error: np.ndarray) -> str:
     return f"{np.polyfit(np.log(sizes), np.log(np.abs(error)), 1)[0]:.1f}".replace("-", "−")
 
 
+def words(name: str) -> str:
+    """A scene as what is in contact."""
+    return {"hertz-line": "cylinder", "axisymmetric": "sphere on block"}.get(name, name.replace("-", " "))
+
+
 def scene(run: Run) -> str:
-    """The run's scene, as what is in contact."""
+    """The run's scene; of a disc about its axis that word."""
     name = scene_of(run, *LINES, "disc-on-block", *CIRCLES)
     if name == "disc-on-block" and not about_axis(run):
         raise ResultsError(run.path / "summary.json", "is of a disc: use the scene hertz-line")

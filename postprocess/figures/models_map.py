@@ -14,8 +14,8 @@ PANELS = {
     "walls from T⁰ = 0": "walls, $T^0 = 0$",
     "walls from T⁰ = d0": "walls, $T^0 = d_0$",
     "tangents": "tangents",
-    "`xnewton`, no start": "xnewton, no start",
-    "`xnewton`": "xnewton",
+    "`xnewton`, no start": "default method, no start",
+    "`xnewton`": "default method",
 }
 
 

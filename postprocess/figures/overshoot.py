@@ -32,12 +32,12 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             right.annotate(
                 f"$1 - 1/m$, $m = {style.number(m)}$", (1, 1 - 1 / m), xycoords=("axes fraction", "data"), **text
             )
-    left.set_yscale("log")
-    left.set_ylabel("relative error of the overlap $s$")
+    style.set_log(left, "y")
+    left.set_ylabel("relative error of the overlap $s$ [–]")
     right.set_ylim(0, 1.05)
-    right.set_ylabel("error over the error before")
+    right.set_ylabel("error over the error before [–]")
     for axes in (left, right):
-        axes.set_xlabel("Newton step")
+        axes.set_xlabel("Newton step [–]")
         axes.set_xlim(0, None)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     right.set_xlim(0, 1.3 * right.get_xlim()[1])  # room for the names of the dashed lines

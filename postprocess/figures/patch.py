@@ -31,7 +31,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
     if plane:
         panels[0].set_xlabel(f"$x$ [{units.length}]")
         panels[0].set_ylabel(r"$p/p_{\mathrm{exact}} - 1$ [%]")
-        panels[0].legend()
+        panels[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.08))
         panels[0].set_title("(a) plane", loc="left")
     greatest = max((np.abs(error).max() for error in off[len(plane) :]), default=0)
     for axes, run, error in zip(maps, space, off[len(plane) :], strict=True):
@@ -39,25 +39,33 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         colours = axes.tripcolor(style.contact_triangulation(run), error, shading="gouraud", **look)
         axes.plot(run.contact["x"], run.contact["y"], ".", color=style.BLACK, markersize=1.5)
         axes.set_aspect("equal")
-        axes.set_xlabel(f"$x$ [{units.length}]\n{words(run, error)}".replace(": ", ":\n"))
+        axes.set_xlabel(f"$x$ [{units.length}]")
         axes.label_outer()
     if space:
         maps[0].set_ylabel(f"$y$ [{units.length}]")
-        figure.colorbar(colours, ax=maps, label=r"$p/p_{\mathrm{exact}} - 1$ [%]", shrink=0.9)
-    for index, axes in enumerate(maps, start=bool(plane)):
-        axes.set_title(f"{style.panel(index)} space", loc="left")
+        height = (1.03, 0, 0.06, 1)  # that of the panel
+        figure.colorbar(colours, cax=maps[-1].inset_axes(height), label=r"$p/p_{\mathrm{exact}} - 1$ [%]")
+    for index, (axes, run, error) in enumerate(zip(maps, space, off[len(plane) :], strict=False), start=bool(plane)):
+        axes.set_title(
+            f"{style.panel(index)} space, {words(run, error)}".replace(", ", ",\n").replace(": ", ":\n"),
+            loc="left",
+            fontsize=8,
+        )
     style.write_below(figure, meshes(runs))
     return figure
 
 
 def meshes(runs: list[Run]) -> str:
     """The runs' element, and how many of them the two bodies have along a side, in the plane and in space."""
-    sides = [tuple(run.summary["parameters"].get(name) for name in ("lower", "upper")) for run in runs]
-    kinds = [f"{low} and {high}" for low, high in dict.fromkeys(sides) if low and high]
-    return f"P{runs[0].summary['order']}" + (f", {' / '.join(kinds)} elements a side" if kinds else "")
+    sides = {"plane" if run.summary["scene"] == "patch-test" else "space": run.summary["parameters"] for run in runs}
+    kinds = [f"{given['lower']} and {given['upper']} ({where})" for where, given in sides.items() if "lower" in given]
+    return f"P{runs[0].summary['order']}" + (f", elements a side: {', '.join(kinds)}" if kinds else "")
 
 
 def words(run: Run, error: np.ndarray) -> str:
     """How the overlaps are taken, and the greatest error (per cent)."""
-    points = style.without_mathtext(str(run.summary["parameters"].get("points", "")))
+    taken = run.summary["parameters"].get("points", "")
+    points = {"nodal": "overlaps at nodes", "segment": "averaged overlaps"}.get(
+        taken, style.without_mathtext(str(taken))
+    )
     return f"{points}: at most ${style.number(float(f'{np.abs(error).max():.2g}'))}$ %"

@@ -27,23 +27,20 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         closed = punch_pressure(run, a * across) / mean
         x, pressure = run.contact["x"] / a, run.contact["pressure"] / mean
         look = style.curve(index) | {"markersize": 2.5, "linewidth": 0.8, "markerfacecolor": "white"}
-        left.plot(x, pressure, label=style.law_text(run), markevery=0.04, **look)
+        left.plot(x, np.where(pressure < TOP, pressure, np.nan), label=style.law_text(run), markevery=0.04, **look)
         half = (x >= 0) & (x < 1 - 1e-9)
         right.plot(1 - x[half], pressure[half], markevery=0.04, **look)
     line: style.Look = {"color": style.BLACK, "linewidth": 1.0, "zorder": 4}
     left.plot(np.append(-across, across[::-1]), np.append(closed, closed[::-1]), label="closed form", **line)
     right.plot(1 - across, closed, **line)
     left.set_ylim(0, TOP)
-    left.set_xlabel("$x/a$")
-    left.set_ylabel("pressure over its mean")
-    right.set_xscale("log")
-    right.set_yscale("log")
-    right.set_xlim(0.5 * (1 - x[half]).min(), 1)
-    right.set_ylim(0.5, 20)
-    right.set_yticks([0.5, 1, 2, 5, 10, 20], labels=["0.5", "1", "2", "5", "10", "20"])
-    right.set_xlabel("distance from the corner $1 - |x|/a$")
-    right.annotate("slope $-1/2$", (2.5e-3, 13), fontsize=8)
+    left.set_xlabel("$x/a$ [–]")
+    style.set_log(right, "xy")
+    right.set_xlim(0.5 * (1 - x[half]).min(), 1.2)
+    right.set_xlabel("distance from the corner $1 - |x|/a$ [–]")
+    right.annotate("slope $-1/2$", (0.32, 0.75), xycoords="axes fraction", fontsize=8)
     for axes, number in ((left, 0), (right, 1)):
+        axes.set_ylabel("pressure over its mean [–]")
         axes.set_title(style.panel(number), loc="left")
     style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)

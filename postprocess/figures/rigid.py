@@ -12,10 +12,10 @@ RUNS = (3, 9)
 
 
 def draw(runs: list[Run], units: style.Units) -> Figure:
-    """(a) p over x: the first run, of the rigid disc, a line, the others dots; (b) the differences over E disc/E block.
+    """(a) p over x of the rigid disc, a line, and of the softest; (b) each disc's difference from it over x.
 
-    Force, and greatest difference of pressure over the rigid disc's greatest pressure; with the slope of each, least
-    squares over the runs where the disc is at least ten times stiffer.
+    (c) force, and greatest difference of pressure over the rigid disc's greatest one, over E disc/E block; with the
+    slope of each, least squares over the runs where the disc is at least ten times stiffer.
     """
     rigid, *meshed = runs
     scene_of(rigid, "disc-on-block")
@@ -26,16 +26,24 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             raise ResultsError(run.path / "contact.csv", f"has other points than {rigid.path / 'contact.csv'}")
     meshed.sort(key=lambda run: run.positive("Eratio"))
     ratio = np.array([run.positive("Eratio") for run in meshed])
-    figure = Figure(figsize=(style.COLUMN, 1.4 * style.COLUMN), layout="constrained")
-    left, right = figure.subplots(2, 1)
+    figure = Figure(figsize=(style.COLUMN, 2.0 * style.COLUMN), layout="constrained")
+    left, middle, right = figure.subplots(3, 1)
+    middle.sharex(left)
     shown = np.abs(rigid.contact["x"]) <= 0.7 * rigid.parameter("R")
     x = rigid.contact["x"][shown]
     for index, run in enumerate(meshed):
         look = style.curve(index) | {"linestyle": "none", "markersize": 3.5, "markerfacecolor": "white"}
         name = rf"$E_{{\mathrm{{disc}}}}/E = {style.number(ratio[index])}$"
-        left.plot(x, run.contact["pressure"][shown], label=name, **look)
+        pressure, top = run.contact["pressure"][shown], rigid.contact["pressure"].max()
+        apart = np.abs(pressure - rigid.contact["pressure"][shown]) / top
+        middle.plot(x, np.where(apart > 0, apart, np.nan), label=name, **look | {"markersize": 2.5})
+        if index == 0:
+            left.plot(x, pressure, label=name, **look)
     left.plot(x, rigid.contact["pressure"][shown], color=style.BLACK, linewidth=0.9, label="rigid disc", zorder=1)
-    left.set_xlabel(f"$x$ [{units.length}]")
+    middle.set_xlabel(f"$x$ [{units.length}]")
+    middle.set_ylabel("difference of pressure [–]")
+    style.set_log(middle, "y")
+    left.tick_params(labelbottom=False)
     left.set_ylabel(f"pressure $p$ [{units.stress}]")
     left.set_ylim(0, None)
     for index, (what, difference) in enumerate(differences(rigid, meshed).items()):
@@ -44,18 +52,21 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         if np.count_nonzero(stiff) > 1:
             slope = np.polyfit(np.log(ratio[stiff]), np.log(difference[stiff]), 1)[0]
             label = f"{what}, slope ${slope:.2f}$"
-        right.plot(ratio, difference, label=label, **style.curve(index))
-    right.set_xscale("log")
-    right.set_yscale("log")
-    right.set_xlabel(r"$E_{\mathrm{disc}}/E$")
-    right.set_ylabel("difference from the rigid disc")
-    for index, axes in enumerate((left, right)):
+        right.plot(
+            ratio,
+            difference,
+            label=label,
+            **style.curve(index) | ({"linestyle": "--", "markerfacecolor": "white"} if index else {}),
+        )
+    style.set_log(right, "xy", 5)
+    right.set_xlabel(r"$E_{\mathrm{disc}}/E$ [–]")
+    right.set_ylabel("greatest difference [–]")
+    for index, axes in enumerate((left, middle, right)):
         axes.set_title(style.panel(index), loc="left")
-    if ratio[0] < 10 and rigid.summary["parameters"].get("points", "nodal") == "nodal":
-        text = "the softest wiggles:\nnodes against another\nmesh's, as in patch-test"
-        left.annotate(text, (0.5, 0.06), xycoords="axes fraction", ha="center", fontsize=7.5, color=style.CURVES[0])
+    figure.align_ylabels()
     right.legend()
-    style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=2)
+    handles, names = middle.get_legend_handles_labels()
+    style.legend_outside(figure, "upper center", [left.lines[-1], *handles], ["rigid disc", *names], ncols=2)
     style.name_elements(figure, runs)
     return figure
 

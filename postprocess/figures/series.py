@@ -29,7 +29,7 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         rows = read_table(run.path / "series.csv", COLUMNS, "the run needs -history 1")
         touched = rows["force"] > 0
         before = np.flatnonzero(~touched & (np.cumsum(touched) == 0))  # steps before first touch
-        name = f"{run.summary['scene']}, {style.method(run)}"
+        name = f"{run.summary['scene'].replace('-', ' ')}, {style.method(run)}"
         if len(before):  # an obstacle that touches nothing comes nearer by what it is moved
             gap = run.parameter("d0") - rows["overlapMax"][before[-1]]
             rows = {key: np.insert(values[touched], 0, 0) for key, values in rows.items()} | {
@@ -41,15 +41,18 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
             rows = {key: values[touched] for key, values in rows.items()}
         force.plot(rows["approach"], rows["force"], label=name, **style.curve(index))
         share.plot(rows["approach"], 100 * rows["contactPoints"] / run.summary["points"], **style.curve(index))
-    force.set_ylabel(f"force\n[{units.stress}\n× {units.length}]")
+    force.set_ylabel(f"force [{units.stress}\n× {units.length}]")
     share.set_ylabel("points in\ncontact [%]")
     share.set_xlabel(f"approach [{units.length}]")
     for axes in (force, share):
         axes.set_ylim(0, None)
     if alone:
         draw_end(panels[2:], runs[0], units)
-    for index, axes in enumerate(panels):
-        axes.set_title(style.panel(index), loc="left", pad=3)
+    titles = ["", "", f"at approach {rows['approach'][-1]:.3g}", "both surfaces there, heights enlarged"]
+    for index, (axes, words) in enumerate(zip(panels, titles, strict=False)):
+        axes.set_title(f"{style.panel(index)} {words}", loc="left", pad=3)
+    for axes in (force, *panels[2:-1]):
+        axes.tick_params(labelbottom=False)
     if len(runs) > 1:
         style.legend_outside(figure, "upper center", *force.get_legend_handles_labels())
     figure.align_ylabels()

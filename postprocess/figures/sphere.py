@@ -71,19 +71,26 @@ def middle_of(run: Run, nodal: np.ndarray, a: float) -> tuple[float, float]:
 
 
 def draw_map(axes: Axes, run: Run, middle: tuple[float, float], a: float, units: style.Units) -> Collection:
-    """The pressure on the contact's surface, with its mirror images, and Hertz's circle; returns the coloured map."""
+    """The pressure at the contact's points, with their mirror images, and Hertz's circle; returns the coloured dots.
+
+    A dot is as large as the part of the surface that a point stands for; points without pressure are small and grey.
+    """
     x, y, pressure = (run.contact[name] for name in ("x", "y", "pressure"))
     signs = [(1, -1) if mirrored else (1,) for mirrored in is_mirrored(run, a)]
     images = np.concatenate(
         [np.column_stack([across * x, along * y, pressure]) for across in signs[0] for along in signs[1]]
     )
     _, once = np.unique(np.round(images[:, :2] / a, 9) + 0.0, axis=0, return_index=True)
-    try:
-        mesh = Triangulation(*images[once, :2].T)
-    except (ValueError, RuntimeError):
-        raise ResultsError(run.path / "contact.csv", "its points make no surface") from None
-    look: style.Look = {"cmap": "viridis", "vmin": 0, "rasterized": True}
-    colours = axes.tripcolor(mesh, images[once, 2], shading="gouraud", **look)
+    *place, pressure = images[once].T
+    touches = pressure > 0
+    apart = np.sqrt(np.pi * a**2 / np.count_nonzero(touches)) / (2.6 * a)  # over the width of the panel
+    size = (0.75 * apart * 72 * 0.3 * style.PAGE) ** 2
+    open_ = [at[~touches] for at in place]
+    axes.scatter(*open_, s=2, color="0.8", linewidth=0)
+    dots: style.Look = {"cmap": "viridis", "vmin": 0, "s": size, "linewidth": 0, "rasterized": True}
+    colours = axes.scatter(*(at[touches] for at in place), c=pressure[touches], **dots)
+    for limits, centre in zip((axes.set_xlim, axes.set_ylim), middle, strict=True):
+        limits(centre - 1.3 * a, centre + 1.3 * a)
     turn = np.linspace(0, 2 * np.pi, 200)
     circle: style.Look = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
     axes.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), label="Hertz's circle, radius $a$", **circle)
@@ -100,11 +107,11 @@ def draw_profile(axes: Axes, run: Run, middle: tuple[float, float], a: float, gr
     axes.plot(line, np.sqrt(1 - line**2), color=style.BLACK, label="Hertz, half-space", zorder=3)
     distance = np.hypot(x - middle[0], y - middle[1])
     shown = distance <= 1.5 * a
-    label = f"{style.method(run)}, {style.count(run.summary['contactPoints'], 'point')} in contact"
+    label = f"run, {style.count(run.summary['contactPoints'], 'point')} in contact"
     dots: style.Look = {"linestyle": "none", "marker": "o", "markersize": 2.2, "markeredgewidth": 0}
     axes.plot(distance[shown] / a, pressure[shown] / greatest, label=label, alpha=0.6, color=style.BLUE, **dots)
-    axes.set_xlabel("$r/a$")
-    axes.set_ylabel("pressure $p/p_0$")
+    axes.set_xlabel("$r/a$ [–]")
+    axes.set_ylabel("pressure $p/p_0$ [–]")
     axes.set_xlim(0, None)
     axes.set_ylim(0, None)
     found = run.value("halfWidthMoment"), run.value("pressureMax")
@@ -115,6 +122,13 @@ def draw_profile(axes: Axes, run: Run, middle: tuple[float, float], a: float, gr
         ha="right",
         fontsize=8,
     )
+
+
+def thickness(pieces: np.ndarray) -> np.ndarray:
+    """Of quadrangles (n, 4, 2) the area over the square of the longer diagonal (n,)."""
+    one, other = pieces[:, 2] - pieces[:, 0], pieces[:, 3] - pieces[:, 1]
+    area = 0.5 * np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
+    return area / np.maximum((one**2).sum(axis=1), (other**2).sum(axis=1))
 
 
 def percent(value: float, reference: float) -> str:
@@ -136,6 +150,8 @@ def draw_cut(axes: Axes, run: Run, middle: tuple, height: float, a: float) -> Co
     if not near.any():
         raise ResultsError(path, "has no element at the middle of the contact")
     pieces, stress = pieces[near], stress[near]
+    thick = thickness(pieces) > 0.02
+    pieces, stress = pieces[thick], stress[thick]  # slivers at the plane of symmetry are drawn broader than they are
     if pieces[..., 0].min() > -1e-6 * a:
         mirror = np.array([-1, 1])
         outline = outline[np.any(outline[..., 0] > 1e-6 * a, axis=1)]  # not the plane of symmetry

@@ -16,4 +16,4 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     rows = select(rows, method="xnewton")
     groups = {"default": select(rows, name="grid"), "no start": select(rows, name="no start")}
     groups = {name: group for name, group in groups.items() if group}
-    return panels(groups, "backsolves", "xnewton: most back-substitutions")
+    return panels(groups, "backsolves", "Default method: most back-substitutions")

@@ -68,13 +68,14 @@ def panels(
         above.set_title(name, loc="left")
         above.set_yticks(range(len(kappas)), exponent_ticks(kappas))
         above.set_xticks(range(len(exponents)), [f"{m:g}" for m in exponents])
-        above.set_ylabel(r"$\kappa$", rotation=0)
-        above.set_xlabel("$m$", labelpad=0)
+        above.set_ylabel(r"stiffness $\kappa$ [stress/length$^m$]" if place % wide == 0 else "")
+        above.set_xlabel("exponent $m$ [–]", labelpad=0)
         if not others:
             continue
         cells = [[[row for row in rows if row["law"] != "power" and law(row) == other] for other in others]]
         heat_map(below, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
         below.set_yticks([])
+        below.set_xlabel("other laws")
         below.set_xticks(range(len(others)), [LAWS[other] for other in others], fontsize=7)
     name_meshes(figure, every)
     return figure

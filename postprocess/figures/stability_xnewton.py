@@ -24,5 +24,5 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     return panels(
         {name: group for name, group in groups.items() if group},
         "newton",
-        "xnewton: most linearisations",
+        "Default method: most linearisations",
     )

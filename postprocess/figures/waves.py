@@ -35,13 +35,13 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         left.plot(x, pressure / full, label=rf"$\bar p = {share}\, p_{{\mathrm{{full}}}}$", **look)
         right.plot(x, 100 * (pressure - wave_pressure(run, x)) / full, **look)
     left.plot([], [], color=style.BLACK, linewidth=0.8, label="Westergaard")
-    left.set_ylabel(r"pressure $p/p_{\mathrm{full}}$")
+    left.set_ylabel(r"pressure $p/p_{\mathrm{full}}$ [–]")
     left.set_ylim(0, None)
     right.set_ylabel(r"difference [% of $p_{\mathrm{full}}$]")
     for number, axes in enumerate((left, right)):
         axes.set_xlim(-0.5, 0.5)
         axes.set_title(style.panel(number), loc="left")
-    right.set_xlabel(r"$x/\lambda$, from the crest; the contacts merge at $\bar p = p_{\mathrm{full}}$")
+    right.set_xlabel(r"$x/\lambda$, from the crest [–]; the contacts merge at $\bar p = p_{\mathrm{full}}$")
     style.legend_outside(figure, "upper center", *left.get_legend_handles_labels(), ncols=2)
     style.name_elements(figure, runs)
     return figure

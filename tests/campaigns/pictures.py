@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
+from peers import SECONDS
 from tables import DOCUMENTS, MARKED
 
 from postprocess import style
-from postprocess.output import write_files
+from postprocess.output import DRAWN, drawn_numbers, write_files
 
 SIZE = (style.COLUMN, 0.8 * style.COLUMN)
 DOTS = 210  # an inch: twice what a screen shows of half a page
@@ -29,76 +30,78 @@ def cells(name: str, text: str | None = None) -> list[list[str]]:
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if not line.startswith("| ---")]
 
 
-def seconds(cell: str) -> tuple[float, float]:
-    """Package's and NGSolve's, of a cell such as "0.043 P2 / 0.025 P2"; NaN where the error was not reached."""
-    both = [re.match(r"[\d.]+", part.strip()) for part in (cell or "/").split("/")]
-    return tuple(float(found[0]) if found else np.nan for found in both)
+def least(cells: list[str], part: int = 0) -> np.ndarray:
+    """The seconds of cells such as "0.043 P2 / 0.025 P2", of the code at this place; NaN where none was fast enough."""
+    found = [re.match(r"[\d.]+", ([*cell.split("/"), ""][part]).strip()) for cell in cells]
+    return np.array([float(each[0]) if each else np.nan for each in found])
 
 
-# The table's first column: words, colour, line
-PROBLEMS = {
-    "1e3, 3": (r"$\kappa = 10^3$, $m = 3$", style.BLUE, "-"),
-    "1e3, 10": (r"$m = 10$", style.BLUE, "--"),
-    "1e3, 20": (r"$m = 20$", style.BLUE, ":"),
-    "cylinders, 1e3, 3": ("two cylinders", style.BLACK, "-."),
-    "1e9, 3": (r"$\kappa = 10^9$", style.ORANGE, "-"),
-    "1e12, 3": (r"$\kappa = 10^{12}$", style.VERMILION, "-"),
-    "sphere, 1e3, 3": (r"sphere, $\kappa = 10^3$", style.GREEN, "--"),
-    "sphere, 1e9, 3": (r"sphere, $\kappa = 10^9$", style.GREEN, "-"),
+def elements(cells: list[str], part: int) -> list[str]:
+    """The elements in such cells."""
+    found = [re.search(r"P\d", [*cell.split("/"), ""][part]) for cell in cells]
+    return [each[0] if each else "" for each in found]
+
+
+# The first cells of the rows of the table `meshes` on the paper's test: words, and what tells the curve from others
+METHODS = {
+    ("xnewton", "P1"): ("default method, P1", {"color": style.SKY, "marker": "o"}),
+    ("xnewton", "P2"): ("default method, P2", {"color": style.BLUE, "marker": "s"}),
+    ("xnewton", "P4"): ("default method, P4", {"color": style.BLACK, "marker": "D"}),
+    ("newton", "best"): ("Newton, best element", {"color": style.GREEN, "marker": "^"}),
+    ("paper, T0 = 0", "best"): ("paper's scheme, best element", {"color": style.ORANGE, "marker": "v"}),
 }
-
-CONDENSED = ("1e3, 3", "1e9, 3", "1e12, 3")  # laws of the table of the condensed peer
+LAWS = {"1e3, 3": "soft law", "1e12, 3": "stiff law"}
+CODES = {"this package": (style.BLUE, "o"), "NGSolve": (style.VERMILION, "s")}
+CONDENSED = {"color": style.GREY, "marker": "^", "linestyle": (0, (1, 1))}
 
 
 def peers() -> Figure:
-    """NGSolve's least CPU seconds over this package's, to the same error: a line a problem.
+    """Error of the force over seconds: (a) methods and elements on the paper's test; (b), (c) beside another code.
 
-    Dotted, with open marks: the half of the block against NGSolve on the contact's unknowns.
-
-    A triangle at its end: one of the codes did not reach the next error.
+    A point is the least seconds to an error, its word the element that takes them. NGSolve is drawn a second time as
+    solved on the contact's unknowns.
     """
-    head, *rows = cells("peers")
-    found = {problem: cells for problem, *cells in rows}
-    errors = np.array([float(cell) for cell in head[1:]])
-    figure = Figure(figsize=(SIZE[0], 1.2 * SIZE[1]), layout="constrained")
-    axes = figure.subplots()
-    axes.axhline(1, color=style.GREY, linewidth=0.8)
-    for problem, (words, colour, line) in PROBLEMS.items():
-        if problem not in found:
-            continue
-        ours, theirs = np.array([seconds(cell) for cell in found[problem]]).T
-        ratio = theirs / ours
-        axes.plot(errors, ratio, color=colour, linestyle=line, marker="o", markersize=3.5, label=words)
-        last = int(np.flatnonzero(np.isfinite(ratio))[-1])
-        for reached, mark, level in ((ours, "^", 2), (theirs, "v", 0.5)):
-            if last + 1 < len(errors) and np.isfinite(reached[last + 1]):
-                way = [(errors[last], ratio[last]), (errors[last + 1], ratio[last] * level)]
-                axes.plot(*zip(*way, strict=True), color=colour, linestyle=line, linewidth=0.8)
-                axes.plot(*way[1], color=colour, marker=mark, markersize=6)
-    head, *rows = cells("peers-condensed")
-    errors = np.array([float(cell) for cell in head[2:]])
-    for which in CONDENSED:
-        (row,) = [row[2:] for row in rows if row[0] == which and row[1] == "half"]
-        ours, theirs = np.array([seconds(cell) for cell in row]).T
-        look = {"color": PROBLEMS[which][1], "markerfacecolor": "white", "linewidth": 1, "linestyle": (0, (1, 1))}
-        axes.plot(errors, theirs / ours, marker="s", markersize=4.5, **look)
-    look = {"color": style.GREY, "markerfacecolor": "white", "linestyle": (0, (1, 1)), "marker": "s", "markersize": 4.5}
-    axes.plot([], [], label="half, NGSolve condensed", **look)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(4e-3, 5e-8)  # the smaller error to the right
-    axes.set_xticks([1e-3, 1e-4, 1e-5, 1e-6, 1e-7])
-    axes.xaxis.minorticks_off()
-    axes.set_yticks([0.3, 1, 3, 10], ["0.3", "1", "3", "10"])
-    axes.set_ylim(0.15, 40)
-    axes.yaxis.minorticks_off()
-    axes.set_xlabel("error in force")
-    axes.set_ylabel("NGSolve's seconds / this package's")
-    grey = {"transform": axes.transAxes, "color": style.GREY, "fontsize": 8.5}
-    axes.text(0.02, 0.04, "NGSolve takes less;\n▼: it alone gets there", ha="left", **grey)
-    axes.text(0.98, 0.96, "this package takes less;\n▲: it alone gets there", ha="right", va="top", **grey)
-    style.legend_outside(figure, "lower center", ncols=2, fontsize=8.5, handlelength=2.4)
+    figure = Figure(figsize=(style.PAGE, 0.46 * style.PAGE), layout="constrained")
+    left, *beside = figure.subplots(1, 3, sharey=True)
+    head, *rows = cells("meshes")
+    errors = np.array([float(cell) for cell in head[3:]])
+    for (method, element), (words, look) in METHODS.items():
+        (row,) = [row[3:] for row in rows if row[:3] == ["1e3, 3", method, element]]
+        left.plot(*fronts(least(row), errors), label=words, markersize=3.5, linewidth=1, **look)
+    for axes, (law, words) in zip(beside, LAWS.items(), strict=True):
+        head, *rows = cells("peers")
+        errors = np.array([float(cell) for cell in head[1:]])
+        (row,) = [row[1:] for row in rows if row[0] == law]
+        for part, (name, (colour, marker)) in enumerate(CODES.items()):
+            x, y = fronts(least(row, part), errors)
+            axes.plot(x, y, color=colour, marker=marker, markersize=3.5, linewidth=1, label=name)
+            named = dict(zip(errors, elements(row, part), strict=True))
+            for at, error in zip(x, y, strict=True):
+                place: style.Look = {"xytext": (5, 0) if part else (-5, 0), "ha": "left" if part else "right"}
+                place |= {"va": "center", "color": colour, "fontsize": 7}
+                axes.annotate(named[error], (at, error), textcoords="offset points", **place)
+        head, *rows = cells("peers-condensed")
+        (row,) = [row[2:] for row in rows if row[:2] == [law, "whole"]]
+        x, y = fronts(least(row, 1), np.array([float(cell) for cell in head[2:]]))
+        axes.plot(x, y, label="NGSolve, condensed (another machine)", markersize=3.5, linewidth=1, **CONDENSED)
+        axes.set_title(f"{style.panel(list(LAWS).index(law) + 1)} {words}, beside NGSolve", loc="left")
+    left.set_title(f"{style.panel(0)} methods and elements, soft law", loc="left")
+    left.set_ylabel("error of the force [–]")
+    for axes in (left, *beside):
+        axes.set_xlabel(f"{SECONDS} [s]")
+        axes.grid(color="0.92", linewidth=0.4)
+        style.set_log(axes, "x", 5)
+        axes.set_xlim(0.75 * axes.get_xlim()[0], None)  # room for the words at the left
+        narrow: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.2), "fontsize": 8}
+        axes.legend(**narrow)
+    style.set_log(left, "y", 7)
     return figure
+
+
+def fronts(seconds: np.ndarray, errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of points with the same seconds the smallest error: what these seconds buy."""
+    last = np.isfinite(seconds) & np.append(seconds[1:] != seconds[:-1], True)
+    return seconds[last], errors[last]
 
 
 def stability() -> Figure:
@@ -130,11 +133,11 @@ def stability() -> Figure:
     axes.text(0.02, 0.93, "plain Newton", transform=axes.transAxes, color=shades[2], fontsize=9)
     axes.set_xscale("log")
     axes.set_xlim(across[0] / 10, 1e5 * across[-1])
-    axes.set_xticks(10.0 ** np.arange(0, 31, 6))
+    axes.set_xticks(10.0 ** np.arange(-2, 31, 8))
     axes.xaxis.minorticks_off()
     axes.set_ylim(0, 90)
-    axes.set_xlabel(r"stiffness $\kappa$")
-    axes.set_ylabel("Newton steps")
+    axes.set_xlabel(r"stiffness $\kappa$ [stress/length$^m$]")
+    axes.set_ylabel("Newton steps [–]")
     return figure
 
 
@@ -147,7 +150,8 @@ def main(argv: list[str] | None = None) -> int:
     for path in parser.parse_args(argv).out:
         written = io.BytesIO()
         with style.look():
-            PICTURES[path.name]().savefig(written, dpi=DOTS, facecolor="white")
+            drawn = PICTURES[path.name]()
+            drawn.savefig(written, dpi=DOTS, facecolor="white", metadata={DRAWN: drawn_numbers(drawn)})
         write_files({path: written.getvalue()})
         print(path)
     return 0

@@ -17,6 +17,7 @@ from freefem import (
     table,
     told,
 )
+from text_boxes import faults
 
 from contact.test_laws import GRAPH_ROWS, LAW_ROWS, evaluate
 from postprocess import style
@@ -396,13 +397,15 @@ def test_waves_snap_in_one_after_the_other():
 def test_figures_and_movie(tmp_path):
     """A path's figures and movie shall be drawn from its run, with an arrow a jump and the least force where it is."""
     done, rows, unit = follow(2)
-    (axes,) = attraction.draw([read_run(done.folder)], style.Units()).axes
+    with style.look():
+        drawn = [each.draw([read_run(done.folder)], style.Units()) for each in (attraction, attraction_profiles)]
+        assert [faults(each) for each in drawn] == [[], []]
+    ((axes,), profiles) = (each.axes for each in drawn)
     arrows = [text for text in axes.texts if text.arrow_patch is not None]
     assert len(arrows) == len(done.jumps) == 2
     drawn = np.concatenate([line.get_ydata() for line in axes.lines if line.get_color() == style.CURVES[0]])
     assert drawn.min() == pytest.approx(done.pullOff / unit, rel=2e-3)
-    profiles = attraction_profiles.draw([read_run(done.folder)], style.Units())
-    assert all(len(axes.lines) > 3 for axes in profiles.axes)
+    assert all(len(axes.lines) > 3 for axes in profiles)
     movie = PathMovie(read_run(done.folder), style.Units())
     assert along_path(read_run(done.folder))
     assert movie.count == len(rows)

@@ -288,10 +288,10 @@ def test_doors(door, package):
         code, stdout = execute(words, package, environment())
         assert code == 0, f"{line}: {stdout[-2000:]}"
         said += stdout
-    drawn = {"first": "disc-on-block/xnewton", "parts": "parts-3d/wheel-on-rail"}
+    drawn = {"first": "meshed-disc/xnewton/stress", "parts": "parts-3d/wheel-on-rail/state"}
     if door in drawn:
         for kind in ("pdf", "png"):
-            assert (package / "results" / drawn[door] / f"state.{kind}").exists()
+            assert (package / "results" / f"{drawn[door]}.{kind}").exists()
     else:
         assert "12 iterations, 3 models" in said or "adaptations 3, Newton steps 12" in said
     if door == "paper":

@@ -421,6 +421,8 @@ def test_faults_are_seen():
     figure = Figure()
     left, right = figure.subplots(1, 2)
     left.plot([0, 1], [0, 1], label="a curve")
+    left.set(xlabel="$x$ [mm]", ylabel="$y$ [mm]")
+    right.set(xlabel="$x$ [mm]")
     left.legend(loc="center")
     right.set_axis_off()
     assert any("lies on the curve" in fault for fault in faults(figure))

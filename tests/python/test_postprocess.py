@@ -304,8 +304,8 @@ class TestFigures:
     def test_convergence_tells_what_did_not_converge(self, broken):
         folder = broken()
         edit_summary(folder, converged=False)
-        (axes,) = draw("convergence", folder).axes
-        assert "not converged" in axes.get_legend().get_texts()[0].get_text()
+        (legend,) = draw("convergence", folder).legends
+        assert "not converged" in legend.get_texts()[0].get_text()
 
     def test_runs_are_labelled_by_what_differs(self, runs, broken):
         folder = broken()
