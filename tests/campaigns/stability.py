@@ -711,7 +711,9 @@ def write_checks(path: Path, entries: list[dict]) -> None:
 def run(path: Path, chosen: list[campaign.Case], jobs: int) -> list[dict[str, str]]:
     """The rows of these cases, run where they are not there yet."""
     files = {"table.csv": law_table()}
-    return campaign.run(chosen, path, jobs=jobs, columns=COLUMNS, measure=measure, files=files)
+    return campaign.run(
+        chosen, path, jobs=jobs, columns=COLUMNS, measure=measure, files=files, together=lambda item: True
+    )
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -154,6 +154,7 @@ def test_scenes(tmp_path, scene, lists):
         (["-rows", "x.csv"], "-rows x.csv: cannot be read"),
         (["-vary", "kappa 0:10:3 log"], "-vary: kappa 0:10:3 log: a logarithm needs positive ends"),
         (["-vary", "method xnewton paper"], "-vary: method paper: its elements are of degree 1"),
+        (["-vary", "method newton", "-order", 3], "-vary: method newton: with two bodies, or -order above 2"),
         (["-vary", "kappa 1 2", "-vtu", 1], "-vtu 1: not with a table of problems"),
         (["-vary", "kappa 1 2", "-accuracy", 0.1], "-accuracy 0.1: not with a table of problems"),
     ],
