@@ -375,9 +375,11 @@ def run_group(
     return rows
 
 
-def number_or_text(text: str) -> float | str:
+def number_or_text(text: str) -> int | float | str:
+    """A flag's value as summary.json has it: FreeFEM writes whole numbers without a point."""
     with contextlib.suppress(ValueError):
-        return float(text)
+        number = float(text)
+        return int(number) if number.is_integer() and abs(number) < 1e17 else number
     return text
 
 
