@@ -142,21 +142,19 @@ def triangles_of(shape: Surface) -> tuple[Floats, Ints]:
     return places, corners
 
 
-def segments_of(shape: Surface, mirrored: bool) -> Outline:
-    """The outline of a surface in the plane; mirrored: at the axis, so that it does not end there."""
-    from .surfaces import Outline, right_of
+def with_mirror(file: str, places: Floats, corners: Ints) -> tuple[Floats, Ints]:
+    """Segments in a half plane and their mirror images at x = 0; those on the axis are no surface."""
+    size = np.abs(places).max()
+    if places[:, 0].min() < -SAME * size:
+        raise Refusal(f"{file}: a negative radius; allowed with state axisymmetric: x >= 0")
+    on = places[:, 0] <= SAME * size
+    corners = corners[~on[corners].all(axis=1)]
+    image = np.where(on, np.arange(len(places)), len(places) + np.arange(len(places)))
+    return np.vstack([places, places * [-1, 1]]), np.vstack([corners, image[corners][:, ::-1]])
 
-    places, corners = read_surface(shape, 1)
-    places = places[:, :2]
-    if mirrored:
-        size = np.abs(places).max()
-        if places[:, 0].min() < -1e-9 * size:
-            raise Refusal(f"{shape.file}: a negative radius; allowed with state axisymmetric: x >= 0")
-        on = places[:, 0] <= 1e-9 * size
-        corners = corners[~on[corners].all(axis=1)]
-        image = np.where(on, np.arange(len(places)), len(places) + np.arange(len(places)))
-        places = np.vstack([places, places * [-1, 1]])
-        corners = np.vstack([corners, image[corners][:, ::-1]])
+
+def chains_of(file: str, places: Floats, corners: Ints, inside: bool) -> list[tuple[list[int], bool]]:
+    """Nodes in a row, in the sense of the surface, and whether the row is closed; a closed one ends where it begins."""
     at: dict[int, list[int]] = {}
     for k, two in enumerate(corners.tolist()):
         for node in two:
@@ -164,16 +162,13 @@ def segments_of(shape: Surface, mirrored: bool) -> Outline:
     crowded = [node for node, sides in at.items() if len(sides) > 2]
     if crowded:
         x, y = places[crowded[0]]
-        raise Refusal(f"{shape.file}: more than two segments meet at ({x:g}, {y:g})")
-    n = len(corners)
-    done, chains = np.zeros(n, bool), []
-    firsts = [sides[0] for sides in at.values() if len(sides) == 1] + list(range(n))
-    for first in firsts:
+        raise Refusal(f"{file}: more than two segments meet at ({x:g}, {y:g})")
+    done, chains = np.zeros(len(corners), bool), []
+    for first in [sides[0] for sides in at.values() if len(sides) == 1] + list(range(len(corners))):
         if done[first]:
             continue
-        node = next((e for e in corners[first].tolist() if len(at[e]) == 1), int(corners[first, 0]))
-        side: int | None
-        chain, side, votes = [node], first, 0
+        side: int | None = first
+        chain, votes = [next((e for e in corners[first].tolist() if len(at[e]) == 1), int(corners[first, 0]))], 0
         while side is not None and not done[side]:
             done[side] = True
             votes += 1 if corners[side, 0] == chain[-1] else -1
@@ -183,19 +178,28 @@ def segments_of(shape: Surface, mirrored: bool) -> Outline:
         if closed:
             x, y = places[chain[:-1]].T
             votes = x @ np.roll(y, -1) - y @ np.roll(x, -1)
-        chains.append((chain[::-1] if (votes < 0) != shape.inside else chain, closed))
+        chains.append((chain[::-1] if (votes < 0) != inside else chain, closed))
+    return chains
+
+
+def segments_of(shape: Surface, mirrored: bool) -> Outline:
+    """The outline of a surface in the plane; mirrored: at the axis, so that it does not end there."""
+    from .surfaces import Outline, right_of
+
+    places, corners = read_surface(shape, 1)
+    places = places[:, :2]
+    if mirrored:
+        places, corners = with_mirror(shape.file, places, corners)
     start: list[Floats] = []
     beside, sharp, ways, lengths = [], [], [], []
-    for chain, closed in chains:
+    for chain, closed in chains_of(shape.file, places, corners, shape.inside):
         nodes = places[chain]
         m, base = len(chain) - 1, len(start)
         step = np.diff(nodes, axis=0)
         length = np.linalg.norm(step, axis=1)
         way = step / length[:, None]
         for k in range(m):
-            before, behind = k - 1, k + 1
-            if closed:
-                before, behind = before % m, behind % m
+            before, behind = ((k - 1) % m, (k + 1) % m) if closed else (k - 1, k + 1)
             beside.append([base + before if before >= 0 else -1, base + behind if behind < m else -1])
             if beside[-1][0] >= 0 and way[before, 0] * way[k, 1] - way[before, 1] * way[k, 0] > 1e-6:
                 sharp.append(nodes[k])
