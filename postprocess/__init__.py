@@ -8,6 +8,7 @@ The package reads what a run wrote into its folder and nothing else: it computes
     case_report.py      the results of each contact, load, support and body of a case
     reference_values.py the expected results of a run, and their tolerances
     style.py            fonts, colours, widths and labels that all figures share
+    progress.py         how long many runs take, said before and meanwhile
     output.py           files, and a figure as FILE.pdf and FILE.png, whole or not at all
     laws.py             the law of a run as a curve
     load_series.py      the load steps of a case as curves

@@ -29,7 +29,10 @@ def write_figure_of_run(figure: Figure, out: Path | str | None, usual: Path) -> 
 
 
 def write_figures(figures: dict[Path, Figure]) -> list[Path]:
-    """Writes each figure under its name, which ends in .pdf, and as PNG beside it: all of them, or none."""
+    """Writes each figure under its name, which ends in .pdf, and as PNG beside it: all of them, or none.
+
+    Its layout is found once and holds from then on: savefig() would draw twice for each file, to find it anew.
+    """
     writers = {}
     for out, figure in figures.items():
         if out.suffix != ".pdf":
@@ -40,8 +43,15 @@ def write_figures(figures: dict[Path, Figure]) -> list[Path]:
 
 
 def figure_writer(figure: Figure, kind: str, metadata: dict) -> Callable[[Path], object]:
-    told = {DRAWN: drawn_numbers(figure)} if kind == "png" else {}
-    return lambda path: figure.savefig(path, format=kind, metadata=metadata | told)
+    def write(path: Path) -> None:
+        engine = figure.get_layout_engine()
+        if engine is not None:
+            engine.execute(figure)
+            figure.set_layout_engine(None)
+        told = {DRAWN: drawn_numbers(figure)} if kind == "png" else {}
+        figure.savefig(path, format=kind, metadata=metadata | told)
+
+    return write
 
 
 def drawn_numbers(figure: Figure) -> str:

@@ -1,7 +1,9 @@
 """The runs behind figures and pages, as figures.toml states them: which there are, which are current, making them."""
 
 import fnmatch
+import functools
 import itertools
+import json
 import shlex
 import subprocess
 import tomllib
@@ -25,14 +27,15 @@ class Figure:
 
 @dataclass(frozen=True)
 class Recipes:
-    """Each run's script and flags as words, and each figure, by their names."""
+    """Each run's script and flags as words, and each figure, by their names; cost: default runs a run, a mean."""
 
     runs: dict[str, tuple[str, ...]] = field(default_factory=dict)
     figures: dict[str, Figure] = field(default_factory=dict)
+    cost: float = 3.0
 
 
 def read_recipes(section: str, path: Path = RECIPES) -> Recipes:
-    """The runs and figures of a section; its sweeps become runs."""
+    """The runs and figures of a section; its sweeps become runs, and each run has the section's flags."""
     stated = tomllib.loads(path.read_text(encoding="utf-8"))
     texts, section_of = stated.pop("texts", {}), stated.get(section)
     if section_of is None:
@@ -44,7 +47,9 @@ def read_recipes(section: str, path: Path = RECIPES) -> Recipes:
     for name, entry in section_of.get("drawn", {}).items():
         chosen = [run for pattern in entry["runs"] for run in runs if fnmatch.fnmatchcase(run, pattern)]
         figures[name] = Figure(entry.get("draw", name), tuple(chosen))
-    return Recipes({name: tuple(shlex.split(text)) for name, text in runs.items()}, figures)
+    always = section_of.get("flags", "")
+    words = {name: tuple(shlex.split(f"{text} {always}")) for name, text in runs.items()}
+    return Recipes(words, figures, section_of.get("cost", Recipes.cost))
 
 
 def expand(name: str, sweep: dict, texts: dict[str, str]) -> Iterator[tuple[str, str]]:
@@ -56,8 +61,9 @@ def expand(name: str, sweep: dict, texts: dict[str, str]) -> Iterator[tuple[str,
         yield name.format_map(words), sweep["run"].format_map(texts | flags)
 
 
+@functools.cache
 def newest_source(script: str) -> float:
-    """When the latest file changed that a run may read: its script, the modules, the geometries, the recipes."""
+    """When the latest file changed that a run may read: script, modules, geometries, recipes; looked for once."""
     below = [path for suffix in ("idp", "sh", "py", "txt") for path in (ROOT / "edp").rglob(f"*.{suffix}")]
     return max(path.stat().st_mtime for path in [ROOT / script, RECIPES, *below, *(ROOT / "meshes").glob("*.geo")])
 
@@ -66,6 +72,14 @@ def is_current(folder: Path, script: str) -> bool:
     """Whether the results in a folder are later than all that they were made from."""
     summary = folder / "summary.json"
     return summary.exists() and summary.stat().st_mtime >= newest_source(script)
+
+
+def last_seconds(folder: Path) -> float | None:
+    """Seconds that the run in a folder was waited for, if there was one, whatever its sources were."""
+    try:
+        return float(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["seconds"]["waited"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def make_run(words: tuple[str, ...], folder: Path, freefem: list[str]) -> None:

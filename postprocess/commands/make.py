@@ -12,8 +12,11 @@ from pathlib import Path
 
 from postprocess import figures, style
 from postprocess.output import write_figure
-from postprocess.recipes import Figure, Recipes, make_run, read_recipes
+from postprocess.progress import Progress, expect
+from postprocess.recipes import Figure, Recipes, is_current, last_seconds, make_run, read_recipes
 from postprocess.results import ResultsError, read_run
+
+DRAWING = 5.5  # default runs that a picture takes, a mean
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,23 +27,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--freefem", metavar="COMMAND", default="FreeFem++ -nw -v 0", help="FreeFEM's program and options"
     )
     parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="runs at once (default: cores)")
+    parser.add_argument("--expect", action="store_true", help="only say what there is to do, and how long it takes")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Makes the runs that are wanted, several at once, then draws the figures; prints what is written."""
-    recipes, out = read_recipes(arguments.section), Path(arguments.out) / arguments.section
+    """Makes the runs that are wanted, several at once, then draws the figures; says how long, and what is written."""
+    section = arguments.section
+    recipes, out, freefem = read_recipes(section), Path(arguments.out) / section, shlex.split(arguments.freefem)
     drawn, runs = choose(recipes, arguments.what)
-    with ThreadPoolExecutor(max(1, arguments.jobs)) as pool:
-        freefem = shlex.split(arguments.freefem)
-        for done in [pool.submit(make_run, recipes.runs[name], out / name, freefem) for name in runs]:
+    runs = [name for name in runs if not is_current(out / name, recipes.runs[name][0])]
+    drawn = {
+        name: figure
+        for name, figure in drawn.items()
+        if set(runs) & set(figure.runs) or not is_drawn(name, figure, out)
+    }
+    jobs, last = max(1, arguments.jobs), [last_seconds(out / name) for name in runs]
+    seconds = expect(section, last, [recipes.cost] * len(runs), jobs, freefem, [DRAWING] * len(drawn))
+    if arguments.expect:
+        return
+    # of the runs a job each, of the pictures all jobs' share: the time left is that of both
+    weights = [*seconds[: len(runs)], *(jobs * each for each in seconds[len(runs) :])]
+    progress = Progress(section, sum(weights), len(weights), pause=2)
+    with ThreadPoolExecutor(jobs) as pool:
+        begun = [pool.submit(make_run, recipes.runs[name], out / name, freefem) for name in runs]
+        for weight, done in zip(weights, begun, strict=False):
             try:
                 done.result()
             except BaseException:
                 pool.shutdown(wait=True, cancel_futures=True)
                 raise
+            progress.step(weight)
     with style.look():
-        for name, figure in drawn.items():
+        for weight, (name, figure) in zip(weights[len(runs) :], drawn.items(), strict=True):
             draw(name, figure, out)
+            progress.step(weight)
 
 
 def choose(recipes: Recipes, wanted: list[str]) -> tuple[dict[str, Figure], list[str]]:
@@ -62,15 +82,20 @@ def choose(recipes: Recipes, wanted: list[str]) -> tuple[dict[str, Figure], list
     return drawn, list(dict.fromkeys(runs))
 
 
+def files_of(name: str, out: Path) -> list[Path]:
+    return [out / f"{name}.{kind}" for kind in ("pdf", "png")]
+
+
+def is_drawn(name: str, figure: Figure, out: Path) -> bool:
+    """Whether a figure is later than its runs and than what draws it."""
+    made = files_of(name, out)
+    sources = [out / run / "summary.json" for run in figure.runs] + list(Path(__file__).parent.parent.rglob("*.py"))
+    return all(path.exists() for path in made) and min(path.stat().st_mtime for path in made) >= max(
+        path.stat().st_mtime for path in sources if path.exists()
+    )
+
+
 def draw(name: str, figure: Figure, out: Path) -> None:
-    """Draws a figure, unless it is later than its runs and than what draws it."""
-    folders = [out / run for run in figure.runs]
-    made = [out / f"{name}.{kind}" for kind in ("pdf", "png")]
-    sources = [folder / "summary.json" for folder in folders] + list(Path(__file__).parent.parent.rglob("*.py"))
-    if all(path.exists() for path in made):
-        oldest = min(path.stat().st_mtime for path in made)
-        if oldest >= max(path.stat().st_mtime for path in sources):
-            return
-    picture = figures.modules()[figure.module].draw([read_run(folder) for folder in folders], style.Units())
-    for path in write_figure(picture, made[0]):
+    runs = [read_run(out / run) for run in figure.runs]
+    for path in write_figure(figures.modules()[figure.module].draw(runs, style.Units()), files_of(name, out)[0]):
         print(path)

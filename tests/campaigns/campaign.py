@@ -33,12 +33,15 @@ from pathlib import Path
 
 import numpy as np
 
+from postprocess.progress import Progress, expect
+
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS_FOLDER = Path(os.environ.get("CONTACT_RESULTS") or ROOT / "results").absolute()
 CACHE = Path(os.environ["CONTACT_CACHE"]).absolute() if os.environ.get("CONTACT_CACHE") else None
 FREEFEM = ("FreeFem++", "-nw", "-v", "0")
 THREADS = 1  # of BLAS, in every run
 REPEATS_END = 20.0  # wall seconds of a case after which it is not repeated once more
+WEIGHED = 0.25  # seconds of a default run on the machine whose seconds the cases' weights are
 STATUS = {0: "converged", 20: "not converged", 10: "refused"}  # by exit code; every other one is a crash
 
 # Columns of every campaign: what was asked for, how it ended, what it cost and what it gave.
@@ -467,35 +470,6 @@ def key_of(row: dict) -> tuple[str, str, str]:
 # ---------------------------------------------------------------- the campaign
 
 
-class Progress:
-    """Now and then a line with the time left."""
-
-    PAUSE = 20.0  # seconds between two lines
-
-    def __init__(self, title: str, total: float, count: int):
-        self.title, self.total, self.count = title, max(total, 1e-9), count
-        self.begin = self.last = time.monotonic()
-        self.spent, self.runs, self.failures = 0.0, 0, 0
-
-    def step(self, weight: float, good: bool) -> None:
-        self.spent += weight
-        self.runs += 1
-        self.failures += not good
-        now = time.monotonic()
-        if now - self.last > self.PAUSE or self.runs == self.count:
-            share = min(self.spent / self.total, 1.0)
-            left = clock((now - self.begin) * (1 - share) / max(share, 1e-9))
-            lost = f", {self.failures} not converged" if self.failures else ""
-            print(f"{self.title} {self.runs}/{self.count}, {left} left{lost}", file=sys.stderr, flush=True)
-            self.last = now
-
-
-def clock(seconds: float) -> str:
-    minutes, seconds = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
-
-
 def run(
     cases: list[Case],
     path: Path,
@@ -519,13 +493,16 @@ def run(
     processes = Processes()
     with frozen_sources(root, files) as sources:
         digest = sources_digest(sources)
+        before = {key_of(row): float(row["wall"]) * int(row["repeats"]) for row in read_rows(path) if row.get("wall")}
         table = Table(path, [*COLUMNS, *columns], digest, {item.key for item in cases})
         if table.dropped:
             print(f"{path}: {table.dropped} rows of other sources dropped", file=sys.stderr)
         todo = [item for item in cases if item.key not in table.done]
         if todo:
             common = {"sources": digest, **machine()}
-            progress = Progress(title or path.stem, sum(weight_of(item) for item in todo), len(todo))
+            last, usual = [before.get(item.key) for item in todo], [weight_of(item) / WEIGHED for item in todo]
+            weights = dict(zip(todo, expect(title or path.stem, last, usual, jobs, freefem), strict=True))
+            progress = Progress(title or path.stem, sum(weights.values()), len(todo))
             gauge = measure(sources, processes) if measure else None
             with working(jobs, processes) as pool:
                 parts = groups(todo, together)
@@ -535,7 +512,7 @@ def run(
                     for future in ended:
                         for item, row in zip(waiting.pop(future), future.result(), strict=True):
                             table.append({**row, **common})
-                            progress.step(weight_of(item), row["status"] == "converged")
+                            progress.step(weights[item], row["status"] == "converged")
     order = {item.key: place for place, item in enumerate(cases)}
     return sorted(read_rows(path), key=lambda row: order[key_of(row)])
 

@@ -30,6 +30,8 @@ import campaign
 import numpy as np
 from foreign_parts import Draw, Part, parts
 
+from postprocess.progress import Progress
+
 FOLDER = campaign.RESULTS_FOLDER / "coverage"
 CAUSES = re.compile(
     r"polygon|shape|curve|gap|distance|turn|rotat|slide|master|mesh|edge|corner|tip|singular|bound", re.I
@@ -190,7 +192,7 @@ def work(todo: list[tuple[str, Job, Store]], sources: Path, jobs: int, title: st
     todo = [(key, job, store) for key, job, store in todo if key not in store.records]
     if not todo:
         return
-    processes, progress = campaign.Processes(), campaign.Progress(title, len(todo), len(todo))
+    processes, progress = campaign.Processes(), Progress(title, len(todo), len(todo))
 
     def one(key: str, job: Job, store: Store) -> None:
         record = solve(job, sources, processes)

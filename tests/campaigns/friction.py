@@ -25,6 +25,8 @@ from pathlib import Path
 import campaign
 import numpy as np
 
+from postprocess.progress import Progress, expect
+
 ROOT = Path(__file__).resolve().parents[2]
 FILE = campaign.RESULTS_FOLDER / "friction" / "steps.csv"
 COLUMNS = "kind run step newton backsolves friction kappa points code message".split()
@@ -36,6 +38,7 @@ FIXED = (TURNS, TOGETHER, CYCLES)
 
 SCRIPTS = {"plane": "fretting", "loads": "fretting", "space": "fretting-3d", "bodies": "fretting-bodies"}
 PARTS = {"fit": 60, "belt": 30, "wedge": 50, "clip": 20, "block": 40}
+DEFAULT_RUNS = 10.0  # that a path takes, a mean
 PATHS = {"plane": 380, "loads": 90, "space": 20, "bodies": 40} | PARTS
 
 
@@ -295,9 +298,13 @@ def main(argv: list[str] | None = None) -> int:
     ]
     arguments.out.parent.mkdir(parents=True, exist_ok=True)
     known = {(row["kind"], int(row["run"])) for row in campaign.read_rows(arguments.out)}
+    todo = [one for one in wanted if one not in known]
+    weights = expect("friction", [None] * len(todo), [DEFAULT_RUNS] * len(todo), arguments.jobs, campaign.FREEFEM)
+    progress = Progress("friction", sum(weights), len(todo))
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        for found in pool.map(solve, [one for one in wanted if one not in known]):
+        for weight, found in zip(weights, pool.map(solve, todo), strict=True):
             campaign.add_rows(arguments.out, COLUMNS, found)
+            progress.step(weight, all(row["code"] == 0 for row in found))
     done = [row for row in campaign.read_rows(arguments.out) if (row["kind"], int(row["run"])) in wanted]
     lost = [report(kind, [row for row in done if row["kind"] == kind]) for kind in dict.fromkeys(k for k, _ in wanted)]
     return 1 if any(lost) else 0

@@ -3,9 +3,12 @@
 import os
 
 import pytest
+from matplotlib.figure import Figure
 
-from postprocess import figures, recipes
+from postprocess import figures, output, progress, recipes
+from postprocess.command_line import main
 from postprocess.commands import make
+from postprocess.recipes import Recipes
 from postprocess.results import ResultsError
 
 STATED = """
@@ -88,3 +91,65 @@ def test_what_is_current(tmp_path):
         os.utime(tmp_path / "summary.json", (age, age))
         assert recipes.is_current(tmp_path, "edp/main.edp") == current
     assert not recipes.is_current(tmp_path / "none", "edp/main.edp")
+
+
+def test_flags_of_a_section(stated):
+    """Each run shall have its section's flags; no run of the package's figures pays for estimates that none shows."""
+    stated.write_text(STATED.replace("[figures.runs]", '[figures]\nflags = "-vtu 0"\ncost = 7\n[figures.runs]'))
+    read = recipes.read_recipes("figures", stated)
+    assert read.cost == 7 and all(words[-2:] == ("-vtu", "0") for words in read.runs.values())
+    assert all("-estimate" in words for words in recipes.read_recipes("figures").runs.values())
+
+
+def test_what_it_takes_is_said_before(tmp_path, monkeypatch, capsys):
+    """Before the first run: how many, and how long by last time, or by a start; then what is left; nothing twice."""
+    program = tmp_path / "program"
+    finished = '"$out"; echo \'{"seconds": {"waited": 90}}\' > "$out/summary.json"'
+    program.write_text(
+        f'#!/bin/sh\necho $@ >> {tmp_path}/log\nfor out; do :; done\ntest "$out" = -help || mkdir -p {finished}\n'
+    )
+    program.chmod(0o755)
+    monkeypatch.setattr(progress, "default_run", lambda freefem: 60.0)
+    monkeypatch.setattr(make, "read_recipes", lambda section: Recipes({"a": ("edp/main.edp",), "b": ("b",)}, {}, 0.5))
+    monkeypatch.setattr(recipes, "newest_source", lambda script: 0.0)
+    words = ["make", "paper", "--freefem", str(program), "--out", str(tmp_path), "--jobs", "1"]
+    assert main([*words, "--expect"]) == 0 and not (tmp_path / "log").exists()
+    assert capsys.readouterr().err == "paper: 2 runs, about 1:00 (2 of them guessed from a start here)\n"
+    assert main(words) == 0
+    first, last = capsys.readouterr().err.splitlines()
+    assert first.startswith("paper: 2 runs, about 1:00") and last == "paper 2/2, 0:00 left"
+    assert main(words) == 0 and capsys.readouterr().err == ""
+    monkeypatch.setattr(recipes, "newest_source", lambda script: 1e12)
+    assert main([*words, "--expect"]) == 0
+    assert capsys.readouterr().err == "paper: 2 runs, about 3:00\n"
+    assert len((tmp_path / "log").read_text().splitlines()) == 2
+
+
+def test_pictures_count_too(monkeypatch, capsys):
+    """Runs share the jobs, pictures come one by one; the seconds of each are given back."""
+    monkeypatch.setattr(progress, "default_run", lambda freefem: 2.0)
+    assert progress.expect("x", [None, 30.0], [5, 5], 2, (), [4]) == [10, 30, 8]
+    assert capsys.readouterr().err == "x: 2 runs and 1 picture, about 0:28 (1 of them guessed from a start here)\n"
+
+
+def test_time_left(monkeypatch, capsys):
+    """The time left shall be that of the weight left, a line each `pause`, and the last one always."""
+    now = [0.0]
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now[0])
+    going = progress.Progress("x", 10, 3, pause=5)
+    for seconds, weight, good in ((1, 1, True), (7, 1, False), (30, 8, True)):
+        now[0] = seconds
+        going.step(weight, good)
+    assert capsys.readouterr().err == "x 2/3, 0:28 left, 1 not converged\nx 3/3, 0:00 left, 1 not converged\n"
+
+
+def test_a_layout_is_found_once(tmp_path, monkeypatch):
+    """A figure's PDF and PNG shall have one layout, with the room that its labels need."""
+    figure = Figure(layout="constrained")
+    figure.subplots().set_ylabel("a label that needs room")
+    found, engine = [], figure.get_layout_engine()
+    execute = engine.execute
+    monkeypatch.setattr(engine, "execute", lambda figure: found.append(1) or execute(figure))
+    for kind, metadata in output.METADATA.items():
+        output.figure_writer(figure, kind, metadata)(tmp_path / f"f.{kind}")
+    assert len(found) == 1 and figure.axes[0].get_position().x0 > 0.05
