@@ -36,7 +36,7 @@ small "$RESULTS/parts-3d/wheel-on-rail/check/faces.png" edp/docs/tutorial/3-from
 for lab in edp/labs/*/; do
     name=$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' "$lab/README.md")
     case $name in stress*) width=560;; *) width=700;; esac
-    small "$(find "$RESULTS/labs/$(basename "$lab")" -name "$name")" "$lab/README.md" --width $width --out "$lab/figure.png"
+    small "$(find "$RESULTS/labs/$(basename "$lab")" -name "$name")" "${lab}README.md" --width $width --out "${lab}figure.png"
 done
 for sketch in 0-algorithm/models 3-threshold/cut 3-threshold/four_five 3-threshold/bridge; do
     small "$RESULTS/labs/$sketch.png" "edp/labs/${sketch%/*}/README.md" --width 700 --out "edp/labs/$sketch.png"
