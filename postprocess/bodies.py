@@ -28,6 +28,7 @@ SHEAR: style.Look = {"marker": "", "linestyle": (0, (4, 1.5))}
 LIGHT = np.array([-0.35, -0.5, 0.79])
 FARTHEST = 1.5  # an obstacle is drawn as far from the surface as that times the contact's size
 ARROWS = 0.06  # from one to the next, of the contact's length
+SEEN = 2.0  # points: the least side of an element that is drawn
 TOUCHING = 1e-3  # of the greatest pressure: what is shown of a contact
 
 
@@ -437,16 +438,16 @@ def draw_arrows(axes: Axes, foot: np.ndarray, top: np.ndarray, spacing: float) -
 
 
 def draw_mesh(axes: Axes, bodies: Bodies, box: np.ndarray, coloured: bool) -> None:
-    """The elements' sides in a box, as thin as can be told from each other; white on colours."""
+    """The elements' sides in a box, those that can be told from each other; white on colours."""
     place = bodies.place[:, :2]
     near = ((place > box[0]) & (place < box[1])).all(axis=1)
     cells = bodies.grid.cells[near[bodies.grid.cells].any(axis=1)]
     sides = place[Triangulation(*place.T, cells).edges]
     # points on paper, in a panel of a column's width
-    size = np.median(np.linalg.norm(sides[:, 1] - sides[:, 0], axis=1)) * 0.8 * 72 * style.COLUMN / np.ptp(box[:, 0])
+    size = np.hypot(*(sides[:, 1] - sides[:, 0]).T) * 0.8 * 72 * style.COLUMN / np.ptp(box[:, 0])
     look: style.Look = {"color": "white" if coloured else style.BLACK, "alpha": 0.45 if coloured else 0.35}
-    look |= {"linewidth": float(np.clip(0.06 * size, 0.05, 0.4)), "zorder": 2, "rasterized": True}
-    axes.add_collection(LineCollection(list(sides), **look))
+    look |= {"linewidth": np.clip(0.06 * size[size > SEEN], 0.1, 0.4), "zorder": 2, "rasterized": True}
+    axes.add_collection(LineCollection(list(sides[size > SEEN]), **look))
 
 
 def force_caption(bodies: Bodies, contact: int, units: style.Units) -> str:

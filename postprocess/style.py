@@ -422,11 +422,11 @@ def labelled_indices(amount: int) -> set[int]:
     return set(range(amount)) if amount <= 6 else set(np.linspace(0, amount - 1, 5).round().astype(int).tolist())
 
 
-def set_log(axes: Axes, which: str, most: int = 6) -> None:
+def set_log(axes: Axes, which: str, most: int = 6, ends: tuple[float, float] | None = None) -> None:
     """Logarithmic axes "x", "y" or "xy" over the curves drawn so far: at most so many labels, near both ends one.
 
     Curves of panels that share the axis count too. Labels are 1, 1.5, 2, 3, 5, 7 times a power of ten, or fewer, down
-    to every second or third power.
+    to every second or third power. ends: what the axis shows, where that is not all of the curves.
     """
     for name in which:
         axis, side = getattr(axes, f"{name}axis"), "xy".index(name)
@@ -438,7 +438,7 @@ def set_log(axes: Axes, which: str, most: int = 6) -> None:
         ]
         values = np.concatenate([[], *(np.asarray(line.get_xydata(), float)[:, side] for line in lines)])
         values = values[np.isfinite(values) & (values > 0)]
-        low, high = float(values.min(initial=np.inf)), float(values.max(initial=0))
+        low, high = ends or (float(values.min(initial=np.inf)), float(values.max(initial=0)))
         if low > high / 1.5:  # no curve, or one value
             low, high = (low / 2, high * 2) if high else (0.1, 1.0)
         ticks = log_ticks(low, high, most)

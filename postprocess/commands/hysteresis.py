@@ -99,7 +99,7 @@ def draw(chosen: Run, units: style.Units, asked: argparse.Namespace, own: Units)
     force = own.moment if turns else own.force
     label = ("moment" if turns else "reaction") if curve else "shear force"
     across = f"{words} [{'rad' if turns else units.length}]"
-    plot_loop(above, table, across, f"{label} [{force}]" if force else label, own.energy)
+    plot_loop(above, table, across, f"{label} [{force or 'force unit'}]", own.energy)
     if (chosen.path / "slides.csv").exists():
         plot_zones(below, chosen, asked.contact, len(table["step"]), units)
     else:
@@ -161,7 +161,7 @@ def plot_zones(axes: Axes, chosen: Run, contact: int, steps: int, units: style.U
     axes.set_xlim(0.5, steps + 0.5)
     axes.autoscale(axis="y")
     axes.margins(y=0.05)
-    axes.set_xlabel("load step")
+    axes.set_xlabel("load step [–]")
     axes.set_ylabel(f"${'x' if flat else 'y'}$ [{units.length}]")
     squares: list[Artist] = [Rectangle((0, 0), 1, 1, color=STRONG[k], linewidth=0) for k in (1, 2)]
     axes.legend(squares, ["sticks", "slips"], **ABOVE)
@@ -175,7 +175,7 @@ def plot_shares(axes: Axes, table: dict) -> None:
     axes.bar(steps, 100 - share, 1.0, bottom=share, color=STRONG[2], linewidth=0, label="slips")
     axes.set_xlim(steps[0] - 0.5, steps[-1] + 0.5)
     axes.set_ylim(0, 100)
-    axes.set_xlabel("load step")
+    axes.set_xlabel("load step [–]")
     axes.set_ylabel("points in contact [%]")
     axes.legend(**ABOVE)
 

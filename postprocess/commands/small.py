@@ -1,4 +1,4 @@
-"""make a picture small for a page: fewer pixels, 96 colours, no white margin
+"""make a picture small for a page: fewer pixels, 128 colours, no white margin
 
 PICTURE is a PNG or a GIF, which stays a movie. A PNG keeps the numbers that it shows, and gets the recipe of the page
 that it stands on: what a test compares. FILE is written whole or not at all.
@@ -10,7 +10,7 @@ import io
 import re
 from pathlib import Path
 
-from PIL import Image, ImageChops, ImageSequence, UnidentifiedImageError
+from PIL import Image, ImageChops, ImageOps, ImageSequence, UnidentifiedImageError
 from PIL.PngImagePlugin import PngInfo
 
 from postprocess import style
@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> None:
     elif kind == "PNG":
         if arguments.page:
             told.add_text(RECIPE, recipe(Path(arguments.page)))
-        frames = [frames[0].quantize(96, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)]
+        frames = [frames[0].quantize(128, method=Image.Quantize.MEDIANCUT, kmeans=3, dither=Image.Dither.NONE)]
         moving = {"pnginfo": told}
     written = io.BytesIO()
     frames[0].save(written, kind, optimize=True, **moving)
@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> None:
 def recipe(page: Path) -> str:
     """A page, and what stands for the commands in it."""
     blocks = re.findall(r"^```sh\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
-    return f"{page.name} {hashlib.sha256(''.join(blocks).encode()).hexdigest()[:16]}"
+    return f"{page.as_posix()} {hashlib.sha256(''.join(blocks).encode()).hexdigest()[:16]}"
 
 
 def shrink_frame(frame: Image.Image, width: int) -> Image.Image:
@@ -65,6 +65,7 @@ def shrink_frame(frame: Image.Image, width: int) -> Image.Image:
     whole = frame.convert("RGBA")
     picture = Image.alpha_composite(Image.new("RGBA", whole.size, "white"), whole).convert("RGB")
     picture = picture.crop(ImageChops.difference(picture, Image.new("RGB", picture.size, "white")).getbbox())
+    picture = ImageOps.expand(picture, picture.width // 100, "white")
     height = max(1, round(picture.height * width / picture.width))
     return picture.resize((width, height), Image.Resampling.BOX).point(lambda level: 3 * round(level / 3))
 

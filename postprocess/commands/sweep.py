@@ -275,7 +275,7 @@ def draw_results(what: str, rows: list[dict], names: list[str]) -> Figure:
             )
             bars = np.where(np.isfinite(error), error, 0)
             axes.errorbar(at[order], column, bars, label=label, capsize=2, elinewidth=0.8, **style.curve(index))
-        axes.set_xlabel(style.without_mathtext(what.replace("*", "...")))
-        axes.set_ylabel(title)
+        axes.set_xlabel(f"{style.without_mathtext(what.replace('*', '...'))} [as in the case]")
+        axes.set_ylabel(f"{title} [unit of the case]")
         axes.legend(fontsize=7)
     return figure

@@ -63,7 +63,7 @@ def draw(chosen: Run, units: style.Units) -> Figure:
     for index, axes in enumerate((depth, pressure, shape)):
         axes.set_title(style.panel(index), loc="left", fontsize=8)
         if axes is not shape:
-            axes.set_xlabel("cycles")
+            axes.set_xlabel("cycles [–]")
             axes.set_ylim(bottom=0)
             axes.set_xlim(left=0)
     if len(worn) > 1:

@@ -51,12 +51,14 @@ def draw(runs: list[Run], units: style.Units) -> Figure:
         axes.grid(axis="x" if axes is right and not alike else "both", color="0.9", linewidth=0.5)
         axes.set_title(style.panel(int(axes is right)), loc="left")
     style.set_log(left, "xy")
-    style.set_log(right, "x")
+    style.set_log(right, "x", 4)
     left.set_xlabel("CPU time from assembly to displacement [s];\ndotted: time waited [s]")
     left.set_ylabel("relative error of the force [–]")
     right.set_xlabel("unknowns [–]" if alike else "factorisations [–]")
     if alike:
         right.sharey(left)
+        right.set_yscale("log")
+        style.set_log(left, "y")
         right.tick_params(labelleft=False)
     else:
         right.set_yticks(range(len(groups)), list(groups))

@@ -3,7 +3,7 @@
 # The pictures of campaigns are of the tables in tests/RESULTS.md and tests/COST.md; the cut through the sphere needs PyVista.
 set -eu
 # small PICTURE PAGE OPTIONS: the picture of a page, whose commands have drawn it
-small() { picture=$1 page=$2; shift 2; $PYTHON -m postprocess small "$picture" --page "$page" "$@"; }
+small() { from=$1 of=$2; shift 2; $PYTHON -m postprocess small "$from" --page "$of" "$@"; }
 commands() { sed -n '/^```sh/,/^```$/{/^[^`]/p;}' "$1"; }
 
 commands README.md | grep -m 2 meshed-disc | sh -e
@@ -24,19 +24,19 @@ for page in edp/examples/*/README.md; do
     folder=${page%/README.md}
     picture=$(sed -n 's/^!\[.*](\(.*\.png\))/\1/p' "$page")
     commands "$page" | sh -e
-    small "$RESULTS"/parts*/"${folder##*/}/$picture" "$page" --width 560 --out "$folder/$picture"
+    small "$RESULTS"/parts*/"${folder##*/}/$picture" "$page" --width 460 --out "$folder/$picture"
 done
 
 for page in edp/docs/tutorial/*.md; do commands "$page" | sh; done
 small "$RESULTS/disc-on-block/xnewton/stress.png" edp/docs/tutorial/1-first-run.md --width 720 --out edp/docs/tutorial/disc-on-block.png
-small "$RESULTS/parts/foot/state.png" edp/docs/tutorial/2-own-part.md --width 720 --out edp/docs/tutorial/foot.png
+small "$RESULTS/parts/foot/stress.png" edp/docs/tutorial/2-own-part.md --width 720 --out edp/docs/tutorial/foot.png
 small "$RESULTS/fretting/xnewton/hysteresis.png" edp/docs/tutorial/4-friction.md --width 720 --out edp/docs/tutorial/hysteresis.png
 small "$RESULTS/parts-3d/wheel-on-rail/check/faces.png" edp/docs/tutorial/3-from-cad.md --width 640 --out edp/docs/tutorial/faces.png
 
 for lab in edp/labs/*/; do
     name=$(sed -n 's/^\*`\([a-z]*\.png\)` of these commands.*/\1/p' "$lab/README.md")
     case $name in stress*) width=560;; *) width=700;; esac
-    small "$(find "$RESULTS/labs/$(basename "$lab")" -name "$name")" "$lab/README.md" --width $width --out "$lab/figure.png"
+    small "$(find "$RESULTS/labs/$(basename "$lab")" -name "$name")" "${lab}README.md" --width $width --out "${lab}figure.png"
 done
 for sketch in 0-algorithm/models 3-threshold/cut 3-threshold/four_five 3-threshold/bridge; do
     small "$RESULTS/labs/$sketch.png" "edp/labs/${sketch%/*}/README.md" --width 700 --out "edp/labs/$sketch.png"
