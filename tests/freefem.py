@@ -242,6 +242,17 @@ def stored(scene, flags):
     return Run(*json.loads(record.read_text()), STORE / key)
 
 
+def solve_rows(folder, scene, rows, *flags):
+    """The summaries of many problems on one mesh, each from its own start; rows: flags of each. All must converge."""
+    given = [dict(zip(words[::2], map(flag_text, words[1::2]), strict=True)) for words in rows]
+    names = list(dict.fromkeys(name for row in given for name in row))
+    lines = [",".join(name[1:] for name in names), *(",".join(row.get(name, "") for name in names) for row in given)]
+    (folder / "table.csv").write_text("\n".join(lines) + "\n")
+    words = ["-rows", folder / "table.csv", "-rows-start", "cold", "-estimate", 0, *flags]
+    run_in(ROOT, script(scene), *words, out=folder / "rows")
+    return [row["summary"] for row in json.loads((folder / "rows/rows.json").read_text())["rows"]]
+
+
 def run_in(cwd, name, *flags, out=None, expect=0, env=None):
     """One run, not shared, of a script as a user would start it in `cwd`; out: its results; expect None: any code."""
     skip_without_ipopt(name)

@@ -308,6 +308,81 @@ def row_of(item: Case, outcomes: list[Outcome]) -> dict:
     return row
 
 
+# ---------------------------------------------------------------- cases on one mesh: rows of one run
+
+# flags that leave mesh and stiffness as they are, edp/docs/howto/many-runs.md; words that exclude rows
+ROW_FLAGS = frozenset("law kappa m p0 beta table d0 u0 force steps T0 threshold inner start forcing".split())
+ROW_FLAGS |= frozenset("preconditioner model tol eps rho maxNewton maxAdaptations".split())
+NO_ROWS = frozenset("friction legs drag shear distance accuracy history case path w eps0 control branch".split())
+NO_ROW_SCENES = ("adhesive", "fretting", "rolling", "wedge", "parts")
+
+
+def may_share(item: Case) -> bool:
+    """Whether the case may be a row of a table: one repeat, a scene and flags that allow it."""
+    scene = Path(item.script).stem
+    usual = not item.program and item.repeats == 1 and not scene.endswith("-ipopt")
+    return usual and not scene.startswith(NO_ROW_SCENES) and not NO_ROWS & set(item.parameters)
+
+
+def common_flags(item: Case) -> tuple[str, ...]:
+    """The flags that the rows of a table share."""
+    given = item.parameters.items()
+    return tuple(text for name, value in given if name not in ROW_FLAGS for text in (f"-{name}", value))
+
+
+def groups(cases: Iterable[Case], together: Callable[[Case], bool] | None) -> list[list[Case]]:
+    """The cases, those that share script and mesh in one group if `together` accepts them."""
+    found: dict[tuple, list[Case]] = {}
+    for item in cases:
+        shared = together is not None and may_share(item) and together(item)
+        found.setdefault((item.script, *sorted(common_flags(item))) if shared else item.key, []).append(item)
+    return list(found.values())
+
+
+def run_group(
+    group: list[Case], sources: Path, processes: Processes, measure: Measure | None = None, freefem=FREEFEM
+) -> list[dict]:
+    """The rows of these cases: of a single case by its run, of several by one run with -rows, each from its own start.
+
+    Of a row of several, `cpu` is that of its solution and report; `wall` and `memory` are those of its process, `wall`
+    divided by the cases. Rows that the process has not given are run alone.
+    """
+    if len(group) == 1:
+        return [run_case(group[0], sources, processes, measure, freefem)]
+    common = common_flags(group[0])
+    names = list(dict.fromkeys(name for item in group for name in item.parameters if f"-{name}" not in common))
+    with tempfile.TemporaryDirectory(prefix="run-") as folder:
+        with (Path(folder) / "table.csv").open("w") as file:
+            csv.writer(file).writerows([names, *([item.parameters.get(name, "") for name in names] for item in group)])
+        command = [*freefem, group[0].script, *common, "-rows", f"{folder}/table.csv", "-rows-start", "cold"]
+        allowed = sum(item.timeout for item in group)
+        outcome = processes.execute([*command, "-out", f"{folder}/out"], sources, Path(folder) / "out", allowed)
+        told = read_summary(Path(folder) / "out/rows.json")
+        found = told.get("rows", [])
+        rows = []
+        for item, row in zip(group, found or [None] * len(group), strict=True):
+            if row is None or row["code"] not in STATUS:
+                rows.append(run_case(item, sources, processes, measure, freefem))
+                continue
+            summary = row["summary"] or {}
+            if summary:
+                given = {name: number_or_text(text) for name, text in item.parameters.items()}
+                summary |= {"parameters": told["parameters"] | given}
+                summary["seconds"]["total"] = row["seconds"]
+            one = Outcome(row["code"], outcome.wall / len(group), outcome.memory, row["message"], summary)
+            further = measure(item, summary, Path(folder)) if measure and row["code"] == 0 else {}
+            rows.append({**row_of(item, [one]), **further})
+    return rows
+
+
+def number_or_text(text: str) -> int | float | str:
+    """A flag's value as summary.json has it: FreeFEM writes whole numbers without a point."""
+    with contextlib.suppress(ValueError):
+        number = float(text)
+        return int(number) if number.is_integer() and abs(number) < 1e17 else number
+    return text
+
+
 def status_of(code: int | None) -> str:
     return "timeout" if code is None else STATUS.get(code, f"crash {code}")
 
@@ -431,9 +506,11 @@ def run(
     files: dict[str, str] | None = None,
     freefem: Iterable[str] = FREEFEM,
     title: str | None = None,
+    together: Callable[[Case], bool] | None = None,
 ) -> list[dict[str, str]]:
     """Executes the cases that `path` has no current row of, `jobs` at a time; all rows, as text.
 
+    together: whether a case may be solved with others on its mesh (run_group): `measure` then has its summary alone.
     columns: names of further columns; `measure(sources, processes)` gives the function that fills them, where `sources`
     is the frozen copy of the package (with `files` added: name to text). Interrupted with Ctrl-C or SIGTERM, the CSV
     holds all the runs that have ended, and KeyboardInterrupt is raised.
@@ -451,14 +528,14 @@ def run(
             progress = Progress(title or path.stem, sum(weight_of(item) for item in todo), len(todo))
             gauge = measure(sources, processes) if measure else None
             with working(jobs, processes) as pool:
-                waiting = {pool.submit(run_case, item, sources, processes, gauge, freefem): item for item in todo}
+                parts = groups(todo, together)
+                waiting = {pool.submit(run_group, part, sources, processes, gauge, freefem): part for part in parts}
                 while waiting:
                     ended, _ = wait(waiting, return_when=FIRST_COMPLETED)
                     for future in ended:
-                        item = waiting.pop(future)
-                        row = future.result()
-                        table.append({**row, **common})
-                        progress.step(weight_of(item), row["status"] == "converged")
+                        for item, row in zip(waiting.pop(future), future.result(), strict=True):
+                            table.append({**row, **common})
+                            progress.step(weight_of(item), row["status"] == "converged")
     order = {item.key: place for place, item in enumerate(cases)}
     return sorted(read_rows(path), key=lambda row: order[key_of(row)])
 

@@ -142,7 +142,12 @@ def faults(rows: list[dict]) -> list[str]:
 
 
 def run(path: Path, chosen: list[campaign.Case], jobs: int) -> list[dict[str, str]]:
-    return campaign.run(chosen, path, jobs=jobs, columns=COLUMNS, measure=measure)
+    return campaign.run(chosen, path, jobs=jobs, columns=COLUMNS, measure=measure, together=needs_no_files)
+
+
+def needs_no_files(item: campaign.Case) -> bool:
+    """Whether `measure` reads the run's summary alone."""
+    return item.parameters["method"] != "paper"
 
 
 def main(argv: list[str] | None = None) -> int:

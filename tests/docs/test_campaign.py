@@ -201,3 +201,23 @@ def test_models_of_one_load(tmp_path):
     for line, expected in zip(told, pictures.cells("models")[1:], strict=True):
         found = [cell.strip("| ") for cell in line]
         assert found[0] == expected[0] and 0 < int(found[3]) <= int(expected[3])
+
+
+def test_rows_are_runs(tmp_path, monkeypatch):
+    """Cases on one mesh, solved by one run with rows, shall have the rows of their single runs, but for times."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
+    common = {"h": 2, "order": 1, "estimate": 0, "tol": 1e-8}
+    cases = [campaign.case("a", kappa=kappa, **common, m=3.5) for kappa in (1e3, 1e30)]
+    cases += [campaign.case("b", law="signorini", u0=-1.0, **common), campaign.case("b", kappa=-1.0, **common)]
+    cases += [campaign.case("c", method="newton", kappa=1e6, **common)]
+    assert [len(group) for group in campaign.groups(cases, lambda item: True)] == [4, 1]
+    tables = [
+        campaign.run(cases, tmp_path / f"{name}.csv", together=together)
+        for name, together in (("alone", None), ("rows", lambda item: True))
+    ]
+    times = {*campaign.TIMES, "day"}
+    for alone, row in zip(*tables, strict=True):
+        assert {name: text for name, text in row.items() if name not in times} == {
+            name: text for name, text in alone.items() if name not in times
+        }
+        assert float(row["cpu"]) < float(alone["cpu"]) if row["name"] != "c" and row["status"] == "converged" else True
