@@ -49,7 +49,7 @@ class Springs(Problem):
             return at["p0"] * grown, at["p0"] * at["beta"] * (grown + 1), slopes
 
         low, high = 1e-12, u
-        for _ in range(200):
+        for _ in range(70):
             s = 0.5 * (low + high)
             low, high = (s, high) if law(s)[0] < BODY * (u - s) else (low, s)
         pressure, slope, by = law(s)
@@ -90,16 +90,16 @@ def identified(law, measured):
 @pytest.mark.parametrize("known", [True, False])
 @pytest.mark.parametrize("law", TRUTHS)
 def test_intervals_contain_the_truth(law, known):
-    """In 100 draws each 95 % interval shall contain the truth 88 to 99 times."""
+    """Of 40 draws each 95 % interval shall contain the truth in 34 or more, and not in all."""
     generator = np.random.default_rng(4)
     inside = np.zeros(2)
-    for _ in range(100):
+    for _ in range(40):
         found = identified(law, draw(generator, 0.02, TRUTHS[law], known=known)).fit
         assert found.converged and not found.undetermined
         for k, one in enumerate(found.parameters):
             low, high = found.interval(k)
             inside[k] += low <= TRUTHS[law][one.name] <= high
-    assert np.all((inside >= 88) & (inside <= 99)), inside
+    assert np.all(inside >= 34) and inside.sum() < 80, inside
 
 
 @pytest.mark.parametrize("law", TRUTHS)
