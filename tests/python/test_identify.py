@@ -90,16 +90,18 @@ def identified(law, measured):
 @pytest.mark.parametrize("known", [True, False])
 @pytest.mark.parametrize("law", TRUTHS)
 def test_intervals_contain_the_truth(law, known):
-    """Of 40 draws each 95 % interval shall contain the truth in 34 or more, and not in all."""
+    """Of 40 draws 34 shall have the truth in each 95 % interval, and known deviations shall be those of the draws."""
     generator = np.random.default_rng(4)
-    inside = np.zeros(2)
+    inside, squares = np.zeros(2), np.zeros(2)
     for _ in range(40):
         found = identified(law, draw(generator, 0.02, TRUTHS[law], known=known)).fit
         assert found.converged and not found.undetermined
         for k, one in enumerate(found.parameters):
             low, high = found.interval(k)
             inside[k] += low <= TRUTHS[law][one.name] <= high
-    assert np.all(inside >= 34) and inside.sum() < 80, inside
+            squares[k] += (math.log(found.values[one.name] / TRUTHS[law][one.name]) / found.deviation(k)) ** 2 / 40
+    assert np.all(inside >= 34), inside
+    assert not known or np.all((squares > 0.75**2) & (squares < 1.3**2)), squares
 
 
 @pytest.mark.parametrize("law", TRUTHS)
