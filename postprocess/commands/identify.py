@@ -126,9 +126,8 @@ def report(fits: list[LawFit], measured: Measurements, problem: Problem) -> list
         lines += ["", f"law {one.law}, {style.count(found.steps, 'step')}"]
         for k, parameter in enumerate(found.parameters):
             low, high = found.interval(k)
-            determined = (
-                math.isfinite(low + high) and abs(high) < WIDEST * abs(low or 1) and abs(low) < WIDEST * abs(high)
-            )
+            size = sorted((abs(low), abs(high)))
+            determined = math.isfinite(size[1]) and size[1] <= WIDEST * size[0]
             ends = f"{shown(low)} to {shown(high)}" if determined else "not determined"
             lines.append(f"  {parameter.name:10s}{shown(found.values[parameter.name]):>12s}   95 %: {ends}")
         correlation = found.correlation()
