@@ -222,3 +222,20 @@ def test_identification_by_freefem(tmp_path, capsys):
     variance = size @ np.array(found["correlation"]) @ size
     assert reach == pytest.approx(uncertainty.NORMAL * math.sqrt(variance), rel=1e-2)
     assert reach < 2 * 0.01 * force  # the force at a load that was measured is known as well as its value
+
+
+def test_friction(tmp_path, capsys):
+    """Displacements under tangential forces shall give the coefficient of friction, by runs of their own."""
+    flags = ["-h", 0.2, "-order", 1, "-vtu", 0, "-estimate", 0]
+    lines = ["-shear,dragged.value,sd"]
+    for load in (1.5, 2.2):
+        done = run_in(ROOT, "edp/scenes/fretting.edp", *flags, "-friction", 0.35, "-shear", load, out=tmp_path / "out")
+        moved = done.dragged["value"]
+        lines.append(f"{load},{moved!r},{0.001 * moved!r}")
+    (tmp_path / "measured.csv").write_text("\n".join(lines) + "\n")
+    run_in(ROOT, "edp/scenes/fretting.edp", *flags, out=tmp_path / "run")
+    main(["identify", str(tmp_path / "measured.csv"), str(tmp_path / "run"), "--fit", "friction"])
+    assert "friction" in capsys.readouterr().out
+    found = json.loads((tmp_path / "run/identify.json").read_text())["laws"][0]["parameters"]["friction"]
+    assert found["value"] == pytest.approx(0.35, rel=1e-3)
+    assert found["interval95"][1] - found["interval95"][0] < 0.02
