@@ -173,7 +173,7 @@ site: $(VENV)/dev.stamp ## all pages as a site to search, without the labs' answ
 	@PYTHONPATH=. $(PYTHON) tests/documents.py $(if $(TEACHER),--answers) --notebooks $(RESULTS)/notebooks --out $(RESULTS)/site
 
 # make check-lab 2 ANSWERS=file: the lab's number is no target of its own.
-LABS    := 0 1 2 3 4 5 6 7 8 9 10 11
+LABS    := 0 1 2 3 4 5 6 7 8 9 10 11 12
 N       ?= $(filter $(LABS),$(MAKECMDGOALS))
 ANSWERS ?= answers.csv
 check-lab: $(VENV)/run.stamp ## check a student's answers: make check-lab 2 ANSWERS=answers.csv, check-lab 4 ANSWERS=mylaw.idp

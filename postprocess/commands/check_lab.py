@@ -31,7 +31,7 @@ CHECKS = {  # what lab 4 prints, and what is allowed of it
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("lab", metavar="N", help="the lab's number, 0 to 10")
+    parser.add_argument("lab", metavar="N", help="the lab's number, 0 to 12")
     parser.add_argument("file", metavar="FILE", type=Path, help="answers.csv, or of lab 4 a law file (.idp)")
 
 

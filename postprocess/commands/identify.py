@@ -27,6 +27,7 @@ from postprocess.results import ResultsError
 UNLIKELY = 0.01  # probability of the misfit below which a law is rejected
 DECISIVE = 10.0  # difference of the criteria from which on the worse law has no support
 CLOSE = 2.0  # and below which both laws are as good
+WIDEST = 1e6  # ratio of the ends of an interval from which on it says nothing
 SIZE = (style.PAGE, 0.42 * style.PAGE)
 
 
@@ -125,7 +126,9 @@ def report(fits: list[LawFit], measured: Measurements, problem: Problem) -> list
         lines += ["", f"law {one.law}, {style.count(found.steps, 'step')}"]
         for k, parameter in enumerate(found.parameters):
             low, high = found.interval(k)
-            ends = f"{shown(low)} to {shown(high)}" if math.isfinite(low + high) else "not known"
+            size = sorted((abs(low), abs(high)))
+            determined = math.isfinite(size[1]) and size[1] <= WIDEST * size[0]
+            ends = f"{shown(low)} to {shown(high)}" if determined else "not determined"
             lines.append(f"  {parameter.name:10s}{shown(found.values[parameter.name]):>12s}   95 %: {ends}")
         correlation = found.correlation()
         for j in range(len(found.parameters)):

@@ -13,7 +13,7 @@ STEP = 1e-4  # relative step of the finite differences
 
 FLAGS = "main.edp -h 1 | main.edp -h 1 -law barrier -geometry axisymmetric -force 300"
 MORE = (
-    "main.edp -h 0.5 | main.edp -h 1 -law exponential -force 100 -half 1 | main.edp -h 0.5 -law signorini -force 120"
+    "main.edp -h 0.5 | main.edp -h 1 -law exponential -force 100 | main.edp -h 0.5 -law signorini -force 120"
     "| main.edp -h 1 -law table -table TABLE -geometry stress | main.edp -h 1 -order 4 -offset 1.3 -bodyForce 0.05"
     "| scenes/sphere-on-block.edp -h 2.5 -patch 6 | scenes/wavy.edp | scenes/meshed-disc.edp -h 1 -kappa 1e6"
     "| scenes/two-cylinders.edp -d0 -0.01 -law power -kappa 1e5"
@@ -112,6 +112,14 @@ def test_touching_point(tmp_path):
         shift = there.sensitivities[name]["d0"]
         assert shift["below"] == pytest.approx(-there.sensitivities[name]["u0"]["above"], rel=1e-6)
     assert isinstance(there.sensitivities["force"]["E"], float)  # it moves no point of a hard contact
+
+
+def test_half(tmp_path):
+    """A half model shall have the derivatives of the whole, on another mesh."""
+    half, whole = (one("main.edp", "-h", 1, "-half", k, out=tmp_path / f"{k}").sensitivities for k in (1, 0))
+    for name in ("force", "pressureMax", "halfWidthMoment", "contactLength", "halfWidth"):
+        size = max(map(abs, whole[name].values()))
+        assert half[name] == pytest.approx(whole[name], rel=0.02, abs=0.01 * size), name
 
 
 def test_jumps(tmp_path):
