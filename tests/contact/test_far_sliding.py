@@ -1,6 +1,7 @@
 """Bodies that slide onto and off a surface: a press-in from outside the bore, over an edge, in one leg and in two."""
 
 import csv
+import re
 from math import pi
 
 import pytest
@@ -32,18 +33,18 @@ def lengthened(geometry):
     return geometry.replace(", 20, 0", ", 90, 0").replace(", 19, 0", ", 89, 0")
 
 
-@pytest.mark.parametrize("pair, share", [("hole outside", 0.002), ("outside hole", 0.01)])
-def test_pressed_in_from_outside(tmp_path, pair, share):
-    """Far from both ends each millimetre adds Lame's pressure, up to a share of the force; the energy alone resists."""
-    case = TUBE.format(pair, "move top * -60")
+@pytest.mark.parametrize("pair", ["hole outside", "outside hole"])
+def test_pressed_in_from_outside(tmp_path, pair):
+    """Far from both ends each millimetre adds Lame's pressure, up to 1.5 % of the force; the energy alone resists."""
+    case = TUBE.format(pair, "move top * -63")
     run = part(tmp_path, lengthened(FIT), case, *EXACT, "-set", "h", 2, "-history", 1, "-steps", 6)
     name = pair + " normal force"
     path = rows(run)
     pressure = 0.0025 * 196e3 / 20 / ((900 + 400) / (900 - 400) + (400 + 100) / (400 - 100))
     for last, this in [path[3:5], path[4:6]]:
-        assert this[name] - last[name] == pytest.approx(pressure * 2 * pi * 20 * 10, abs=share * this[name])
+        assert this[name] - last[name] == pytest.approx(pressure * 2 * pi * 20 * 10.5, abs=0.015 * this[name])
     energy = path[5]["stored energy"] - path[3]["stored energy"]
-    assert path[4]["symmetry base force y"] == pytest.approx(energy / 20, abs=1e-4 * path[4][name])
+    assert path[4]["symmetry base force y"] == pytest.approx(energy / 21, abs=1e-4 * path[4][name])
     assert run.summary["outOfBalance"] < 1e-6
     assert run.summary["unpairedPoints"] == 0 or not any("opposite" in text for text in run.summary["warnings"])
 
@@ -80,6 +81,16 @@ def test_onto_the_table(tmp_path):
     there = drawn.summary["contacts"][0]["normalForce"]
     assert rows(on)[-1]["under face normal force"] == pytest.approx(there, rel=1e-3)
     assert on.summary["outOfBalance"] < 1e-6
+
+
+def test_gaps_of_curves_where_they_are(tmp_path):
+    """A block that leaves a round pad in one leg, which carries it along, or in two: the same gap is left."""
+    case = BLOCK.format("under arc", "{}").replace("table", "pad")
+    pad = data("sliding/narrow-pad.geo")
+    one = part(tmp_path / "one", pad, case.format("move top -8 -0.02"), *EXACT, "-history", 1, "-steps", 2)
+    two = part(tmp_path / "two", pad, case.format("leg 2\nmove top -8 -0.02\nleg 1\nmove top -8 -0.02"), *EXACT)
+    left = [re.search(r"least gap left is ([\d.e-]+)", " ".join(run.summary["warnings"]))[1] for run in (one, two)]
+    assert float(left[0]) == pytest.approx(float(left[1]), rel=1e-5)
 
 
 def test_two_legs_pair_as_one(tmp_path):
