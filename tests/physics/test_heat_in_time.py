@@ -43,7 +43,7 @@ def test_slab(tmp_path, scheme, order):
     errors = []
     for steps in (20, 40):
         case = f"{APART}temperature right 0\ntime 75 steps {steps} scheme {scheme}\n"
-        part(tmp_path, SLAB, case, "-set", "n", 8)
+        part(tmp_path, SLAB, case, "-set", "n", 6)
         rows = table(tmp_path / "out/series.csv")
         assert len(rows["time"]) == steps + 1 and rows["time"][-1] == 75
         errors.append(rows["slab greatest temperature"][-1] - cooled(0, 75))
@@ -66,15 +66,14 @@ def test_fit_that_warms_up(tmp_path):
     pressure, heat, _ = exact_fit(60)
     assert steady["contacts"][0]["normalForce"] == pytest.approx(pressure * 2 * pi * 25 * 12, rel=1e-5)
     assert steady["heat"]["contacts"][0]["heat"] == pytest.approx(12 * heat, rel=1e-5)
-    forces = []
-    for steps in (8, 16, 32):
-        warm = solve(tmp_path / f"{steps}", TUBE, f"{HEATED}time 5 steps {steps}\n", "-tol", 1e-9, "-set", "edges", 3)
-        rows = table(tmp_path / f"{steps}/out/series.csv")
-        forces.append(rows["seat journal normal force"])
-        assert warm["heat"]["in"] == pytest.approx(warm["heat"]["out"] + warm["heat"]["stored"], rel=1e-9)
-    assert forces[0][0] == pytest.approx(200600, rel=1e-3) and all(forces[2] > 148000)
-    first, second, third = (force[-1] for force in forces)
-    assert 3 < (second - first) / (third - second) < 8
+    warm = solve(tmp_path / "short", TUBE, f"{HEATED}time 5 steps 8\n", "-tol", 1e-9, "-set", "edges", 3)
+    rows = table(tmp_path / "short/out/series.csv")
+    force = rows["seat journal normal force"]
+    assert warm["heat"]["in"] == pytest.approx(warm["heat"]["out"] + warm["heat"]["stored"], rel=1e-9)
+    assert force[0] == pytest.approx(200600, rel=1e-3) and force[-1] == pytest.approx(148672, rel=2e-3)
+    assert (force[1:7] > force[2:8]).all() and (
+        rows["ring least temperature"][1:] > rows["ring least temperature"][:-1]
+    ).all()
 
 
 def test_refusals():
