@@ -111,7 +111,7 @@ def test_control_characters_and_length_of_refusals():
     said = refused(f"{GOOD}\x1b[31m")
     assert "\x1b" not in said and "a control character" in said
     said = refused(GOOD + "x" * 9000)
-    assert len(said) < 3100 and " ... " in said and said.endswith("cycles, leg")
+    assert len(said) < 3100 and " ... " in said and said.endswith("cycles, time, leg")
 
 
 # ---------------------------------------------------------------- refusals
@@ -148,7 +148,7 @@ force bottom 0 1 free | bottom: a free force on what line 2 holds (clamp) does n
 force bottom 0 1 rigid | bottom: force after clamp in line 2
 line a.b 0 0 1 1 | a.b: a name for files; allowed: letters, digits, - and _
 line a 0 1 0 1 | line a: begins where it ends; allowed: line NAME x y x y
-temperature left 3 | line 4: a temperature, flux, film or source, and no body conducts
+temperature left 3 | line 4: a temperature, flux, film, source or time, and no body conducts
 conduct block 3 | conduct, and no temperature anywhere
 conduct block 3 / temperature left 1 / flux left 2 | line 6: left: a flux or film where line 5 gives the temperature
 conduct block 3 / film left 1 1 / expand block 1 1 | line 6: expand with conduct; allowed: conduct block k expand
@@ -614,7 +614,7 @@ def test_bodies_without_names():
 
 
 OF_BODIES = {"body", "weight", "expand", "plastic", "conduct", "spin"}
-WITH_OTHERS = "preload leg cut join cycles group units stresses temperature flux film source conduct spin".split()
+WITH_OTHERS = "preload leg cut join cycles time group units stresses temperature flux film source conduct spin".split()
 
 
 @pytest.mark.parametrize("space", [False, True])
@@ -639,7 +639,7 @@ def test_usages():
     plane, space = Where(), Where(space=True)
     assert usage("film", plane) == "film NAME h T"
     assert usage("body", plane) == "body NAME E number nu number [yield number] [density number]"
-    assert usage("conduct", space) == "conduct BODY k [expand alpha [from T]]"
+    assert usage("conduct", space) == "conduct BODY k [capacity C [start T]] [expand alpha [from T]]"
     assert usage("move", space).startswith("move NAME x y z, or *") and usage("clamp", plane) == "clamp NAME [x] [y]"
     assert usage("spring", space) == "spring NAME kx ky kz" and usage("spring", plane) == "spring NAME kx ky"
     assert usage("expand", plane) == "expand NAME alpha dT, two numbers"

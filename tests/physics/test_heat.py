@@ -368,7 +368,10 @@ CHANGES = {  # what the message says: what is changed in the case
         "temp",
         "#",
     ),
-    "line 8: a temperature, flux, film or source, and no body conducts": ("conduct lower 1\nconduct upper 2\n", ""),
+    "line 8: a temperature, flux, film, source or time, and no body conducts": (
+        "conduct lower 1\nconduct upper 2\n",
+        "",
+    ),
     "no temperature anywhere": ("temperature bottom 0\n", "", "temperature top 1\n", ""),
     "expand with conduct": ("clamp", "expand lower 1e-5 3\nclamp"),
     "line 5: wear with conduct": ("hardness 5", "hardness 5 wear 1e-8 slide 20", "clamp", "cycles 10\nclamp"),

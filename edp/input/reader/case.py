@@ -309,14 +309,16 @@ def body_loads(case: Case) -> Iterable[Refusal]:
 
 def heat(case: Case) -> Iterable[Refusal]:
     conducts, each = case.on(g.Conduct), "with a line conduct BODY k for each body"
-    given: list[Statement] = [s for s in case.statements if isinstance(s, (g.Temperature, g.Flux, g.Film, g.Source))]
+    given: list[Statement] = [
+        s for s in case.statements if isinstance(s, (g.Temperature, g.Flux, g.Film, g.Source, g.Time))
+    ]
     with_conductance = [s for s in case.of(g.Contact) if s.conductance]
-    for s in with_conductance:
-        if s.conductance and s.conductance.fault():
-            yield Refusal(f"conductance: {s.conductance.fault()}; allowed: one of them", s.line)
+    for pair in with_conductance:
+        if pair.conductance and pair.conductance.fault():
+            yield Refusal(f"conductance: {pair.conductance.fault()}; allowed: one of them", pair.line)
     if not conducts:
         for s in given:
-            yield Refusal(f"a temperature, flux, film or source, and no body conducts; allowed: {each}", s.line)
+            yield Refusal(f"a temperature, flux, film, source or time, and no body conducts; allowed: {each}", s.line)
         for s in with_conductance[-1:]:
             yield Refusal(f"a conductance, and no body conducts; allowed: {each}", s.line)
         return
@@ -337,7 +339,10 @@ def heat(case: Case) -> Iterable[Refusal]:
         line = max(on[group].line for on in (case.on(g.Flux), case.on(g.Film)) if group in on)
         nothing = f"{group}: a flux or film where line {temperatures[group].line} gives the temperature does nothing"
         yield Refusal(f"{nothing}; allowed: one of them", line)
-    if not case.has(g.Temperature, g.Film):
+    for s in case.of(g.Time):
+        for group in [group for group, body in conducts.items() if not body.capacity]:
+            yield Refusal(f"time: {group} has no heat capacity; allowed: conduct {group} k capacity C", s.line)
+    if not case.has(g.Temperature, g.Film, g.Time):
         yield Refusal("conduct, and no temperature anywhere; allowed: at least one line temperature or film")
 
 

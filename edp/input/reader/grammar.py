@@ -735,12 +735,18 @@ class Expansion(Part):
     stress_free: float = option("from", number("the temperature without stress", "T", unit="temperature"), default=0.0)
 
 
+class Capacity(Part):
+    value: float = number("the heat capacity", "C", above=0, unit="power time/(volume temperature)")
+    start: float | None = option("start", number("the temperature at the start", "T", unit="temperature"))
+
+
 class Conduct(Statement, word="conduct"):
     does = "conductivity of a body"
     synonyms = "heat conductivity"
     example = "conduct ring 0.05 expand 12e-6 from 20"
     on: Group = body()
     conductivity: float = number("the conductivity", "k", above=0, unit="power/(length temperature)")
+    capacity: Capacity | None = option("capacity", Capacity)
     expand: Expansion | None = option("expand", Expansion)
 
 
@@ -806,6 +812,15 @@ class Cycles(Statement, word="cycles", example="cycles 1e5 steps 40"):
     steps: float = option(
         "steps", number("the number of wear steps", "NUMBER", above=0, below=10001, whole=True), default=20.0
     )
+
+
+class Time(Statement, word="time", example="time 600 steps 40"):
+    does = "heat from a start to an end, in so many steps"
+    synonyms = "transient duration"
+    once = "time"
+    end: float = number("the end", "END", above=0, unit="time")
+    steps: float = keyword("steps", number("the number of time steps", "N", above=0, below=100001, whole=True))
+    scheme: str = option("scheme", choice("the scheme", "bdf2 or euler", "bdf2", "euler"), default="bdf2")
 
 
 class Leg(Statement, word="leg", example="leg 8"):

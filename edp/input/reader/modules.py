@@ -21,6 +21,7 @@ class Needs:
     friction: bool  # friction, load phases, ties, plastic bodies: the state depends on the way to it
     strains: bool  # expand, preload, conduct
     heat: bool
+    time: bool  # of heat
     rotations: bool
     stresses: bool
     laws: bool  # other than hard contact and the power law
@@ -62,6 +63,7 @@ def needs(case: Case) -> Needs:
         friction=friction,
         strains=case.has(g.Expand, g.Preload, g.Conduct),
         heat=bool(conducts),
+        time=case.has(g.Time),
         rotations=case.has(g.Rotate),
         stresses=plastic
         or case.has(g.Stresses, g.LineOut)
@@ -116,6 +118,7 @@ def modules(need: Needs, run: Run) -> Modules:
         "moments": need.moments,
         "wear": need.wear,
         "heat": need.heat,
+        "heatInTime": need.time,
         "plastic": need.plastic,
         "friction": need.friction,
         "initialStrain": need.strains,

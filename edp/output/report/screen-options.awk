@@ -11,7 +11,7 @@ function printDeflections(   k, p, e) {  # greatest displacement of each body al
   ownerText = ""
 }
 function printHeat(   k, p, greatest) {  # temperatures and heat flows
-  print "  heat, errors not known"
+  print "  heat" (known(".time") ? " at the time " v[".time"] : "") ", errors not known"
   for (k = 0; k < count[".heat.bodies"]; k++) {
     p = ".heat.bodies." k
     printTrimmed(sprintf("    %-24s %14s", v[p ".name"] " is at", roundDigits(v[p ".least"], 6) " to " roundDigits(v[p ".greatest"], 6)))
@@ -23,7 +23,9 @@ function printHeat(   k, p, greatest) {  # temperatures and heat flows
   }
   for (k = 0; k < count[".heat.groups"]; k++)
     printResult("  " v[".heat.groups." k ".name"] " gives", zeroIfRounding(v[".heat.groups." k ".heat"], greatest), 0, "", "")
-  if (greatest > 0) print "    heat in = heat out (to " roundDigits(absolute(v[".heat.in"] - v[".heat.out"]) / greatest, 1) ")"
+  if (known(".heat.stored")) printResult("  the bodies store", zeroIfRounding(v[".heat.stored"], greatest), 0, "", "")
+  if (greatest > 0) print "    heat in = heat out" (known(".heat.stored") ? " + heat stored" : "") " (to " \
+    roundDigits(absolute(v[".heat.in"] - v[".heat.out"] - v[".heat.stored"]) / greatest, 1) ")"
 }
 function zeroIfRounding(x, greatest) { return absolute(x) < 1e-9 * greatest ? 0 : x + 0 }  # x, or 0 if it is below rounding of the greatest number
 function printPlastic(   k, p, c, s, unit) {  # plastic strains and energies of bodies that yield; the error of the mesh is not known
