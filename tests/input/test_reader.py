@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from freefem import data
 from reader import Group, Refusal, Where, read_case
@@ -644,6 +645,23 @@ def test_usages():
     assert usage("spring", space) == "spring NAME kx ky kz" and usage("spring", plane) == "spring NAME kx ky"
     assert usage("expand", plane) == "expand NAME alpha dT, two numbers"
     assert "sphere x y z R r, cylinder x y z dx dy dz R r, box x y z x y z," in usage("obstacle", space)
+
+
+def test_torque_of_a_bolt():
+    """The work of a torque in a turn is that of the preload along the pitch, and of friction in thread and head."""
+    words = "torque 46000 pitch 1.5 thread 9.026 0.12 head 12.8 0.1"
+    case = f"body block E 100 nu 0.3\nclamp bottom\ncontact left right\npreload top {words}\n"
+    force = only(read(case), g.Preload).force
+    flank = force / np.cos(np.radians(30))
+    work = force * 1.5 + 0.12 * flank * np.pi * 9.026 + 0.1 * force * np.pi * 12.8
+    assert work == pytest.approx(2 * np.pi * 46000)
+    for wrong, why in (
+        ("torque 46000 pitch 1.5 thread 9 0.12", "head is missing after 0.12"),
+        ("torque 46000", "pitch is missing after 46000"),
+        ("torque 4 pitch 0 thread 9 0.1 head 1 0.1", "the pitch is out of range; allowed: above 0"),
+    ):
+        with pytest.raises(Refusal, match=why):
+            read(case.replace(words, wrong))
 
 
 # ---------------------------------------------------------------- modules

@@ -7,10 +7,11 @@ A new statement is a class here: its parser, its refusals, its usage and its row
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import sqrt
+from math import pi, sqrt
 
 from .fields import (
     STATEMENTS,
+    Number,
     OneOf,
     Part,
     Reading,
@@ -28,8 +29,10 @@ from .fields import (
     one_of,
     option,
     perhaps,
+    read_fields,
     shown,
     usage_of,
+    usage_of_fields,
     vector,
     word,
 )
@@ -708,12 +711,47 @@ class Cut(Statement, word="cut"):
         return f"cut {self.on}: {flat}; allowed with state axisymmetric: a normal 0 1"
 
 
+class Rubbing(Part):
+    """Where a bolt rubs when it is tightened."""
+
+    diameter: float = number("the diameter", "D", above=0, unit="length")
+    friction: float = number("the coefficient of friction", "MU", at_least=0, below=10)
+
+
+class Torque(Part):
+    """A tightening torque, the pitch of the thread, its pitch diameter, and the mean diameter of the bearing face."""
+
+    torque: float = number("the torque", "T", above=0, unit="force length")
+    pitch: float = keyword("pitch", number("the pitch", "P", above=0, unit="length"))
+    thread: Rubbing = keyword("thread", Rubbing)
+    head: Rubbing = keyword("head", Rubbing)
+
+    def force(self) -> float:
+        """The preload: the torque over its lever in a thread with flanks at 30 degrees (VDI 2230)."""
+        lever = self.pitch / (2 * pi) + self.thread.friction * self.thread.diameter / sqrt(3)
+        return self.torque / (lever + self.head.friction * self.head.diameter / 2)
+
+
+@dataclass(frozen=True)
+class Tension:
+    """The preload of a bolt, or the torque that gives it."""
+
+    def read(self, reading: Reading) -> float:
+        if not reading.line.starts("torque"):
+            return Number("the preload", "force", above=0, unit="force").read(reading)
+        reading.line.next()
+        return Torque(**read_fields(Torque, reading)).force()
+
+    def usage(self, where: Where) -> str:
+        return f"force, or torque {usage_of_fields(Torque, where)}"
+
+
 class Preload(Statement, word="preload", example="preload cut 8000"):
     does = "a shank pulled together"
-    synonyms = "bolt pretension tension"
+    synonyms = "bolt pretension tension torque"
     once = "preload {s.on}"
     on: Group = boundary()
-    force: float = number("the preload", "force", above=0, unit="force")
+    force: float = custom(Tension())
 
 
 class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
