@@ -34,7 +34,7 @@ int blas_thread_shutdown_(void) __attribute__((weak));
 
 static bool alike() { return std::abs(VersionNumber() - atof(FREEFEM_VERSION)) < 1e-6; }
 
-// R[((d k + l) n + i) n + j]: on the reference element the integral of d_k of function i times d_l of function j
+// R[(n i + j) d d + d k + l]: on the reference element the integral of d_k of function i times d_l of function j
 static Reals products(Whole &power, Real &shapes, int n, int d)
 {
     std::vector<long double> R(d * d * n * n, 0.);           // sums of large numbers
@@ -45,17 +45,17 @@ static Reals products(Whole &power, Real &shapes, int n, int d)
         FOR(c, d) p[c] = power(a, c) + power(b, c) - (c == k) - (c == l);
         FOR(c, d) { w *= tgamma(p[c] + 1.); sum += p[c]; }
         w /= 36 * tgamma(sum + 1.);
-        FOR(i, n) FOR(j, n) R[((d * k + l) * n + i) * n + j] += w * shapes(i, a) * shapes(j, b);
+        FOR(i, n) FOR(j, n) R[(n * i + j) * d * d + d * k + l] += w * shapes(i, a) * shapes(j, b);
     }
     return Reals(R.begin(), R.end());
 }
 
-long assembledInOrder(Matrix *const &pK, Whole *const &pNode, Whole *const &pDof, Real *const &pAt, Real *const &pModuli,
-                      Whole *const &pPower, Real *const &pShapes)
+// d: components, known to the compiler, which unrolls the loops over them
+template <int d>
+static long assembled(Matrix *pK, Whole *pNode, Whole *pDof, Real *pAt, Real *pModuli, Whole *pPower, Real *pShapes)
 {
-    if (!alike()) return 0;
     Real &at = *pAt, &moduli = *pModuli;
-    const int n = pNode->N(), elements = pNode->M(), nodes = pDof->N(), d = pDof->M(), rows = nodes * d;
+    const int n = pNode->N(), elements = pNode->M(), nodes = pDof->N(), rows = nodes * d;
     const Reals R = products(*pPower, *pShapes, n, d);
     Ints node(n * elements), dof(rows), first(nodes + 1, 0), around(n * elements), mark(nodes, -1), start(rows + 1, 0), I, J;
     FOR(e, elements) FOR(a, n) node[n * e + a] = (*pNode)(a, e);
@@ -95,9 +95,9 @@ long assembledInOrder(Matrix *const &pK, Whole *const &pNode, Whole *const &pDof
                 for (int k = first[i]; k < first[i + 1]; ++k) FOR(b, n) {
                     const int e = around[k] / n, a = around[k] % n, j = mark[node[n * e + b]];
                     if (j < 0) continue;
-                    const double *T = &to[e * d * d], lambda = moduli(e, 0) * volume[e], mu = moduli(e, 1) * volume[e];
+                    const double *T = &to[e * d * d], *Q = &R[(n * a + b) * d * d], lambda = moduli(e, 0) * volume[e], mu = moduli(e, 1) * volume[e];
                     double G[3][3] = {{0}}, H[3][3] = {{0}}, trace = 0, *S = &sum[d * d * j];
-                    FOR(u, d) FOR(v, d) FOR(q, d) H[u][q] += R[((d * u + v) * n + a) * n + b] * T[v * d + q];
+                    FOR(u, d) FOR(v, d) FOR(q, d) H[u][q] += Q[d * u + v] * T[v * d + q];
                     FOR(p, d) FOR(q, d) FOR(u, d) G[p][q] += T[u * d + p] * H[u][q];
                     FOR(p, d) trace += mu * G[p][p];
                     FOR(p, d) FOR(q, d) S[d * p + q] += lambda * G[p][q] + mu * G[q][p] + (p == q) * trace;
@@ -119,6 +119,12 @@ long assembledInOrder(Matrix *const &pK, Whole *const &pNode, Whole *const &pDof
     K->state = Hashed::sorted_ij;
     pK->A.master(K);
     return 1;
+}
+
+long assembledInOrder(Matrix *const &pK, Whole *const &pNode, Whole *const &pDof, Real *const &pAt, Real *const &pModuli,
+                      Whole *const &pPower, Real *const &pShapes)
+{
+    return !alike() ? 0 : (pDof->M() == 2 ? assembled<2> : assembled<3>)(pK, pNode, pDof, pAt, pModuli, pPower, pShapes);
 }
 
 long sortedRows(Matrix *const &pK)
