@@ -51,6 +51,8 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
         return draw_page(at, face, body, views, names)
     sides = [View(at, face, body, view, style.COLUMN * style.DPI) for view in views]
     inner = sorted(set(face.tolist()) - set(sides[0].places) - set(sides[1].places))
+    if any(map(crowded, (at @ view.T for view in views), (side.places for side in sides))):
+        return draw_page(at, face, body, views, names)
     figure = Figure(layout="constrained")
     figure.set_size_inches(style.COLUMN, (2.25 if inner else 1.5) * style.COLUMN)
     axes = figure.subplots(3 if inner else 2, 1)
@@ -64,6 +66,15 @@ def draw(path: Path, azimuth: float, elevation: float) -> Figure:
         axes[2].set_title("Faces inside, without what hides them", loc="left", fontsize=7)
     figure.supxlabel("\n".join(volumes(face, body, names)), x=0.02, ha="left", fontsize=7)
     return figure
+
+
+def crowded(seen: np.ndarray, places: dict[int, np.ndarray]) -> bool:
+    """Would numbers at these places lie on each other, in a panel of a column's width?"""
+    wide, high = np.ptp(seen[:, :, :2].reshape(-1, 2), axis=0)
+    scale = 72 * style.COLUMN * min(0.95 / wide, 0.65 / high)  # points a unit
+    found = scale * np.array(list(places.values())).reshape(-1, 2)
+    apart = np.abs(found[:, None] - found[None])
+    return bool(np.any(np.triu((apart[:, :, 0] < 11) & (apart[:, :, 1] < 9), 1)))
 
 
 def read_names(path: Path) -> dict[int, str]:
@@ -93,8 +104,8 @@ def draw_curves(axes: Axes, at: np.ndarray, curve: np.ndarray) -> None:
         write_number(axes, own[len(own) // 2].mean(axis=0), "cut" if number < 0 else number)
     axes.autoscale_view()
     axes.set_aspect("equal")
-    axes.set_xlabel("$x$")
-    axes.set_ylabel("$y$")
+    axes.set_xlabel(f"$x$ [{style.Units.length}]")
+    axes.set_ylabel(f"$y$ [{style.Units.length}]")
     axes.set_title("Curves", loc="left", fontsize=7)
 
 

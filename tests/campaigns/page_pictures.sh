@@ -24,7 +24,7 @@ for page in edp/examples/*/README.md; do
     folder=${page%/README.md}
     picture=$(sed -n 's/^!\[.*](\(.*\.png\))/\1/p' "$page")
     commands "$page" | sh -e
-    small "$RESULTS"/parts*/"${folder##*/}/$picture" "$page" --width 460 --out "$folder/$picture"
+    small "$RESULTS"/parts*/"${folder##*/}/$picture" "$page" --width 410 --out "$folder/$picture"
 done
 
 for page in edp/docs/tutorial/*.md; do commands "$page" | sh; done
