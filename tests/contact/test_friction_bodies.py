@@ -38,7 +38,7 @@ def test_press_fit_without_other_loads(tmp_path):
     soft = seat * 0.91 * (1 - (inner / seat) ** 2) / ring / 200e3
     soft += seat * ((outer**2 + seat**2) / (outer**2 - seat**2) + 0.3) / 100e3
     assert fit.summary["contacts"][0]["normalForce"] == pytest.approx(2 * pi * seat * 0.01 / soft, rel=1e-4)
-    assert fit.summary["newton"] <= 6
+    assert fit.summary["newton"] <= 4 and fit.summary["kernelNewton"] == 0
 
 
 def test_light_load_on_a_tight_fit(tmp_path):
@@ -227,6 +227,21 @@ def test_belt_over_half_a_turn(tmp_path, friction, thick):
     assert belt.summary["outOfBalance"] < 1e-8
 
 
+def test_belt_that_is_let_back(tmp_path):
+    """Slips of both signs meet on it at a place that few linearisations find. Let back, it slips the other way.
+
+    The ratio of the tensions is that of test_belt_over_half_a_turn and of -MU, but for its bending at the ends.
+    """
+    text = BELTED.replace("MU", "0.2").replace("traction", "leg 1\ntraction").replace("-0.3", "-0.02")
+    text += "leg 2\nmove tight 0 -0.7\nleg 1\nmove tight 0 -0.3\n"
+    belt = case(tmp_path, BELT.replace("0.2 * k", "0.1 * k"), text)
+    rows = series(belt)
+    assert np.diff(rows["newton"], prepend=0).max() <= 11 and belt.summary["outOfBalance"] < 1e-8
+    for step, friction in ((2, 0.2), (3, -0.2)):
+        rate = (sqrt(10.05**2 + 20 * friction**2 * 0.1) - 10.05) / (friction * 0.1)
+        assert rows["move tight reaction"][step] == pytest.approx(0.1 * exp(rate * pi), rel=1e-2)
+
+
 PULLEY = data("friction-bodies/pulley.geo")
 AROUND = """units mm MPa
 state stress
@@ -297,7 +312,7 @@ traction head 0 -0.5
 def test_wedge_let_go(tmp_path):
     """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
     let_go = case(tmp_path, WEDGE, WEDGED)
-    assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
+    assert np.diff(series(let_go)["newton"], prepend=0).max() <= 10
 
 
 @pytest.mark.parametrize("kinds", cases_of([("block",)], [("fit", "wedge", "belt")]))
