@@ -240,10 +240,11 @@ def contact_chains(bodies: Bodies) -> list[Chain]:
                 along *= -1 if (across if abs(across) > 0.99 * abs(up) else up) < 0 else 1
         place, normal = bodies.points[rows, :2], bodies.normals[rows, :2]
         fields = bodies.table["pressure"][rows], bodies.table["overlap"][rows]
-        rubs = (table["shear"][rows], table["slide"][rows]) if "shear" in table else ()
+        shear, slide = (table[name][rows] if "shear" in table else NONE for name in ("shear", "slide"))
         stated = bodies.rigid[contact], origin
         rest = bodies.surface.points[rows, :2]
-        found.append(Chain(contact, bodies.names[contact], place, normal, *fields, along, *stated, *rubs, rest=rest))
+        shown = place, normal, *fields, along, *stated, shear, slide, rest
+        found.append(Chain(contact, bodies.names[contact], *shown))
     return found
 
 
@@ -442,7 +443,7 @@ def draw_mesh(axes: Axes, bodies: Bodies, box: np.ndarray, coloured: bool) -> No
     place = bodies.place[:, :2]
     near = ((place > box[0]) & (place < box[1])).all(axis=1)
     cells = bodies.grid.cells[near[bodies.grid.cells].any(axis=1)]
-    sides = place[Triangulation(*place.T, cells).edges]
+    sides = place[Triangulation(place[:, 0], place[:, 1], cells).edges]
     # points on paper, in a panel of a column's width
     size = np.hypot(*(sides[:, 1] - sides[:, 0]).T) * 0.8 * 72 * style.COLUMN / np.ptp(box[:, 0])
     look: style.Look = {"color": "white" if coloured else style.BLACK, "alpha": 0.45 if coloured else 0.35}

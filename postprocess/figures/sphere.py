@@ -81,16 +81,15 @@ def draw_map(axes: Axes, run: Run, middle: tuple[float, float], a: float, units:
         [np.column_stack([across * x, along * y, pressure]) for across in signs[0] for along in signs[1]]
     )
     _, once = np.unique(np.round(images[:, :2] / a, 9) + 0.0, axis=0, return_index=True)
-    *place, pressure = images[once].T
+    across, along, pressure = images[once].T
     touches = pressure > 0
     apart = np.sqrt(np.pi * a**2 / np.count_nonzero(touches)) / (2.6 * a)  # over the width of the panel
     size = (0.75 * apart * 72 * 0.3 * style.PAGE) ** 2
-    open_ = [at[~touches] for at in place]
-    axes.scatter(*open_, s=2, color="0.8", linewidth=0)
+    axes.scatter(across[~touches], along[~touches], s=2, color="0.8", linewidth=0)
     dots: style.Look = {"cmap": "viridis", "vmin": 0, "s": size, "linewidth": 0, "rasterized": True}
-    colours = axes.scatter(*(at[touches] for at in place), c=pressure[touches], **dots)
-    for limits, centre in zip((axes.set_xlim, axes.set_ylim), middle, strict=True):
-        limits(centre - 1.3 * a, centre + 1.3 * a)
+    colours = axes.scatter(across[touches], along[touches], c=pressure[touches], **dots)
+    axes.set_xlim(middle[0] - 1.3 * a, middle[0] + 1.3 * a)
+    axes.set_ylim(middle[1] - 1.3 * a, middle[1] + 1.3 * a)
     turn = np.linspace(0, 2 * np.pi, 200)
     circle: style.Look = {"color": style.VERMILION, "linewidth": 0.9, "linestyle": (0, (4, 1.5))}
     axes.plot(middle[0] + a * np.cos(turn), middle[1] + a * np.sin(turn), label="Hertz's circle, radius $a$", **circle)
