@@ -141,7 +141,7 @@ def test_the_page_has_no_other(heading):
 CONDITIONED = {
     "solver/newton/extended-newton.idp: -method xnewton",
     "solver/methods/ipopt.idp: -method xnewton",
-    "solver/steps/finite-sliding.idp: -distance linear",
+    "solver/steps/update-loop.idp: -distance linear",
 }
 CONDITIONED |= {"solver/rigid-modes/drifting-bodies.idp: -distance linear"}
 
