@@ -75,11 +75,12 @@ def test_off_the_table(tmp_path):
 
 def test_onto_the_table(tmp_path):
     """From where nothing is opposite: two moves of one body carry it to what a problem has that is drawn there."""
-    case = BLOCK.format("under face", "move top * 0\nmove right -9 *")
-    on = over_edge(tmp_path / "on", case, 21, "-history", 1, "-steps", 3)
+    case = BLOCK.format("under face", "move top * 0\nmove right -12 *")
+    on = over_edge(tmp_path / "on", case, 24, *SERIES)
     drawn = over_edge(tmp_path / "drawn", BLOCK.format("under face", "move top * 0\nmove right 0 *"), 12)
     there = drawn.summary["contacts"][0]["normalForce"]
     assert rows(on)[-1]["under face normal force"] == pytest.approx(there, rel=1e-3)
+    assert on.contact["x"].max() == pytest.approx(22)  # the block has been carried along
     assert on.summary["outOfBalance"] < 1e-6
 
 
