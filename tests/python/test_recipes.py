@@ -146,7 +146,7 @@ def test_time_left(monkeypatch, capsys):
 def test_a_layout_is_found_once(tmp_path, monkeypatch):
     """A figure's PDF and PNG shall have one layout, with the room that its labels need."""
     figure = Figure(layout="constrained")
-    figure.subplots().set(xlabel="x (-)", ylabel="a label that needs room (-)")
+    figure.subplots().set(xlabel="x [–]", ylabel="a label that needs room [–]")
     found, engine = [], figure.get_layout_engine()
     execute = engine.execute
     monkeypatch.setattr(engine, "execute", lambda figure: found.append(1) or execute(figure))
