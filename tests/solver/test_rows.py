@@ -111,6 +111,16 @@ def test_threshold_of_another_layer(tmp_path):
     compare(tmp_path, rows[1:], *flags)
 
 
+def test_friction(tmp_path):
+    """Paths with friction: each row has its own interface, and a path that fails leaves nothing to the next one."""
+    flags, script = ["-h", 0.2, "-order", 1, "-estimate", 0, "-legs", "1 0, 1 1, 1 -0.5"], "edp/scenes/fretting.edp"
+    table = "friction,compliance,shearLimit,law\n0.5,,,\n0.1,,,\n0.3,1e-4,,\n0,,,\n0.4,,2,\n"
+    rows = solve(tmp_path, table, *flags, "-rows-start", "cold", script=script, expect=20)[0]
+    assert [row["code"] for row in rows] == [0, 20, 0, 10, 0]
+    assert "gross sliding" in rows[1]["message"] and rows[3]["message"].startswith("-friction 0: not in a table")
+    compare(tmp_path, [rows[2], rows[4]], *flags, script=script)
+
+
 def test_warm_rows(tmp_path):
     """A warm row ends where a cold one does, in fewer products; a force scales that of the nearest row."""
     flags = [*COARSE, "-estimate", 0, "-tol", 1e-12]

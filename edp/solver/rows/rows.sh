@@ -9,7 +9,10 @@ export CONTACT_ROWS="${TMPDIR:-/tmp}/rows-$$-$(date +%s)"
 trap 'rm -f "$CONTACT_ROWS"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
-: > "$CONTACT_ROWS"
+(: > "$CONTACT_ROWS") 2> /dev/null || {
+    echo "${TMPDIR:-/tmp}: no file can be written there, for the rows of -rows or -vary; allowed: a folder with room in TMPDIR"
+    exit 30
+}
 request=$CONTACT_REQUEST
 begun=0
 while :; do
