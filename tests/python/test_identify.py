@@ -119,7 +119,7 @@ def test_wrong_law_is_found_out(law):
 
 
 def test_criteria():
-    """AICc and BIC of six values and two parameters shall be those of the formulas; an unknown scatter is a parameter."""
+    """AICc and BIC of six values shall be those of the formulas; an unknown scatter is a parameter."""
     for known, terms in ((True, (8.0, 2 * math.log(6))), (False, (18.0, 3 * math.log(6)))):
         found = identified("power", draw(np.random.default_rng(7), 0.01, TRUTHS["power"], known=known)).fit
         misfit = found.sum_of_squares if known else 6 * math.log(found.sum_of_squares / 6)
