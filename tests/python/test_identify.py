@@ -169,6 +169,10 @@ def test_stiffness():
     measured = Measurements("u0", LOADS, ["stiffness"] * len(at), at, exact, [0.01 * k for k in exact])
     found = law_fits.fit_law("power", problem, measured, law_fits.read_parameters("kappa, m", problem), 1).fit
     assert found.values == pytest.approx({"kappa": 800.0, "m": 2.2}, rel=1e-4)
+    model = law_fits.ContactModel(problem, measured, {"law": "power"})
+    _, jacobian = model.predict({"kappa": 800.0, "m": 2.2})
+    ends = [model.predict({"kappa": 800.0 + side, "m": 2.2})[0] for side in (-1, 1)]
+    assert jacobian[:, 0] == pytest.approx((ends[1] - ends[0]) / 2, rel=1e-5)
 
 
 REFUSED = {
