@@ -118,6 +118,14 @@ def test_wrong_law_is_found_out(law):
         assert identify.ranking([right, wrong])[-1].startswith(f"preferred: {law}, AICc lower by")
 
 
+def test_criteria():
+    """AICc and BIC of six values shall be those of the formulas; an unknown scatter is a parameter."""
+    for known, terms in ((True, (8.0, 2 * math.log(6))), (False, (18.0, 3 * math.log(6)))):
+        found = identified("power", draw(np.random.default_rng(7), 0.01, TRUTHS["power"], known=known)).fit
+        misfit = found.sum_of_squares if known else 6 * math.log(found.sum_of_squares / 6)
+        assert found.criteria() == pytest.approx((misfit + terms[0], misfit + terms[1]), rel=1e-12)
+
+
 def test_exact_data():
     """Values without noise shall give the parameters to the accuracy of the model, from far away."""
     measured = draw(np.random.default_rng(1), 0.0, TRUTHS["power"], known=False)
@@ -161,6 +169,10 @@ def test_stiffness():
     measured = Measurements("u0", LOADS, ["stiffness"] * len(at), at, exact, [0.01 * k for k in exact])
     found = law_fits.fit_law("power", problem, measured, law_fits.read_parameters("kappa, m", problem), 1).fit
     assert found.values == pytest.approx({"kappa": 800.0, "m": 2.2}, rel=1e-4)
+    model = law_fits.ContactModel(problem, measured, {"law": "power"})
+    _, jacobian = model.predict({"kappa": 800.0, "m": 2.2})
+    ends = [model.predict({"kappa": 800.0 + side, "m": 2.2})[0] for side in (-1, 1)]
+    assert jacobian[:, 0] == pytest.approx((ends[1] - ends[0]) / 2, rel=1e-5)
 
 
 REFUSED = {
