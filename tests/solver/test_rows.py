@@ -137,6 +137,13 @@ def test_warm_rows(tmp_path):
         assert {row["warmStart"] for row in cold} == {"0"}
 
 
+def test_half_model(tmp_path):
+    """The mirrored results of a half model are no start of the next row."""
+    flags = ["-half", 1, "-h", 2, "-estimate", 0]
+    rows = solve(tmp_path, "kappa 1e3 1e9", *flags, "-rows-start", "cold")[0]
+    compare(tmp_path, rows, *flags)
+
+
 def test_late_refusal(tmp_path):
     """A row that is refused while it is solved ends its process: the next one goes on, and nothing stays behind."""
     (tmp_path / "good.csv").write_text("overlap,pressure\n0,0\n0.1,1\n0.2,4\n")
