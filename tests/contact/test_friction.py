@@ -619,7 +619,8 @@ def goes_on(folder, command, rows_before, steps):
         one, two = table(folder / "whole" / name), table(folder / "cut" / name)
         for column in one.dtype.names:
             if column not in ("backsolves", "threshold", "tau"):
-                assert abs(one[column] - two[column]).max() <= 1e-12 * abs(one[column]).max(), column
+                rounding = 1e-17 if column in ("overlap", "s") else 0  # those of hard contact are 0 but for rounding
+                assert abs(one[column] - two[column]).max() <= 1e-12 * abs(one[column]).max() + rounding, column
 
 
 @pytest.mark.parametrize("rows_before", [6, 7])
