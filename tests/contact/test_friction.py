@@ -10,6 +10,7 @@ from freefem import (
     ROOT,
     cases_of,
     data,
+    environment,
     execute,
     flag_text,
     interrupt,
@@ -731,7 +732,7 @@ def test_no_loop_without_friction(capsys):
 def test_the_campaign_begun(tmp_path, kind):
     """The first paths of the campaign with friction: every step is solved, or has no equilibrium and says so."""
     command = [sys.executable, "tests/campaigns/friction.py", kind, "--paths", "2", "--out", tmp_path / "steps.csv"]
-    code, stdout = execute(command)
+    code, stdout = execute(command, env=environment(PYTHONPATH=ROOT))
     assert code == 0 and " 0 failed" in stdout, stdout
 
 

@@ -7,7 +7,7 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 import pytest
 import shapes
-from freefem import ROOT, cases_of, data, execute, part, run_in, snippet, table, told
+from freefem import ROOT, cases_of, data, environment, execute, part, run_in, snippet, table, told
 from output.test_paraview import Grid
 
 from contact.test_friction import LYING, case, series
@@ -258,7 +258,7 @@ move tight -0.05 0
 
 @pytest.mark.parametrize(
     "size, friction, first, most",
-    cases_of([(3, 0.3, 13, 4)], [(0.8, 0.3, 13, 4), (1.5, 0.8, 13, 21), (3, 1.2, 15, 25)]),
+    cases_of([(3, 0.3, 13, 4)], [(0.8, 0.3, 13, 4), (1.5, 0.8, 13, 21), (3, 1.2, 15, 31)]),
 )
 def test_belt_bends_in_few_solves(tmp_path, size, friction, first, most):
     """A belt's bending compliance is 1e8 times that of its surface: a few factorisations solve each step, no columns.
@@ -312,14 +312,14 @@ traction head 0 -0.5
 def test_wedge_let_go(tmp_path):
     """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
     let_go = case(tmp_path, WEDGE, WEDGED)
-    assert np.diff(series(let_go)["newton"], prepend=0).max() <= 10
+    assert np.diff(series(let_go)["newton"], prepend=0).max() <= 20
 
 
 @pytest.mark.parametrize("kinds", cases_of([("block",)], [("fit", "wedge", "belt")]))
 def test_sample_of_the_campaign(tmp_path, kinds):
     """One of each sort of own parts that statics allows is solved, within twelve linearisations a step."""
     command = [sys.executable, "tests/campaigns/friction.py", *kinds, "--paths", "1", "--out", tmp_path / "steps.csv"]
-    code, stdout = execute(command)
+    code, stdout = execute(command, env=environment(PYTHONPATH=ROOT))
     assert code == 0 and stdout.count(" 0 failed") == len(kinds), stdout
     assert max(map(int, re.findall(r"newton: .*most (\d+)", stdout))) <= 12
 
