@@ -8,6 +8,7 @@ import csv
 import os
 import re
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -62,6 +63,8 @@ class Problem:
                 words += ["-rows", str(path)]
             done = run_freefem(self.script, words)
             self.calls += 1
+            if sys.stderr.isatty():
+                print(f"\r  {self.calls} runs of FreeFEM", end="\r", file=sys.stderr, flush=True)
             out = Path(folder, "out")
             if not self.has_rows:
                 return [flatten(read_run(out).summary) if done.returncode == 0 else None] * len(rows)

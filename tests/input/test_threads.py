@@ -5,12 +5,11 @@ import shutil
 import subprocess
 
 import pytest
-from freefem import FAST, FREEFEM, ROOT, environment, execute, flag_text, script
+from freefem import FAST, FREEFEM, ROOT, environment, execute, flag_text, script, tree
 
 VARIABLES = ("OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS")
 CORES = len(os.sched_getaffinity(0))
 COUNT = 'exec("echo threads $(ls /proc/$PPID/task | wc -l)");\n'
-needs_plugin = pytest.mark.skipif(not FAST.exists(), reason="the plugin of make fast is not built")
 
 
 def unset(**given):
@@ -18,10 +17,22 @@ def unset(**given):
     return {name: value for name, value in environment().items() if name not in VARIABLES} | given
 
 
-def words(folder, text, *flags, **given):
+@pytest.fixture(scope="module")
+def plugins(tmp_path_factory):
+    """The folder of the plugin, which is built if it is not there."""
+    if FAST.exists():
+        return FAST.parent
+    package = tree(tmp_path_factory.mktemp("plugin") / "package")
+    (package / "postprocess").symlink_to(ROOT / "postprocess")
+    code, stdout = execute(["make", "-s", "-o", "system", "fast"], cwd=package, env=environment())
+    assert code == 0, stdout
+    return package / FAST.parent.name
+
+
+def words(folder, plugins, text, *flags, **given):
     """The numbers that a script says, by their names; it stands beside the package."""
     for name in ("edp", "meshes", "freefem++.pref", FAST.parent.name):
-        (folder / name).symlink_to(FAST.parent if name == FAST.parent.name else ROOT / name)
+        (folder / name).symlink_to(plugins if name == FAST.parent.name else ROOT / name)
     (folder / "script.edp").write_text(text)
     code, stdout = execute([*FREEFEM, "script.edp", *map(flag_text, flags)], folder, unset(**given))
     assert code == 0, stdout
@@ -32,28 +43,26 @@ def words(folder, text, *flags, **given):
     }
 
 
-@needs_plugin
 @pytest.mark.parametrize(
     "given", [{}, {"OPENBLAS_NUM_THREADS": "2"}, {"OMP_NUM_THREADS": "2"}], ids=["none", "openblas", "omp"]
 )
-def test_the_plugin_ends_what_waits(tmp_path, given):
+def test_the_plugin_ends_what_waits(tmp_path, plugins, given):
     """Without the user's word one thread is left, several come when asked for; with it none is touched."""
     text = f'include "fast-plugin-{FAST.stem[-1]}.idp"\n' + COUNT
     text += 'cout << "several " << setBlasThreads(1) << endl << "one " << setBlasThreads(0) << endl;\n'
-    said = words(tmp_path, text, **given)
+    said = words(tmp_path, plugins, text, **given)
     if given:
         assert said == {"threads": min(CORES, 2), "several": 0, "one": 0}
     else:
         assert said == {"threads": 1, "several": min(CORES, 4), "one": 1}
 
 
-@needs_plugin
 @pytest.mark.parametrize("scene", ["disc-on-block", "sphere-on-block"])
-def test_small_runs_stay_alone(tmp_path, scene):
+def test_small_runs_stay_alone(tmp_path, plugins, scene):
     """Neither the plane nor a small problem in space shall have more than one thread at the end."""
     text = (ROOT / script(scene)).read_text() + COUNT
     text = text.replace('include "output/report/report.idp"', "")
-    said = words(tmp_path, text, "-h", 2, "-order", 1, "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out")
+    said = words(tmp_path, plugins, text, "-h", 2, "-order", 1, "-estimate", 0, "-vtu", 0, "-out", tmp_path / "out")
     assert said["threads"] == 1
 
 
