@@ -226,8 +226,8 @@ traction top 0 150
 def test_ends_that_open(said, friction, off):
     """The flank turns, and points at the contact's ends open and close: foreseen; the resultant is held as a vector.
 
-    With friction the undeformed normals are the mean of both surfaces', those of the true distance the slave's alone; at
-    corners of the master these are the point's own without friction, too.
+    With friction the undeformed normals are the mean of both surfaces', those of the true distance the slave's alone;
+    at corners of the master these are the point's own without friction, too.
     """
     linear = said(DOVETAIL, BLADE.format(friction))
     true = said(DOVETAIL, BLADE.format(friction), "-distance", "exact")
