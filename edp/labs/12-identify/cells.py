@@ -10,4 +10,4 @@ for law, line in zip(found["laws"], ("-", "--"), strict=True):
     axes.plot(measured["approach"], law["modelled"], line, label=f"{law['law']}: S = {law['sumOfSquares']:.1f}")
 axes.set_xlabel("approach [length]")
 axes.set_ylabel("force [force]")
-axes.legend()
+axes.legend();
