@@ -150,8 +150,8 @@ def laws(figure: Figure) -> None:
     axes.set_xticks([0, 0.1, 0.2, -d0], ["0", "0.1", "0.2", "$-d_0$"])
     axes.set_ylim(0, 40)
     axes.axvline(-d0, color=style.GREY, linewidth=0.8, linestyle=DASHED)
-    axes.set_xlabel("overlap of the asperities $s = d - d_0$")
-    axes.set_ylabel("pressure $p$")
+    axes.set_xlabel("overlap of the asperities $s = d - d_0$ [length]")
+    axes.set_ylabel("pressure $p$ [pressure]")
     style.legend_outside(figure, "right upper")
 
 
@@ -172,7 +172,7 @@ def springs(figure: Figure) -> None:
     axes.set_xticks([0, approach], ["0", r"$\delta$"])
     axes.set_yticks([0, 5, 10, 15])
     axes.set_xlabel("overlap of the asperities $s$")
-    axes.set_ylabel("pressure $p$")
+    axes.set_ylabel("pressure $p$ [pressure]")
     style.legend_outside(figure, "right upper")
 
 
@@ -276,11 +276,11 @@ def overshoot(figure: Figure) -> None:
     axes.axhspan(1, 1e6, color=style.VERMILION, alpha=0.07, linewidth=0)
     axes.text(0.985, 0.9, r"far: each step takes off the share $1/m$", transform=axes.transAxes, ha="right")
     axes.text(0.03, 0.12, "near: the error is squared", transform=axes.transAxes)
-    axes.set_ylim(1e-8, 1e5)
-    axes.set_yticks([1e-8, 1e-4, 1, 1e4])
+    axes.set_ylim(1e-16, 1e6)
+    axes.set_yticks([1e-15, 1e-10, 1e-5, 1, 1e5])
     axes.set_xticks([])
     axes.set_xlabel("Newton step")
-    axes.set_ylabel("relative error of $s$")
+    axes.set_ylabel("relative error of $s$ [–]")
     style.legend_outside(figure, "right upper")
 
 
@@ -361,7 +361,7 @@ def four_five(figure: Figure) -> None:
         axes.plot([d0 - 0.05, d0], [0, 0], color=style.BLUE)
         axes.plot(d0 + s[reach], law(s)[reach], color=style.BLUE)
         axes.plot(d0 + s, body, color=style.GREEN)
-        axes.text(d0 - 0.03, 5.3, "the body's answer", color=style.GREEN)
+        axes.text(d0 - 0.03, 4.5, "the body's answer", color=style.GREEN)
         pale = style.VERMILION if axes is left else "#eaa987"
         axes.plot([0, 0], [law(-d0), 7], color=pale, linewidth=width)
         axes.plot(0, found, "o", color=pale)
@@ -465,6 +465,7 @@ def uniform(figure: Figure) -> None:
         axes.set_ylim(-0.31, 0.1)
         axes.set_xlabel("place $x$ on the contact line")
         axes.set_title(name)
+    left.set_ylabel("overlap")
     style.legend_outside(figure, "lower center", *left.get_legend_handles_labels(), ncols=3)
 
 
@@ -645,6 +646,7 @@ def mindlin(figure: Figure) -> None:
         axes.set_xticks([-1, c, 1], ["$-a$", "$c$", "$a$"])
         axes.set_yticks([0], ["0"])
         axes.set_ylim(0, 1.1)
+        axes.set_xlabel("place $x$")
     panels[0].set_ylabel("traction")
     style.legend_outside(figure, "lower center", *panels[0].get_legend_handles_labels(), ncols=2)
 
@@ -667,7 +669,7 @@ def loop(figure: Figure) -> None:
         "energy lost in a cycle", (-0.1, -0.2), (0.05, -0.7), color=style.VERMILION, arrowprops={"arrowstyle": "->"}
     )
     axes.set_xlabel("tangential displacement")
-    axes.set_ylabel(r"tangential force $Q/(\mu P)$")
+    axes.set_ylabel(r"tangential force $Q/(\mu P)$ [–]")
     axes.set_xticks([0], ["0"])
     axes.set_yticks([-1, 0, 1])
     style.legend_outside(figure, "right upper")

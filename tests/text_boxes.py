@@ -89,7 +89,10 @@ def labels_of(axis):
 
 
 def unlabelled(axes):
-    """Axes with numbers but no label with a unit, in words; the panel below, or at the left, may have it for both."""
+    """Axes without label, or with numbers and no unit, in words; the panel below, or at the left, may have it for both.
+
+    An axis with no number but 0 has no scale: it is a sketch's, and its label needs no unit.
+    """
     own, root = axes.get_position(), axes.get_figure(root=True)
     around = [each for each in root.findobj(Axes) if each.get_visible() and each.axison and each is not axes]
     boxes = [(each, each.get_position()) for each in around]
@@ -109,7 +112,7 @@ def unlabelled(axes):
         labels = [text for _, text in labels_of(axis)]
         words = [getattr(each, name + "axis").get_label_text() for each in (axes, *beside[name])]
         words += [root.get_supylabel()] if name == "y" else []
-        numbers = any(re.match(r"[$\N{MINUS SIGN}]*[\d.]", text) for text in labels)
+        numbers = any(text != "0" and re.match(r"[$\N{MINUS SIGN}]*[\d.]", text) for text in labels)
         where = f"the {name} axis of {axes.get_title(loc='left') or axes.get_title() or 'a panel'!r}"
         if len(set(labels)) < len(labels):
             yield f"{where} has a number twice: {labels}"

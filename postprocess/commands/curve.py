@@ -55,8 +55,9 @@ def number_with_unit(number: float, unit: str) -> str:
     return f"{number:.5g}" + (f" {unit}" if unit else "")
 
 
-def label_with_unit(words: str, unit: str) -> str:
-    return f"{words} [{unit}]" if unit else words
+def label_with_unit(words: str, unit: str, kind: str) -> str:
+    """An axis label; where nothing names the unit, its brackets hold the kind of the quantity."""
+    return f"{words} [{unit or kind}]"
 
 
 def draw_curves(chosen: Run, units: Units) -> Figure:
@@ -80,14 +81,18 @@ def draw_curves(chosen: Run, units: Units) -> Figure:
     for index, name in enumerate(energies):
         axes[2].plot(np.append(0, place), np.append(0, table[name]), label=ENERGIES[name], **style.curve(index))
     turns = pushed and all(each.turns for each in pushed)
-    axes[0].set_xlabel("rotation [rad]" if turns else label_with_unit("displacement along the load", units.length))
-    axes[0].set_ylabel(label_with_unit("moment" if turns else "reaction", units.moment if turns else units.force))
-    axes[1].set_ylabel(label_with_unit("force carried", units.force))
+    axes[0].set_xlabel(
+        "rotation [rad]" if turns else label_with_unit("displacement along the load", units.length, "length")
+    )
+    axes[0].set_ylabel(
+        label_with_unit(*("moment", units.moment, "moment") if turns else ("reaction", units.force, "force"))
+    )
+    axes[1].set_ylabel(label_with_unit("force carried", units.force, "force"))
     for each in axes[1:]:
-        each.set_xlabel("load step" if place is table["step"] else "share of the load")
+        each.set_xlabel("load step [–]" if place is table["step"] else "share of the load [–]")
         each.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=place is table["step"]))
     if energies:
-        axes[2].set_ylabel(label_with_unit("energy", units.energy))
+        axes[2].set_ylabel(label_with_unit("energy", units.energy, "energy"))
     for each in axes:
         each.update_datalim([(0, 0)])
         each.autoscale_view()

@@ -16,6 +16,7 @@ import json
 import os
 import signal
 import subprocess
+import textwrap
 import time
 from pathlib import Path
 from typing import BinaryIO
@@ -275,7 +276,8 @@ def draw_results(what: str, rows: list[dict], names: list[str]) -> Figure:
             )
             bars = np.where(np.isfinite(error), error, 0)
             axes.errorbar(at[order], column, bars, label=label, capsize=2, elinewidth=0.8, **style.curve(index))
-        axes.set_xlabel(f"{style.without_mathtext(what.replace('*', '...'))} [as in the case]")
+        words = f"{what.replace('*', '...')} [as in the case]"
+        axes.set_xlabel(style.without_mathtext(textwrap.fill(words, 84 // len(shown))))
         axes.set_ylabel(f"{title} [unit of the case]")
         axes.legend(fontsize=7)
     return figure

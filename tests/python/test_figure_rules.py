@@ -31,6 +31,7 @@ def logarithmic(axes):
 BREACHES = {
     "no label with a unit": lambda axes: axes.set_ylabel("pressure"),
     "no label with a unit: ''": lambda axes: axes.set_xlabel(""),
+    "no label with a unit: 'height'": lambda axes: axes.set(ylabel="height", yticks=[2], yticklabels=["2"]),
     "hyphen for a minus": lambda axes: axes.set_title("at -3.5"),
     "of 6 points": lambda axes: axes.set_title("small", fontsize=6),
     "an internal name: 'xnewton'": lambda axes: axes.plot([0, 1], [1, 1.5], "--", label="xnewton") and axes.legend(),
@@ -52,6 +53,16 @@ def test_a_figure_that_keeps_the_rules():
     """No breach shall be named where there is none."""
     with style.look():
         assert faults(fair()[0]) == []
+
+
+def test_a_sketch():
+    """An axis with no number but 0 needs no unit, but the name of its quantity."""
+    with style.look():
+        figure, axes = fair()
+        axes.set(ylabel="pressure", ylim=(0, 5), yticks=[0, 2], yticklabels=["0", "$p_0$"])
+        assert faults(figure) == []
+        axes.set_ylabel("")
+        assert any("no label" in fault for fault in faults(figure))
 
 
 @pytest.mark.parametrize("words", BREACHES)
