@@ -5,13 +5,13 @@ function pad(text, n) { while (length(text) < n) text = text " "; return text }
 BEGIN {
   topics = split("Model and load|Contact law|Friction|Adhesion|Mesh and elements|Accuracy|Solution method|Load series|Results and files", topic, "|")
   flags["Model and load"] = "mesh set case check width depth E nu E1 E2 nu1 nu2 R R1 R2 a bodyForce traction gap u0 geometry force reach offset roll"
-  flags["Contact law"] = "law d0 p0 kappa m beta table w eps0 rho"
+  flags["Contact law"] = "law d0 p0 kappa m k beta table w eps0 rho"
   flags["Friction"] = "friction compliance shearLimit drag shear legs stepErrors"
   flags["Adhesion"] = "path branch control force-coarse"
   flags["Mesh and elements"] = "h order grading ends corners edges aspect fine layers refine patch symmetry half ratio points surface distance"
-  flags["Accuracy"] = "estimate accuracy goal unknowns"
+  flags["Accuracy"] = "estimate accuracy goal unknowns sensitivity"
   flags["Solution method"] = "method model T0 threshold inner start forcing preconditioner solver eps tol maxNewton maxAdaptations maxPlastic damping"
-  flags["Load series"] = "history steps"
+  flags["Load series"] = "history steps rows vary rows-start"
   flags["Results and files"] = "states vtu plot axis out verbose"
   for (t = 1; t <= topics; t++) {
     n = split(flags[topic[t]], name, " ")

@@ -106,6 +106,9 @@ def messages(functions):
         program = "input/unknown-flag.awk"
         lines = re.findall(r'\btext = (".*)', (ROOT / "edp" / program).read_text())
         found += [(program, "…" + words(line)) for line in lines]
+        program = "solver/rows/rows.sh"  # another starts the processes of rows
+        lines = re.findall(r'\becho "(.*; allowed: .*)"', (ROOT / "edp" / program).read_text())
+        found += [(program, re.sub(r"\$\{[^}]*\}", "…", line)) for line in lines]
     return [(file, text) for file, text in found if re.search(r"[a-z]{3}.* ", text.replace("…", ""))]  # not bare values
 
 
