@@ -5,7 +5,6 @@ The first cell of a notebook imports these functions. Paths are relative to the 
 
 import glob
 import shlex
-import shutil
 import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -76,7 +75,7 @@ def postprocess(*words: object, codes: tuple[int, ...] = (0,)) -> None:
 
 def gmsh(*words: object) -> str:
     """Runs gmsh with these words."""
-    return execute(shutil.which("gmsh") or "gmsh", *words)
+    return execute("gmsh", *words)
 
 
 def explore(draw: Callable[..., object], **choices: Sequence[object]) -> None:

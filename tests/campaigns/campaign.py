@@ -33,6 +33,7 @@ from pathlib import Path
 
 import numpy as np
 
+from postprocess import problem_rows
 from postprocess.progress import Progress, expect
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -314,8 +315,8 @@ def row_of(item: Case, outcomes: list[Outcome]) -> dict:
 # ---------------------------------------------------------------- cases on one mesh: rows of one run
 
 # flags that leave mesh and stiffness as they are, edp/docs/howto/many-runs.md; words that exclude rows
-ROW_FLAGS = frozenset("law kappa m p0 beta table d0 u0 force steps T0 threshold inner start forcing".split())
-ROW_FLAGS |= frozenset("preconditioner model tol eps rho maxNewton maxAdaptations".split())
+OF_METHODS = "steps T0 threshold inner start forcing preconditioner model tol eps rho maxNewton maxAdaptations"
+ROW_FLAGS = problem_rows.ROW_FLAGS | frozenset(OF_METHODS.split())
 NO_ROWS = frozenset("friction legs drag shear distance accuracy history case path w eps0 control branch".split())
 NO_ROW_SCENES = ("adhesive", "fretting", "rolling", "wedge", "parts")
 

@@ -5,6 +5,7 @@ The reference of a row is the single run with its flags: all numbers of its summ
 
 import csv
 import json
+import shlex
 import subprocess
 
 import pytest
@@ -135,6 +136,17 @@ def test_warm_rows(tmp_path):
         assert spent[0] == spent[1] if few else spent[0] < 0.6 * spent[1], spent
         assert [row["warmStart"] for row in warm] == ["0"] + ["0" if few else "1"] * (len(warm) - 1)
         assert {row["warmStart"] for row in cold} == {"0"}
+
+
+def test_screen_in_a_file(tmp_path):
+    """The last lines of the screen shall stay where it is a file that other commands write on."""
+    words = shlex.join(
+        [*FREEFEM, "edp/main.edp", *map(str, COARSE), "-vary", "kappa 1e3 -1", "-out", str(tmp_path / "out")]
+    )
+    code, _ = execute(["sh", "-c", f"({words}; echo code $?) > {shlex.quote(str(tmp_path / 'screen'))}"])
+    *_, first, refused, files, last = (tmp_path / "screen").read_text().splitlines()
+    assert code == 0 and last == "code 10" and first.startswith("  rows      1 of 2 solved, 1 refused (code 10)")
+    assert refused.startswith("  row 2     -kappa -1: ") and files.endswith("rows.csv, rows.json")
 
 
 def test_half_model(tmp_path):

@@ -1,6 +1,8 @@
 # results.awk: the table rows.csv from rows.json: a line a row, a column for each number of the summaries
 # Read by awk after output/report/json.awk. The columns are those of all rows, in the order of the first row that has them; lists count from
 # 1. estimates.NAME.error stands as NAME.error, without the value; true and false are 1 and 0. What is no finite number is empty.
+# In the environment: FOLDER: of the results; SCREEN: a file for the end on screen: the greatest exit code, then the number of rows by exit
+# code, failed rows, and the files.
 function csv(text) {
   if (text !~ /[",\n]/ && text !~ /^ | $/) return text
   gsub(/"/, "\"\"", text)
@@ -50,5 +52,20 @@ END {
     line = line "," v[".rows." r ".code"] "," csv(v[".rows." r ".message"]) "," csv(warnings)
     for (k = 1; k <= columns; k++) line = line "," cell[r, column[k]]
     print line "," v[".rows." r ".seconds"]
+    code = v[".rows." r ".code"] + 0
+    number[code]++
+    if (code > worst) worst = code
+    if (code != 0 && failed++ < 10) lost = lost sprintf("  row %-6d%s\n", r + 1, v[".rows." r ".message"])
+    warned += warnings != ""
+    seconds += v[".rows." r ".seconds"]
   }
+  text = number[0] + 0 " of " rows " solved"
+  if (number[10]) text = text ", " number[10] " refused (code 10)"
+  if (number[20]) text = text ", " number[20] " not converged (code 20)"
+  for (code in number) if (code != 0 && code != 10 && code != 20) text = text ", " number[code] " ended with code " code
+  screen = ENVIRON["SCREEN"]
+  printf "%d\n  %-10s%s, %.2f CPU s\n%s", worst, "rows", text, seconds, lost > screen
+  if (failed > 10) printf "  and %d more, in the column message\n", failed - 10 > screen
+  if (warned) printf "  %-10s%s\n", "warnings", "in " warned " rows: column warnings" > screen
+  printf "  %-10s%s\n", "files", ENVIRON["FOLDER"] "rows.csv, rows.json" > screen
 }

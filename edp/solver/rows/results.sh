@@ -1,20 +1,16 @@
-# results.sh: the table of a run's rows, and its end on screen: sh results.sh RUN FOLDER STORE ROWS, or RUN FOLDER print
+# results.sh: the table of a run's rows, and its end for the screen: sh results.sh RUN FOLDER STORE ROWS
 # Needs: FOLDER, the folder of the results, with a trailing slash; STORE, the rows of solver/rows/results.idp, each over several lines;
 #        ROWS, their number.
 # Gives: FOLDER/.run/rows.json, a list of them after the common parameters, and rows.csv, by output/report/json.awk and
-#        solver/rows/results.awk, with their lengths in .ends. With print: the number of rows by exit code, the messages of the first
-#        rows that failed, and the files, on standard output.
-# Exit code: with print the greatest of the rows; otherwise 1 if rows are missing, which a line says.
+#        solver/rows/results.awk, with their lengths in .ends; STORE.screen, the greatest exit code of the rows and the last lines.
+# Exit code: 1 if rows are missing, which a line says.
 programs=${programs:-${0%/*}/../..}
-if test "$3" = print; then
-    LC_ALL=C FOLDER=$2 awk -f "$programs/solver/rows/print.awk" "$2rows.csv"
-else
-    at=$2.run
-    LC_ALL=C sed -E -e '4,$s/^[{]"row": /,&/' -e '$s/$/]}/' -e 's/([ [])-?(nan|inf)([],}]|$)/\1null\3/g' "$3" > "$at/rows.json"
-    LC_ALL=C awk -f "$programs/output/report/json.awk" -f "$programs/solver/rows/results.awk" "$at/rows.json" > "$at/rows.csv"
-    test "$(wc -l < "$at/rows.csv")" = $(($4 + 1)) || {
-        echo "results could not be written whole into $2 (disk full, or another awk than mawk, gawk, original-awk?): nothing was kept"
-        exit 1
-    }
-    for file in rows.json rows.csv; do echo "$file $(wc -c < "$at/$file")" >> "$at/.ends"; done
-fi
+at=$2.run
+LC_ALL=C sed -E -e '4,$s/^[{]"row": /,&/' -e '$s/$/]}/' -e 's/([ [])-?(nan|inf)([],}]|$)/\1null\3/g' "$3" > "$at/rows.json"
+LC_ALL=C FOLDER=$2 SCREEN=$3.screen awk -f "$programs/output/report/json.awk" -f "$programs/solver/rows/results.awk" "$at/rows.json" \
+    > "$at/rows.csv"
+test "$(wc -l < "$at/rows.csv")" = $(($4 + 1)) || {
+    echo "results could not be written whole into $2 (disk full, or another awk than mawk, gawk, original-awk?): nothing was kept"
+    exit 1
+}
+for file in rows.json rows.csv; do echo "$file $(wc -c < "$at/$file")" >> "$at/.ends"; done

@@ -3,10 +3,11 @@
 # Gives: the run. CONTACT_ROWS names a file for its rows, here in TMPDIR: a line that begins with {"row": N for row N, whose last line has its
 #        exit code. A process that ends with 77 has completed a row; one that FreeFEM or the system ends has not: its row gets the
 #        code 8. Another one then solves the next rows.
-# Exit code: that of the last process.
+# Exit code: the greatest of the rows, or that of a process that could not write them. Prints the end of the run, after the last process:
+#        FreeFEM leaves the offset of a file, as the screen of a script is one, where it has written itself.
 programs=${programs:-${0%/*}/../..}
 export CONTACT_ROWS="${TMPDIR:-/tmp}/rows-$$-$(date +%s)"
-trap 'rm -f "$CONTACT_ROWS"' EXIT
+trap 'rm -f "$CONTACT_ROWS" "$CONTACT_ROWS.screen"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
 (: > "$CONTACT_ROWS") 2> /dev/null || {
@@ -22,6 +23,10 @@ while :; do
         run "$@"
     )
     code=$?
+    if test $code = 0 && test -e "$CONTACT_ROWS.screen"; then
+        sed 1d "$CONTACT_ROWS.screen"
+        exit "$(sed -n 1p "$CONTACT_ROWS.screen")"
+    fi
     case $code in 0 | 10 | 20 | 30 | 130 | 143) exit $code;; esac
     last=$(grep -c '^{"row": ' "$CONTACT_ROWS")
     test $last -gt $begun || exit $code             # it has ended before its first row

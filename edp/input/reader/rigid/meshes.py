@@ -17,6 +17,7 @@ from ..gmsh_process import GmshError
 from ..mesh import Floats, Ints, MeshRefusal
 from ..msh import read_msh
 from ..words import Refusal
+from .triangles import sides_of
 
 if TYPE_CHECKING:
     from .shapes import Surface
@@ -105,8 +106,7 @@ def triangles_of(shape: Surface) -> tuple[Floats, Ints]:
     """Places and corners of a surface in space, in one sense."""
     places, corners = read_surface(shape, 2)
     n = len(corners)
-    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
-    key = ends.min(axis=1) * len(places) + ends.max(axis=1)
+    ends, key = sides_of(corners, len(places))
     order = np.argsort(key, kind="stable")
     same = np.flatnonzero(key[order][1:] == key[order][:-1])
     if len(same) > 1 and (np.diff(same) == 1).any():

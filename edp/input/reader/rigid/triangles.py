@@ -16,6 +16,12 @@ SHARP = 0.35  # least angle between the normals at a sharp edge, rad
 AT_ONCE = 400_000  # pairs of places and triangles
 
 
+def sides_of(corners: Ints, count: int) -> tuple[Ints, Ints]:
+    """Ends of the sides of each triangle, from corner to corner, and a number that both triangles at an edge share."""
+    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
+    return ends, ends.min(axis=1) * count + ends.max(axis=1)
+
+
 class Facets:
     """places: (nodes, 3); corners: (triangles, 3), the free side where they turn to the left."""
 
@@ -36,8 +42,7 @@ class Facets:
     def edge_normals(self, count: int) -> None:
         """Of side k, from corner k to the next one, and of corner k: (triangles, 3, 3); sharp edges (edges, 2, 3)."""
         n = len(self.corners)
-        ends = np.stack([self.corners, np.roll(self.corners, -1, axis=1)], axis=2).reshape(-1, 2)
-        key = ends.min(axis=1) * count + ends.max(axis=1)
+        ends, key = sides_of(self.corners, count)
         _, edge, times = np.unique(key, return_inverse=True, return_counts=True)
         own = np.repeat(self.normal, 3, axis=0)
         sums = np.zeros((len(times), 3))
