@@ -17,6 +17,7 @@
 #ifdef __GLIBC__
 #include <dlfcn.h>
 #include <link.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #endif
 #define FOR(i, n) for (int i = 0; i < n; ++i)
@@ -258,8 +259,11 @@ static clock_t clockOfStatements()
     return !showCPU && size_t((char *)__builtin_return_address(0) - statements) <= statementsLength ? 0 : clock();
 }
 
+// and the memory of arrays that are freed and taken again is kept, not handed back and cleared by the system each time
 static void quickenStatements()
 {
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
     Dl_info object;
     ElfW(Sym) *own = nullptr, *symbols = nullptr;
     link_map *program;
@@ -291,6 +295,7 @@ static void quickenStatements() {}
 static void Load_Init()
 {
     if (alike()) quickenStatements();
+    CodeAlloc::chunk = std::max<size_t>(CodeAlloc::chunk, 1 << 18);          // FreeFEM sorts its list of statements each time it grows
     bool isUsersChoice = false;
     for (const char *name : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"}) isUsersChoice |= getenv(name) != nullptr;
     if (!isUsersChoice && openblas_set_num_threads && openblas_get_num_threads) threadsMost = std::min(openblas_get_num_threads(), 4);
