@@ -292,8 +292,37 @@ static void quickenStatements()
 static void quickenStatements() {}
 #endif
 
+// Flags whose modules are read on request (input/output.idp): this plugin is loaded before them, and with these macros the script needs no
+// second start. A flag that is not here costs one. values: empty for all but 0; unless: scripts with this macro do not need it.
+static const struct { const char *flag, *values, *word, *unless; } needed[] = {
+    {"-half", " 1 ", "symmetryOnRequest", "threeDimensional"},
+    {"-order", " 3 4 ", "highOrderOnRequest", "threeDimensional"},
+    {"-order", " 3 4 ", "mapOnRequest", "deformableMaster"},
+    {"-geometry", " axisymmetric ", "ringsOnRequest", "threeDimensional"},
+    {"-distance", " exact ", "exactOnRequest", "exactOnRequest"},
+    {"-history", " 1 ", "historyOnRequest", "historyOnRequest"},
+    {"-states", " 1 ", "statesOnRequest", "statesOnRequest"},
+    {"-sensitivity", " 1 ", "sensitivityOnRequest", "sensitivityOnRequest"},
+    {"-force", "", "motionsOnRequest", "readModes"},
+    {"-method", " paper newton linesearch incremental ", "methodsOnRequest", "eachMethod"},
+    {"-law", " exponential barrier table linear ", "lawsOnRequest", "eachLaw"},
+};
+extern KN<String> *pkarg;
+
+static void readAtOnce()
+{
+    std::string text = "macro defineOnce(word) IFMACRO(!word)\nNewMacro word() 1 EndMacro\nENDIFMACRO\n//\n";
+    FOR(i, pkarg->N() - 1) for (auto &need : needed) {
+        const std::string flag = *(*pkarg)[i].getap()[0], value = *(*pkarg)[i + 1].getap()[0];
+        if (flag == need.flag && (*need.values ? strstr(need.values, (" " + value + " ").c_str()) != nullptr : value != "0"))
+            text += std::string("IFMACRO(!") + need.unless + ")\ndefineOnce(" + need.word + ")\nENDIFMACRO\n";
+    }
+    zzzfff->input(text);
+}
+
 static void Load_Init()
 {
+    if (alike()) readAtOnce();
     if (alike()) quickenStatements();
     CodeAlloc::chunk = std::max<size_t>(CodeAlloc::chunk, 1 << 18);          // FreeFEM sorts its list of statements each time it grows
     bool isUsersChoice = false;
