@@ -39,7 +39,7 @@ from .fields import (
 from .groups import Group, Where
 from .laws import NAMES, Law, LawKind, is_file
 from .rigid.shapes import SHAPES, Shape
-from .words import Line, nearest, whole_number
+from .words import Line, nearest, spells_number, whole_number
 
 FILE_NAME = "[A-Za-z0-9_-]+"
 STRAIN = "allowed: state strain or axisymmetric"
@@ -59,7 +59,7 @@ def no_plastic(where: Where) -> bool:
 
 
 def plane_stress(where: Where) -> bool:
-    return where.space or where.state == "stress"
+    return not where.space and where.state == "stress"
 
 
 def off_axis(what: str, value: Vector3, where: Where) -> str:
@@ -754,18 +754,66 @@ class Preload(Statement, word="preload", example="preload cut 8000"):
     force: float = custom(Tension())
 
 
+class Linear(Part):
+    modulus: float = number("the hardening modulus", "hardening", at_least=0, unit="pressure")
+
+
+@dataclass(frozen=True)
+class TableRows:
+    """Equivalent plastic strains and yield stresses, two numbers each, both rising."""
+
+    def read(self, reading: Reading) -> tuple[tuple[float, float], ...]:
+        found: list[tuple[float, float]] = []
+        while reading.line.left and spells_number(reading.line.left[0]):
+            strain = Number("the plastic strain", above=found[-1][0] if found else 0).read(reading)
+            low = found[-1][1] if found else None
+            found.append((strain, Number("the yield stress", above=0, at_least=low, unit="pressure").read(reading)))
+        if not found:
+            reading.no("a table without rows")
+        return tuple(found)
+
+    def usage(self, where: Where) -> str:
+        return "strain stress strain stress ..."
+
+
+class Table(Part):
+    rows: tuple[tuple[float, float], ...] = custom(TableRows())
+
+
+@dataclass(frozen=True)
+class Hardening:
+    """A modulus, or a table; beyond its end the yield stress stays."""
+
+    def read(self, reading: Reading) -> Part:
+        table = reading.line.starts("table")
+        if table:
+            reading.line.next()
+        cls = Table if table else Linear
+        return cls(**read_fields(cls, reading))
+
+    def usage(self, where: Where) -> str:
+        return f"hardening, or table {TableRows().usage(where)}"
+
+
 class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
     does = "yield stress and hardening of a body"
     synonyms = "plasticity elastoplastic mises hardening"
     once = "plastic {s.on}"
-    note = ", two numbers"
     on: Group = body()
     yield_stress: float = number("the yield stress", "yield", above=0, unit="pressure")
-    hardening: float = number("the hardening modulus", "hardening", at_least=0, unit="pressure")
-    refused = (
-        (plane_stress, f"plastic: in plane strain and about an axis only; {STRAIN}, in parts.edp"),
-        (no_plastic, "plastic: read by parts.edp alone; allowed here: elastic bodies"),
+    hardening: Part = custom(Hardening())
+    kinematic: float = option(
+        "kinematic", number("the kinematic hardening modulus", "C", at_least=0, unit="pressure"), default=0.0
     )
+    refused = (
+        (plane_stress, f"plastic: not in plane stress; {STRAIN}"),
+        (no_plastic, "plastic: read by parts.edp and parts-3d.edp alone; allowed here: elastic bodies"),
+    )
+
+    def check(self, where: Where) -> str:
+        first = self.hardening.rows[0][1] if isinstance(self.hardening, Table) else self.yield_stress
+        low = f"plastic: the table starts with {first:g}, below the yield stress {self.yield_stress:g}; allowed: rising"
+        return low if first < self.yield_stress else ""
 
 
 class Expansion(Part):

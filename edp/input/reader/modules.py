@@ -83,11 +83,8 @@ def needs(case: Case) -> Needs:
 
 def refuse_together(need: Needs, run: Run) -> None:
     """Statements and flags that exclude each other."""
-    if need.plastic and (need.strains or run.space or need.wear):
-        raise Refusal(
-            "plastic: not with expand, preload, conduct or wear, nor in space; "
-            "allowed: loads, motions, contacts in the plane"
-        )
+    if need.plastic and (need.heat or need.wear):
+        raise Refusal("plastic: not with conduct or wear; allowed: loads, motions, contacts, expand, preload")
     if need.strains and not run.own:
         raise Refusal("expand, preload, conduct: allowed in edp/parts" + ("-3d" if run.space else "") + ".edp")
     if need.heat and need.friction:

@@ -31,6 +31,10 @@ def flat(part: Part, before: str = "") -> Iterator[Value]:
                 yield name, value
             case (float() as x, float() as y, float() as z):
                 yield from vector(name, (x, y, z))
+            case ((float(), float()), *_):
+                yield f"{name}.count", float(len(value))
+                for k, pair in enumerate(value):
+                    yield from zip((f"{name}.{k}.x", f"{name}.{k}.y"), pair, strict=True)
             case Part() if not isinstance(value, Statement):
                 yield name, type(value).__name__.lower()
                 yield from flat(value, f"{name}.")

@@ -28,14 +28,15 @@ function printHeat(   k, p, greatest) {  # temperatures and heat flows
     roundDigits(absolute(v[".heat.in"] - v[".heat.out"] - v[".heat.stored"]) / greatest, 1) ")"
 }
 function zeroIfRounding(x, greatest) { return absolute(x) < 1e-9 * greatest ? 0 : x + 0 }  # x, or 0 if it is below rounding of the greatest number
-function printPlastic(   k, p, c, s, unit) {  # plastic strains and energies of bodies that yield; the error of the mesh is not known
+function printPlastic(   k, p, c, s, unit, size) {  # plastic strains and energies of bodies that yield; the error of the mesh is not known
   if (v[".plastic.yielded"] != "true") { print "  no body yields: the results are elastic ones"; return }
-  unit = v[".units.0"] (known(".units.0") ? (v[".state"] == "axisymmetric" ? "^3" : "^2") : "")
+  size = v[".state"] == "axisymmetric" || count[".plastic.bodies.0.at"] == 3 ? "volume" : "area"
+  unit = v[".units.0"] (known(".units.0") ? (size == "volume" ? "^3" : "^2") : "")
   print "  plastic strains, in " v[".plastic.steps"] " load steps and " v[".plastic.iterations"] " iterations: the error of the mesh is not known"
   for (k = 0; k < count[".plastic.bodies"]; k++) {
     p = ".plastic.bodies." k
-    printTwoErrors("greatest of " v[p ".body"], v[p ".strainMax"], -1, known(p ".strainMaxError") ? v[p ".strainMaxError"] : -1, "", "at " vectorText(p ".at", 2, 0))
-    printTwoErrors("yielded " (v[".state"] == "axisymmetric" ? "volume" : "area"), v[p ".volume"], -1, known(p ".volumeError") ? v[p ".volumeError"] : -1, unit, \
+    printTwoErrors("greatest of " v[p ".body"], v[p ".strainMax"], -1, known(p ".strainMaxError") ? v[p ".strainMaxError"] : -1, "", "at " vectorText(p ".at", count[p ".at"], 0))
+    printTwoErrors("yielded " size, v[p ".volume"], -1, known(p ".volumeError") ? v[p ".volumeError"] : -1, unit, \
       "(" roundDigits(100 * v[p ".share"], 3) " % of " v[p ".body"] ")")
   }
   for (c = 0; c < count[".contacts"]; c++) {
@@ -48,5 +49,6 @@ function printPlastic(   k, p, c, s, unit) {  # plastic strains and energies of 
   s = v[".plastic.storedElastic"] + v[".plastic.storedByHardening"]
   print "  work on the bodies " roundDigits(v[".plastic.work"], 6) ", stored " roundDigits(s, 6) ", dissipated " roundDigits(v[".plastic.dissipated"], 6) \
     ", left over " roundDigits(v[".plastic.work"] - s - v[".plastic.dissipated"], 2)
+  if (v[".friction"] > 0) print "  dissipated by friction " roundDigits(v[".dissipated"], 6)
   if (v[".plastic.loadStepsError"] != "measured") print "  error of the load steps " v[".plastic.loadStepsError"]
 }

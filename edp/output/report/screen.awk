@@ -382,7 +382,7 @@ END {
     }
     if (known(".dragged.value")) printTwoErrors("dragged by", v[".dragged.value"], errorOf(".dragged"), -1, "", "")
     if (known(".creepage")) printResult("creepage", v[".creepage"], 0, "", "of the length rolled")
-    if (v[".friction"] > 0) {
+    if (v[".friction"] > 0 && !(".plastic.steps" in v)) {
       print "  work of the loads " roundDigits(v[".work"], 6) ", stored " roundDigits(v[".stored"], 6) ", dissipated " roundDigits(v[".dissipated"], 6) \
         ", left over " roundDigits(v[".work"] - v[".stored"] - v[".dissipated"], 2)
       if (v[".loadStepsError"] ~ /^not known/) print "  error of the load steps " v[".loadStepsError"]
