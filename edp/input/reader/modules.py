@@ -14,6 +14,9 @@ from .rigid.shapes import has_edges
 from .words import Refusal
 
 
+MIXED_ABOVE = 0.49  # Poisson's ratio
+
+
 @dataclass
 class Needs:
     """What the statements of a case need."""
@@ -33,6 +36,7 @@ class Needs:
     wear: bool
     plastic: bool
     surface: bool  # rigid shapes with edges
+    incompressible: bool  # bodies with mixed elements
 
 
 @dataclass
@@ -77,6 +81,7 @@ def needs(case: Case) -> Needs:
         gravity=case.has(g.Gravity),
         wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
+        incompressible=any(s.nu > MIXED_ABOVE for s in case.of(g.Body)),
         surface=any(has_edges(s.shape) for s in case.of(g.Obstacle)),
     )
 
@@ -126,5 +131,6 @@ def modules(need: Needs, run: Run) -> Modules:
         "deflections": need.gravity,
         "largeRotation": far,
         "rigidSurface": need.surface,
+        "incompressible": need.incompressible,
     }
     return Modules([name for name, on in asked.items() if on], [name for name, on in options.items() if on and run.own])
