@@ -46,6 +46,7 @@ def ask_modules(of: Words) -> int:
         history="-history" in flags,
         axis="-axis" in flags,
         check=of["check"] == "1",
+        order=dict(zip(flags, flags[1:])).get("-order", "2"),
     )
     code = 0
     try:

@@ -177,6 +177,7 @@ class Number:
     above: float | None = None
     below: float | None = None
     at_least: float | None = None
+    at_most: float | None = None
     whole: bool = False
     prefix: str = ""  # a word that may stand before it
     only: Condition = always  # where it is there; elsewhere it is 0
@@ -196,7 +197,8 @@ class Number:
                 f"{text}: {self.what} cannot be computed with; allowed: 0, and magnitudes from 1e-40 to 1e40"
             )
         low = (self.above is not None and value <= self.above) or (self.at_least is not None and value < self.at_least)
-        if low or (self.below is not None and value >= self.below):
+        high = (self.below is not None and value >= self.below) or (self.at_most is not None and value > self.at_most)
+        if low or high:
             reading.line.no(f"{text}: {self.what} is out of range; allowed: {self.bounds()}")
         if self.whole and value != int(value):
             reading.no(f"{text}: no whole number{self.what.removeprefix('the number')}")
@@ -204,7 +206,7 @@ class Number:
 
     def bounds(self) -> str:
         """The bounds in words."""
-        limits = (("at least", self.at_least), ("above", self.above), ("below", self.below))
+        limits = (("at least", self.at_least), ("above", self.above), ("below", self.below), ("at most", self.at_most))
         return " and ".join(f"{word} {number_text(bound)}" for word, bound in limits if bound is not None)
 
     def usage(self, where: Where) -> str:

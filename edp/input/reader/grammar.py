@@ -234,7 +234,7 @@ class Body(Statement, word="body", example="body pin E 210e3 nu 0.3"):
     once = "body {s.on}"
     on: Group = body("NAME")
     E: float = keyword("E", number("Young's modulus", above=0, unit="pressure"))
-    nu: float = keyword("nu", number("Poisson's ratio", above=-1, below=0.5))
+    nu: float = keyword("nu", number("Poisson's ratio", above=-1, at_most=0.5))
     yield_stress: float = option("yield", number("the yield stress", above=0, unit="pressure"), default=0.0)
     density: float = option("density", number("the density", above=0, unit="mass/volume"), default=0.0)
 

@@ -14,6 +14,9 @@ from .rigid.shapes import has_edges
 from .words import Refusal
 
 
+MIXED_ABOVE = 0.49  # the Poisson's ratio, as in fem/incompressible/mixed-element.idp
+
+
 @dataclass
 class Needs:
     """What the statements of a case need."""
@@ -33,6 +36,7 @@ class Needs:
     wear: bool
     plastic: bool
     surface: bool  # rigid shapes with edges
+    poisson: float  # the greatest ratio, in plane stress 0
 
 
 @dataclass
@@ -45,6 +49,7 @@ class Run:
     history: bool = False
     axis: bool = False
     check: bool = False
+    order: str = "2"
 
 
 @dataclass
@@ -77,8 +82,14 @@ def needs(case: Case) -> Needs:
         gravity=case.has(g.Gravity),
         wear=case.has(g.Cycles) or any(s.wear for s in touching),
         plastic=plastic,
+        poisson=max((s.nu for s in case.of(g.Body) if case.where.state != "stress"), default=0.0),
         surface=any(has_edges(s.shape) for s in case.of(g.Obstacle)),
     )
+
+
+def mixed(need: Needs, run: Run) -> bool:
+    """Whether bodies have mixed elements."""
+    return need.poisson > MIXED_ABOVE and run.order == "2" and run.own and not (need.plastic or need.strains)
 
 
 def refuse_together(need: Needs, run: Run) -> None:
@@ -87,6 +98,13 @@ def refuse_together(need: Needs, run: Run) -> None:
         raise Refusal("plastic: not with conduct or wear; allowed: loads, motions, contacts, expand, preload")
     if need.strains and not run.own:
         raise Refusal("expand, preload, conduct: allowed in edp/parts" + ("-3d" if run.space else "") + ".edp")
+    if need.poisson == 0.5 and not (mixed(need, run) or run.order == "4" and not (need.plastic or need.strains)):
+        raise Refusal(
+            "nu 0.5: not with -order 1 or 3, expand, preload, conduct or plastic, nor in other scenes; "
+            "allowed there: nu below 0.5"
+        )
+    if run.axis and mixed(need, run):
+        raise Refusal(f"-axis: not with a nu above {MIXED_ABOVE}; allowed: line NAME x y x y in the case")
     if need.heat and need.friction:
         raise Refusal("conduct: allowed without friction, tie and leg")
     if run.axis and need.strains:
@@ -123,5 +141,6 @@ def modules(need: Needs, run: Run) -> Modules:
         "deflections": need.gravity,
         "largeRotation": far,
         "rigidSurface": need.surface,
+        "incompressible": mixed(need, run),
     }
     return Modules([name for name, on in asked.items() if on], [name for name, on in options.items() if on and run.own])
