@@ -94,7 +94,7 @@ def told(rows: Rows, whole: int) -> str:
     last = rows[-1]
     commits, days = (sorted({row[name] for row in rows}) for name in ("commit", "day"))
     when = f"commit {', '.join(commits)}, {' to '.join(dict.fromkeys((days[0], days[-1])))}"
-    return f"*{count}, {often}; {when}; {last['machine']}, {last['cores']} cores, {last['threads']} BLAS thread.*"
+    return f"*{count}, {often}; {when}; {last['machine']}, {last['cores']} cores, {last['threads']} BLAS thread*."
 
 
 def main(argv: list[str] | None = None) -> int:
