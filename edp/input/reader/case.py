@@ -33,6 +33,7 @@ class Case:
     where: Where
     groups: Groups
     statements: list[Statement] = field(default_factory=list)
+    load_cases: list[str] = field(default_factory=list)  # and combinations, by name
 
     def of(self, kind: type[S]) -> list[S]:
         """The statements of a kind that change none before them."""
@@ -400,13 +401,9 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
         yield Refusal("thickness with state axisymmetric; allowed: with strain and stress", line)
 
 
-def read_case(text: str, where: Where, of_mesh: Sequence[Group] | None) -> Case:
-    """The case of this text; raises a Refusal. `of_mesh`: the groups of its mesh, in their order.
-
-    None: they are not known yet; any name is a group then, and all other mistakes are refused.
-    """
+def read_lines(lines: Sequence[Line], where: Where, of_mesh: Sequence[Group] | None) -> Case:
+    """The case of these lines, without load cases; arguments as those of read_case()."""
     where = replace(where)  # reading changes it
-    lines = split_case(text, lambda word: usage_of(word, where))
     groups = Groups(where, of_mesh or (), any_name=of_mesh is None)
     groups.look_ahead(lines)
     rules = Rules(Case(where, groups))
@@ -414,3 +411,17 @@ def read_case(text: str, where: Where, of_mesh: Sequence[Group] | None) -> Case:
         rules.read(line)
     check(rules.case, rules)
     return rules.case
+
+
+def read_case(text: str, where: Where, of_mesh: Sequence[Group] | None) -> Case:
+    """The case of this text; raises a Refusal. `of_mesh`: the groups of its mesh, in their order.
+
+    None: they are not known yet; any name is a group then, and all other mistakes are refused. With load cases it has
+    the loads of all.
+    """
+    lines = split_case(text, lambda word: usage_of(word, where))
+    if any(line.words[0] in ("load", "combine") for line in lines):
+        from .rows import read_load_cases  # takes time to load
+
+        return read_load_cases(lines, where, of_mesh)
+    return read_lines(lines, where, of_mesh)

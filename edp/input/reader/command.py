@@ -2,7 +2,7 @@
 
     ready    nothing: whether this Python can run it
     modules  the macros of a case's second start  file= case= space= sets= own= check= flags= to= cache=
-    problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= cache=
+    problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= rows= cache=
     again    another mesh of a geometry           file= space= plan= view= to=
 
 `to`: the file that the answer goes to; case=none: -check 1 without a case. Exit codes: 0 done; 1 refused, in one line;
@@ -54,6 +54,8 @@ def ask_modules(of: Words) -> int:
         where = Where(space=run.space, bodies=bodies, overlap=of["file"].lower().endswith(".inp"))
         case = read_case(text_of(of["case"]), where, groups)
         asked = modules(needs(case), run)
+        if case.load_cases and not run.check:
+            asked.options.append("rows")
         macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
         lines = [sys.executable, str(len(macros)), *macros]
     except Refusal as refusal:
@@ -72,7 +74,7 @@ def ask_problem(of: Words) -> int:
     """Reads mesh and case into the run's folder, or takes what a run before has kept of them."""
     folder, cache = Path(of["folder"]), Path(of["cache"])
     alike = (of["space"], of["sets"], of["options"], of["unlike"])
-    place = place_of(Path(of["file"]), of["case"], cache, *alike) if of["as"] == "solve" else None
+    place = place_of(Path(of["file"]), of["case"], cache, *alike) if of["as"] == "solve" and not of["rows"] else None
     if place and take(place, folder):
         return 0
     # modules that take time to load
@@ -88,7 +90,7 @@ def ask_problem(of: Words) -> int:
         again=of["as"] == "again",
     )
     check = of["as"] == "check"
-    code = run(Problem(Path(of["file"]), of["case"], folder, where, sets, check, cache, of["surface"]))
+    code = run(Problem(Path(of["file"]), of["case"], folder, where, sets, check, cache, of["rows"], of["surface"]))
     if code == 0 and place:
         keep(folder, place)
     return code

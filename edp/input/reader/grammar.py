@@ -540,7 +540,7 @@ class Force(Statement, word="force", example="force grip 0{| 0} -2500 free", in_
 
     def check(self, where: Where) -> str:
         zero = not any(self.resultant)
-        if zero and (self.how is None or not where.phase):
+        if zero and (self.how is None or not (where.phase or where.cases)):
             return f"the force is 0 in every direction; {usage_of('force', where)}"
         if axisymmetric(where) and isinstance(self.how, Rigid):
             along = "a ring moves along its axis alone, as the force without the word lets it"
@@ -590,7 +590,7 @@ class Moment(Statement, word="moment", example="moment core 21600{| axis 0 0 1}"
     )
 
     def check(self, where: Where) -> str:
-        if self.size == 0 and (not where.phase or not isinstance(self.how, Spread)):
+        if self.size == 0 and (not (where.phase or where.cases) or not isinstance(self.how, Spread)):
             return f"moment {self.on}: 0{' of a rigid group' if where.phase else ''}; allowed: another number"
         return ""
 
@@ -669,9 +669,11 @@ class Gravity(Statement, word="gravity", example="gravity 0{| 0} -9810"):
     does = "an acceleration of all bodies with a density"
     synonyms = "acceleration density"
     once = "gravity"
-    value: Vector3 = vector("the gravity", counted="the gravity", nonzero=True)
+    value: Vector3 = vector("the gravity", counted="the gravity")
 
     def check(self, where: Where) -> str:
+        if not any(self.value) and not where.cases:
+            return f"the gravity is 0 in every direction; {usage_of('gravity', where)}"
         return off_axis("gravity", self.value, where)
 
 
@@ -915,6 +917,39 @@ class Leg(Statement, word="leg", example="leg 8"):
     refused = (
         (no_friction, "leg: read by parts.edp and parts-3d.edp alone; allowed here: one load, -history 1 in steps"),
     )
+
+
+@dataclass(frozen=True)
+class Terms:
+    """Factors and load cases: 1.35 dead + 1.5 wind; without a factor it is 1."""
+
+    def read(self, reading: Reading) -> tuple[tuple[float, str], ...]:
+        terms: list[tuple[float, str]] = []
+        while not terms or reading.line.left:
+            if terms and reading.line.starts("+"):
+                reading.line.next()
+            starts = bool(reading.line.left) and spells_number(reading.line.left[0])
+            factor = Number("the factor").read(reading) if starts else 1.0
+            terms.append((factor, reading.need("a load case")))
+        return tuple(terms)
+
+    def usage(self, where: Where) -> str:
+        return "FACTOR CASE + FACTOR CASE ..."
+
+
+class LoadCase(Statement, word="load", example="load case wind"):
+    does = "loads and motions of one load case follow"
+    once = "load case {s.name}"
+    synonyms = "case loadcase subcase"
+    name: str = keyword("case", word("NAME", allowed=(FILE_NAME, "a name; allowed: letters, digits, - and _")))
+
+
+class Combine(Statement, word="combine", example="combine storm 1.35 dead + 1.5 wind"):
+    does = "the loads of several load cases times factors"
+    once = "combine {s.name}"
+    synonyms = "combination combo loadcomb"
+    name: str = word("NAME", allowed=(FILE_NAME, "a name; allowed: letters, digits, - and _"))
+    terms: tuple[tuple[float, str], ...] = custom(Terms())
 
 
 BEHIND = {

@@ -46,6 +46,7 @@ class Problem:
     sets: Sets = ()
     check: bool = False
     cache: Path | None = None
+    rows: str = ""  # a table of problems: its columns that are no flags
     surface: str = ""  # of a mesh made anew: that of the same surfaces, of second order
 
 
@@ -141,9 +142,11 @@ def read_problem(of: Problem) -> None:
     """Writes the files of the folder; raises a Refusal of the case, a GmshError or MeshRefusal of the mesh."""
     text = text_of(of.case)
     made = Prepared([], finer=FINER)
+    known: list[Group] = []
 
     def read(groups: Sequence[Group], bodies: Mapping[int, str]) -> Case:
         of.where.bodies = dict(bodies)
+        known[:] = groups
         return read_case(text, of.where, groups)
 
     if of.file.suffix.lower() in KINDS:
@@ -158,6 +161,10 @@ def read_problem(of: Problem) -> None:
     written = write_bodies(mesh, case, of.folder, of.where.space, straight, smooth)
     write(of.folder / "regions", written.text)
     write(of.folder / "case", table(case, written.groups, written.split))
+    if of.rows:
+        from .rows import write_rows  # few runs need it
+
+        write_rows(Path(of.rows), of.folder, of.case, text, case, known, written.groups, written.split)
     if surfaces := surfaces_of(case):
         write(of.folder / "surfaces", surfaces)
     told = [made.version, made.plan, made.finer, made.left, str(len(made.touch)), *made.touch]
