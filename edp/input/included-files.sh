@@ -21,7 +21,9 @@ while test $# -gt 0; do
     case $known in *"$newline$file$newline"*) continue;; esac
     known=$known$file$newline
     printf '%s\n' "$file"
-    case $(printf %s "${file##*.}" | tr A-Z a-z) in
+    kind=${file##*.}
+    case $kind in *[A-Z]*) kind=$(printf %s "$kind" | tr A-Z a-z) ;; esac
+    case $kind in
     geo | opt) words='merge|include|shapefromfile|filename|systemcall|getenv|onelab';;
     edp | idp) words=include;;
     msh | inp | step | stp | iges | igs | brep) words=;;

@@ -153,8 +153,7 @@ def test_refused_before_the_mesh(tmp_path):
     """A wrong name, once the geometry was opened, and a wrong word at any time are refused by the first question."""
     case, geo, answer = tmp_path / "a.case", tmp_path / "a.geo", tmp_path / "answer"
     geo.write_text(BOXES)
-    given = ["0", "modules", f"to={answer}", f"file={geo}", f"case={case}"]
-    given += ["space=1", "own=1", "check=0", "flags=", "sets="]
+    given = ["0", "modules", f"to={answer}", "space=1", "own=1", f"flags=-mesh\n{geo}\n-case\n{case}\n"]
     environment = {**os.environ, "CONTACT_CACHE": str(tmp_path / "cache")}
 
     def ask(text):

@@ -1,7 +1,7 @@
 """What FreeFEM and the shell programs of the package ask of the reader: `main([COMMAND, NAME=VALUE, ...])`.
 
     ready    nothing: whether this Python can run it
-    modules  the macros of a case's second start  file= case= space= sets= own= check= flags= to= cache=
+    modules  the macros that a case's script needs  space= own= flags= to= cache=
     problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= rows= cache=
     again    another mesh of a geometry           file= space= plan= view= to=
 
@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 from .kept import keep, place_of, take
@@ -39,33 +40,36 @@ def ask_modules(of: Words) -> int:
     from .words import Refusal, text_of
 
     flags = of["flags"].split("\n")
+    after = {flag: value for flag, value in reversed(list(pairwise(flags)))}
+    file, path = after.get("-mesh", "none"), after.get("-case", "none")
+    sets = [(flags[i + 1], float(flags[i + 2])) for i, flag in enumerate(flags[:-2]) if flag == "-set"]
     run = Run(
         space=of["space"] == "1",
         own=of["own"] == "1",
         exact="exact" in flags,
         history="-history" in flags,
         axis="-axis" in flags,
-        check=of["check"] == "1",
-        order=dict(zip(flags, flags[1:])).get("-order", "2"),
+        check=after.get("-check") == "1",
+        order=after.get("-order", "2"),
     )
     code = 0
     try:
-        groups, bodies = names_of(Path(of["file"]), run.space, sets_of(of["sets"]), Path(of["cache"]))
-        where = Where(space=run.space, bodies=bodies, overlap=of["file"].lower().endswith(".inp"))
-        case = read_case(text_of(of["case"]), where, groups)
+        groups, bodies = names_of(Path(file), run.space, sets, Path(of["cache"]))
+        where = Where(space=run.space, bodies=bodies, overlap=file.lower().endswith(".inp"))
+        case = read_case(text_of(path), where, groups)
         asked = modules(needs(case), run)
         if case.load_cases and not run.check:
             asked.options.append("rows")
         macros = [*asked.macros, *(f"{name}OnRequest" for name in asked.options)]
         lines = [sys.executable, str(len(macros)), *macros]
     except Refusal as refusal:
-        code, lines = 1, [refusal.text(of["case"])]
+        code, lines = 1, [refusal.text(path)]
     try:
         Path(of["to"]).write_text("\n".join(lines) + "\n", errors="surrogateescape")
     except OSError:
         folder = Path(of["to"]).parent
         allowed = "another folder, named by the variable TMPDIR"
-        print(f"-case {of['case']}: cannot be checked: {folder} cannot be written; allowed: {allowed}")
+        print(f"-case {path}: cannot be checked: {folder} cannot be written; allowed: {allowed}")
         return 2
     return code
 

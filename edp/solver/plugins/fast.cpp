@@ -308,16 +308,52 @@ static const struct { const char *flag, *values, *word, *unless; } needed[] = {
     {"-law", " exponential barrier table linear ", "lawsOnRequest", "eachLaw"},
 };
 extern KN<String> *pkarg;
+extern long mpisize;
+
+static std::string inQuotes(std::string text)
+{
+    for (size_t i = 0; (i = text.find('\'', i)) != std::string::npos; i += 4) text.replace(i, 1, "'\\''");
+    return " '" + text + "'";
+}
+
+// What input/reader/ says of a case before its script is read, as requestCaseModules() (input/case/case-flags.idp) asks it: macros, which the
+// environment keeps for that function. Nothing if it refuses: then that function asks again, and says why.
+static std::string askedOfCase(const std::string &script, const std::string &flags)
+{
+    const std::string name = script.substr(script.rfind('/') + 1), folder = script.substr(0, script.size() - name.size());
+    const bool space = name == "parts-3d.edp";
+    const char *from = getenv("CONTACT_FOLDER");
+    char *edp = realpath(folder.empty() ? "." : folder.c_str(), nullptr), answer[] = "/tmp/modules-XXXXXX";
+    std::string text, words, reader, word;
+    if (edp && (space || name == "parts.edp") && flags.find("\n-case\n") != std::string::npos && flags.find("-help\n") == std::string::npos
+        && mpisize < 2 && !getenv("CONTACT_REQUESTED") && close(mkstemp(answer)) == 0) {
+        std::string command = "sh" + inQuotes(edp + std::string("/input/read.sh")) + " $PPID modules to=" + answer + " own=1 space="
+            + (space ? "1" : "0") + inQuotes("flags=" + flags) + " > /dev/null 2>&1";
+        if (from && *from) command = "cd" + inQuotes(from) + " && " + command;
+        std::ifstream file;
+        if (system(command.c_str()) == 0) file.open(answer);
+        std::getline(file, reader);
+        for (file >> word; file >> word; words += word + " ") text += "defineOnce(" + word + ")\n";
+        if (!text.empty()) setenv("CONTACT_REQUESTED", (" " + words + "caseAsked ").c_str(), 1);
+        if (!text.empty()) setenv("CONTACT_READER", reader.c_str(), 1);
+        unlink(answer);
+    }
+    free(edp);
+    return text;
+}
 
 static void readAtOnce()
 {
-    std::string text = "macro defineOnce(word) IFMACRO(!word)\nNewMacro word() 1 EndMacro\nENDIFMACRO\n//\n";
-    FOR(i, pkarg->N() - 1) for (auto &need : needed) {
-        const std::string flag = *(*pkarg)[i].getap()[0], value = *(*pkarg)[i + 1].getap()[0];
-        if (flag == need.flag && (*need.values ? strstr(need.values, (" " + value + " ").c_str()) != nullptr : value != "0"))
-            text += std::string("IFMACRO(!") + need.unless + ")\ndefineOnce(" + need.word + ")\nENDIFMACRO\n";
+    std::string text = "macro defineOnce(word) IFMACRO(!word)\nNewMacro word() 1 EndMacro\nENDIFMACRO\n//\n", script, flags;
+    FOR(i, pkarg->N()) {
+        const std::string flag = *(*pkarg)[i].getap()[0], value = i + 1 < pkarg->N() ? *(*pkarg)[i + 1].getap()[0] : std::string();
+        flags += flag + "\n";
+        if (flag.size() > 4 && flag.substr(flag.size() - 4) == ".edp") script = flag, flags = "\n";
+        for (auto &need : needed)
+            if (flag == need.flag && (*need.values ? strstr(need.values, (" " + value + " ").c_str()) != nullptr : value != "0"))
+                text += std::string("IFMACRO(!") + need.unless + ")\ndefineOnce(" + need.word + ")\nENDIFMACRO\n";
     }
-    zzzfff->input(text);
+    zzzfff->input(text + askedOfCase(script, flags));
 }
 
 static void Load_Init()
