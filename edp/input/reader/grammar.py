@@ -58,10 +58,6 @@ def no_plastic(where: Where) -> bool:
     return not where.plastic
 
 
-def plane_stress(where: Where) -> bool:
-    return not where.space and where.state == "stress"
-
-
 def off_axis(what: str, value: Vector3, where: Where) -> str:
     """Why a ring cannot have it, or nothing."""
     return f"{what} off the axis; {ALONG_AXIS}" if axisymmetric(where) and value[0] != 0 else ""
@@ -808,7 +804,6 @@ class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
         "kinematic", number("the kinematic hardening modulus", "C", at_least=0, unit="pressure"), default=0.0
     )
     refused = (
-        (plane_stress, f"plastic: not in plane stress; {STRAIN}"),
         (no_plastic, "plastic: read by parts.edp and parts-3d.edp alone; allowed here: elastic bodies"),
     )
 
