@@ -28,7 +28,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     columns = list(dict.fromkeys((row["scene"], words(row)) for row in rows))
     figure = Figure(figsize=(style.PAGE, 0.92 * style.PAGE), layout="constrained")
     panels = figure.subplots(len(MEASURES), 1, sharex=True)
-    for axes, (measure, title) in zip(panels, MEASURES.items(), strict=True):
+    for index, (axes, (measure, title)) in enumerate(zip(panels, MEASURES.items(), strict=True)):
         counts = np.full((len(variants), len(columns)), np.nan)
         failed = np.zeros(counts.shape, bool)
         for row in rows:
@@ -40,7 +40,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.set_yticks(range(len(variants)), variants, fontsize=7)
         axes.invert_yaxis()
         axes.set_ylabel("exchanged ingredients")
-        axes.set_title(f"{title} (hatched: failed)", loc="left")
+        axes.set_title(f"{style.panel(index)} {title} (hatched: failed)", loc="left")
         for place in range(1, len(columns)):
             if columns[place][0] != columns[place - 1][0]:
                 axes.axvline(place - 0.5, color=style.BLACK, linewidth=0.8)

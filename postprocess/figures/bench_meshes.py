@@ -48,6 +48,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         raise ResultsError(runs[0].path / "meshes.csv", "no run of it converged")
     figure = Figure(figsize=(style.PAGE, 0.85 * style.PAGE), layout="constrained")
     grid = figure.subplots(len(PROBLEMS), len(ERRORS), sharex="row", squeeze=False)
+    letter = 0
     for line, (title, wanted) in zip(grid, PROBLEMS.items(), strict=True):
         group = select(rows, **wanted)
         for axes, (column, quantity) in zip(line, ERRORS.items(), strict=True):
@@ -62,7 +63,8 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             for name in RIVALS:
                 rival = [row for row in known if method(row) == name]
                 axes.plot(seconds(rival), numbers(rival, column), **rival_look(name))
-            axes.set_title(f"{title}: {quantity}", loc="left", fontsize=8)
+            axes.set_title(f"{style.panel(letter)} {title}: {quantity}", loc="left", fontsize=8)
+            letter += 1
             axes.grid(color="0.9", linewidth=0.5)
             style.set_log(axes, "xy", 4)
     for axes in (*grid[-1, :2], *grid[-2, 2:]):
