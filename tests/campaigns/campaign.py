@@ -5,10 +5,10 @@ no row of yet. What makes a row current are the case's name, script and flags an
 sources are copied first, so that a file edited meanwhile does not mix two versions. Runs that do not converge, crash or
 take too long are rows too: the column `status` says so.
 
-Seconds: `cpu`, `seconds_*` are process CPU seconds, told by the run itself; measured from outside are `wall`, of the
-whole process, start to end, `used`, its CPU seconds with those of the processes that it starts, and `memory`, its greatest
-resident set in MB. One BLAS thread. A case with several
-repeats gives the median of each of these and of `costRatio`; everything else is that of the first repeat.
+Seconds: `cpu`, `seconds_*` are process CPU seconds, told by the run itself. From outside are measured `wall`, of the
+whole process, start to end, `used`, its CPU seconds with those of the processes that it starts, and `memory`, its
+greatest resident set in MB. One BLAS thread. A case with several repeats gives the median of each of these and of
+`costRatio`; everything else is that of the first repeat.
 """
 
 import contextlib

@@ -60,7 +60,7 @@ WHOLE = "CPU time of the command"
 
 
 def peers() -> Figure:
-    """Error of the force over seconds: (a) methods and elements on the paper's test; (b), (c) whole commands of two codes.
+    """Error of the force over seconds: (a) methods and elements on the paper's test; (b), (c) whole commands.
 
     A point is the least seconds to an error, its word the element that takes them. NGSolve is drawn a second time as
     solved on the contact's unknowns.
@@ -80,7 +80,7 @@ def peers() -> Figure:
             x, y = fronts(least(row, part), errors)
             axes.plot(x, y, markersize=3.5, linewidth=1, label=name, **look)
             named = dict(zip(errors, elements(row, part), strict=True))
-            for at, error in zip(x, y, strict=True):
+            for at, error in zip(x, y, strict=True) if part < 2 else ():  # the words of the third would cover others
                 place: style.Look = {"xytext": (5, 0) if part else (-5, 0), "ha": "left" if part else "right"}
                 place |= {"va": "center", "color": look["color"], "fontsize": 7}
                 axes.annotate(named[error], (at, error), textcoords="offset points", **place)
@@ -91,7 +91,8 @@ def peers() -> Figure:
         axes.set_xlabel(f"{what} [s]")
         axes.grid(color="0.92", linewidth=0.4)
         style.set_log(axes, "x", 5)
-        axes.set_xlim(0.75 * axes.get_xlim()[0], None)  # room for the words at the left
+        least_x, most_x = axes.get_xlim()
+        axes.set_xlim(0.75 * least_x, 1.2 * most_x)  # room for the words at both sides
         narrow: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.2), "fontsize": 8}
         axes.legend(**narrow)
     style.set_log(left, "y", 7)
