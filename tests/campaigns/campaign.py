@@ -377,7 +377,8 @@ def run_group(
                 given = {name: number_or_text(text) for name, text in item.parameters.items()}
                 summary |= {"parameters": told["parameters"] | given}
                 summary["seconds"]["total"] = row["seconds"]
-            one = Outcome(row["code"], outcome.wall / len(group), outcome.memory, row["message"], summary)
+            shares = outcome.wall / len(group), outcome.used / len(group)
+            one = Outcome(row["code"], *shares, outcome.memory, row["message"], summary)
             further = measure(item, summary, Path(folder)) if measure and row["code"] == 0 else {}
             rows.append({**row_of(item, [one]), **further})
     return rows
