@@ -252,6 +252,8 @@ def make_kit(folder: Path) -> dict[str, bytes]:
     files["algorithm1.edp"] = own.encode()
     files["algorithm1.html"] = listing(own)
     files["crib.html"] = printed_page("FreeFEM's idioms in lab 0", read_page(LABS / "CRIB.md"), LABS)
+    docs = LABS.parent / "docs"
+    files["glossary.html"] = printed_page("Glossary", read_page(docs / "GLOSSARY.md"), docs)
     expected = []
     for lab in folders():
         name = lab.name
@@ -260,7 +262,7 @@ def make_kit(folder: Path) -> dict[str, bytes]:
         files[f"answers-{name}.csv"] = template(answers).encode()
         expected.append(answers)
     files["teacher/expected.html"] = printed_page(
-        "Expected values", "# For the teacher alone\n\n" + "\n\n".join(expected), LABS
+        "Expected values", "# Only for the teacher\n\n" + "\n\n".join(expected), LABS
     )
     groups = {
         "The lecture": {"slides.html": "slides: arrow keys; printed, a page each"},
@@ -269,13 +271,14 @@ def make_kit(folder: Path) -> dict[str, bytes]:
             "algorithm1.html": "its listing, two columns",
             "crib.html": "FreeFEM's idioms in it",
         },
-        "Handouts": {f"handout-{lab.name}.html": title_of(lab) for lab in folders()},
+        "Handouts": {f"handout-{lab.name}.html": title_of(lab) for lab in folders()}
+        | {"glossary.html": "the terms of slides and handouts"},
         "Answers to fill in": {
             f"answers-{lab.name}.csv": f"then make check-lab {lab.name.split('-')[0]} ANSWERS=file" for lab in folders()
         },
-        "For the teacher alone": {
+        "Only for the teacher": {
             "teacher/notes.html": "the speaker's notes",
-            "teacher/expected.html": "answers and expected values; keep the folder teacher/ when you hand out the kit",
+            "teacher/expected.html": "answers and expected values; do not hand out the folder teacher/",
         },
     }
     parts = [element("h1", "Teaching kit")]

@@ -60,13 +60,18 @@ def too_wide(page, width):
     )
 
 
-def wrong(browser, path, prepare="0"):
-    """All that is wrong with a file in a window of a desk and of a phone, after a script has been run in it."""
+DESK_AND_PHONE = ((1200, 800), (390, 800))
+
+
+def wrong(browser, path, prepare="0", windows=DESK_AND_PHONE, schemes=("light",)):
+    """All that is wrong with a file in windows of a desk and of a phone, after a script has been run in it."""
     found = []
-    for width, height in ((1200, 800), (390, 800)):
-        page = browser.open(path, width, height)
+    for scheme in schemes:
+        page = browser.open(path, *windows[0], scheme)
         page.evaluate(prepare)
-        found += [f"{width}: {fault}" for fault in faults(page)]
-        found += [f"{width}: too wide: {piece}" for piece in too_wide(page, width)]
+        for width, height in windows:
+            page.resize(width, height)
+            found += [f"{width} {scheme}: {fault}" for fault in faults(page)]
+            found += [f"{width} {scheme}: too wide: {piece}" for piece in too_wide(page, width)]
         page.call("Page.close")
     return found

@@ -80,14 +80,15 @@ class Browser:
         message, _, self.buffer = self.buffer.partition(b"\0")
         return json.loads(message)
 
-    def open(self, path, width=1200, height=900):
-        """A page of its own for a file, loaded to the end, in a window of that size."""
+    def open(self, path, width=1200, height=900, scheme="light"):
+        """A page of its own for a file, loaded to the end, in a window of that size, light or dark."""
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable", session)
         page = Page(self, session)
         page.resize(width, height)
+        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
         self.call("Page.navigate", session, url=Path(path).resolve().as_uri())
         page.wait("document.readyState == 'complete'")
         return page

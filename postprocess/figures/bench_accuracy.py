@@ -48,12 +48,12 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     peers = [row for row in peers if is_converged(row) and row["script"].endswith(".py")]
     figure = Figure(figsize=(style.COLUMN, 1.3 * style.COLUMN), layout="constrained")
     grid = figure.subplots(3, 2)
-    for axes, (title, wanted) in zip(grid.flat, PROBLEMS.items(), strict=False):
+    for index, (axes, (title, wanted)) in enumerate(zip(grid.flat, PROBLEMS.items(), strict=False)):
         for name in SERIES:
             draw_series(axes, select(rows, name=name, **wanted), LOOKS[name])
         draw_peers(axes, select(peers, m=3.0, **wanted))
         style.set_log(axes, "xy", 5)
-        axes.set_title(title, loc="left", fontsize=8, pad=3)
+        axes.set_title(f"{style.panel(index)} {title}", loc="left", fontsize=8, pad=3)
         axes.grid(color="0.92", linewidth=0.4)
         axes.tick_params(labelsize=7)
     for axes in (grid[2, 0], grid[1, 1]):

@@ -61,7 +61,6 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.set_title(style.panel(index), loc="left")
         axes.grid(color="0.9", linewidth=0.5)
         style.set_log(axes, "x" if axes is ratio else "xy", 5)
-    ratio.axhline(1.25, color=style.GREY, linewidth=0.8, linestyle=(0, (4, 2)))
     ratio.set_ylim(1, max(1.4, 1.05 * np.nanmax(numbers([row for row in rows if is_converged(row)], "costRatio"))))
     style.legend_outside(figure, "upper center", ncols=2)
     name_meshes(figure, rows)

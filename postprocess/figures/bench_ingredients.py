@@ -12,11 +12,18 @@ RUNS = (1, 1)
 READ = read_campaign
 
 FLAGS = {
-    "start": "start {}",
-    "preconditioner": "preconditioner {}",
-    "inner": "inner {}",
-    "threshold": "threshold {}",
-    "T0": "T0 {}",
+    "start": {"none": "no start"},
+    "preconditioner": {"diagonal": "diagonal preconditioner", "none": "no preconditioner"},
+    "inner": {"newton": "plain Newton steps"},
+    "threshold": {"pointwise": "pointwise thresholds"},
+    "T0": {"0": "$T^0 = 0$", "d0": "$T^0 = d_0$"},
+}
+SCENES = {
+    "disc-on-block": "rigid disc",
+    "meshed-disc": "meshed disc",
+    "confined-block": "confined block",
+    "wavy": "wave",
+    "flat-punch": "flat punch",
 }
 MEASURES = {"newton": "linearisations", "backsolves": "back-substitutions"}
 
@@ -28,7 +35,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     columns = list(dict.fromkeys((row["scene"], words(row)) for row in rows))
     figure = Figure(figsize=(style.PAGE, 0.92 * style.PAGE), layout="constrained")
     panels = figure.subplots(len(MEASURES), 1, sharex=True)
-    for axes, (measure, title) in zip(panels, MEASURES.items(), strict=True):
+    for index, (axes, (measure, title)) in enumerate(zip(panels, MEASURES.items(), strict=True)):
         counts = np.full((len(variants), len(columns)), np.nan)
         failed = np.zeros(counts.shape, bool)
         for row in rows:
@@ -40,7 +47,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.set_yticks(range(len(variants)), variants, fontsize=7)
         axes.invert_yaxis()
         axes.set_ylabel("exchanged ingredients")
-        axes.set_title(f"{title} (hatched: failed)", loc="left")
+        axes.set_title(f"{style.panel(index)} {title} (hatched: failed)", loc="left")
         for place in range(1, len(columns)):
             if columns[place][0] != columns[place - 1][0]:
                 axes.axvline(place - 0.5, color=style.BLACK, linewidth=0.8)
@@ -48,7 +55,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for scene in dict.fromkeys(scene for scene, _ in columns):
         places = [place for place, column in enumerate(columns) if column[0] == scene]
         above = panels[0].get_xaxis_transform()
-        panels[0].text(np.mean(places), 1.03, scene, transform=above, ha="center", fontsize=7.5)
+        panels[0].text(np.mean(places), 1.03, SCENES[scene], transform=above, ha="center", fontsize=7.5)
     panels[-1].set_xlabel(r"stiffness $\kappa$ [stress/length$^m$], exponent $m$ [–]; or another law")
     panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=16)
     name_meshes(figure, rows)
@@ -59,8 +66,10 @@ def variant(row: dict) -> str:
     """The ingredients that the run's flags exchange."""
     texts = row["flags"].split()
     flags = dict(zip(texts[::2], texts[1::2], strict=True))
-    found = [form.format(flags[f"-{name}"]) for name, form in FLAGS.items() if f"-{name}" in flags]
-    return ",\n".join([", ".join(found[:3]), *([", ".join(found[3:])] if found[3:] else [])]) if found else "default"
+    found = [told[flags[f"-{name}"]] for name, told in FLAGS.items() if f"-{name}" in flags]
+    if len(found) == len(FLAGS):
+        return f"all of these, {found[-1]}"
+    return ", ".join(found) or "default"
 
 
 def words(row: dict) -> str:

@@ -36,7 +36,7 @@ PROBLEMS: dict[str, Cells] = {
     r"$\kappa = 10^{12}$": {"scene": "disc-on-block", "kappa": 1e12, "m": 3.0},
     "sphere": {"scene": "sphere-on-block"},
 }
-ELEMENTS = ("P1", "P2", "P4", "P4, -ends")
+ELEMENTS = {"P1": "P1", "P2": "P2", "P3": "P3", "P4": "P4", "P4, -ends": "P4, graded to the ends"}
 RIVALS = ("newton", "linesearch", "paper 0", "paper d0", "incremental", "ipopt")
 COLUMNS = "flags status method T0 scene kappa m order h seconds_assembly seconds_factorisation seconds_contact"
 
@@ -48,6 +48,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         raise ResultsError(runs[0].path / "meshes.csv", "no run of it converged")
     figure = Figure(figsize=(style.PAGE, 0.85 * style.PAGE), layout="constrained")
     grid = figure.subplots(len(PROBLEMS), len(ERRORS), sharex="row", squeeze=False)
+    letter = 0
     for line, (title, wanted) in zip(grid, PROBLEMS.items(), strict=True):
         group = select(rows, **wanted)
         for axes, (column, quantity) in zip(line, ERRORS.items(), strict=True):
@@ -62,15 +63,17 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
             for name in RIVALS:
                 rival = [row for row in known if method(row) == name]
                 axes.plot(seconds(rival), numbers(rival, column), **rival_look(name))
-            axes.set_title(f"{title}: {quantity}", loc="left", fontsize=8)
+            axes.set_title(f"{style.panel(letter)} {title}: {quantity}", loc="left", fontsize=8)
+            letter += 1
             axes.grid(color="0.9", linewidth=0.5)
             style.set_log(axes, "xy", 4)
     for axes in (*grid[-1, :2], *grid[-2, 2:]):
         axes.set_xlabel("CPU time [s]")
     for axes in grid[:, 0]:
         axes.set_ylabel("relative error [–]")
-    for place, name in enumerate(ELEMENTS):
-        grid[0, 0].plot([], [], **style.curve(place), label=f"default method, {name}")
+    for place, (name, words) in enumerate(ELEMENTS.items()):
+        if any(method(row) == "xnewton" and element(row) == name for row in rows):
+            grid[0, 0].plot([], [], **style.curve(place), label=f"default method, {words}")
     for name in RIVALS:
         if any(method(row) == name for row in rows):
             grid[0, 0].plot([], [], **rival_look(name), label=NAMES[name])

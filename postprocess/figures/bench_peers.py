@@ -34,11 +34,11 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     lines = -(-len(problems) // 2)
     figure = Figure(figsize=(style.COLUMN, 0.5 * style.COLUMN * lines + 0.3), layout="constrained")
     grid = figure.subplots(lines, 2, sharey=True, sharex=True, squeeze=False)
-    for axes, which in zip(grid.flat, problems, strict=False):
+    for index, (axes, which) in enumerate(zip(grid.flat, problems, strict=False)):
         for code, color in enumerate(COLORS):
             draw_code(axes, [row for row in rows if problem(row) == which and code_index(row) == code], color)
         annotate_failures(axes, [row for row in every if not is_converged(row) and problem(row) == which])
-        axes.set_title(panel_title(*which), loc="left", fontsize=8)
+        axes.set_title(f"{style.panel(index)} {panel_title(*which)}", loc="left", fontsize=8)
         axes.grid(color="0.9", linewidth=0.5)
     style.set_log(grid[0, 0], "xy")
     for axes in grid.flat[len(problems) :]:

@@ -37,10 +37,11 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     figure = Figure(figsize=(style.PAGE, 0.3 * style.PAGE * len(MEASURES)), layout="constrained")
     grid = figure.subplots(len(MEASURES), len(laws), sharex="row", sharey=True, squeeze=False)
     for column, (kappa, m) in enumerate(laws):
-        for axes, (measure, label) in zip(grid[:, column], MEASURES.items(), strict=True):
+        for line, (axes, (measure, label)) in enumerate(zip(grid[:, column], MEASURES.items(), strict=True)):
             for name in present:
                 draw_curve(axes, [row for row in select(rows, kappa=kappa, m=m) if method(row) == name], name, measure)
             axes.set_xlabel(label)
+            axes.set_title(style.panel(len(laws) * line + column), loc="left")
             axes.grid(color="0.9", linewidth=0.5)
             style.set_log(axes, "xy")
         grid[0, column].set_title(rf"$\kappa = {style.number(kappa)}$, $m = {style.number(m)}$")
@@ -48,7 +49,8 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
         axes.set_ylabel("relative error of $p$ [–]")
     for name in present:
         grid[0, 0].plot([], [], **method_look(name), label=NAMES[name])
-    grid[0, 0].plot([], [], "x", color=style.GREY, label="failed")
+    if not all(map(is_converged, rows)):
+        grid[0, 0].plot([], [], "x", color=style.GREY, label="failed")
     style.legend_outside(figure, "upper center", ncols=4)
     name_meshes(figure, rows)
     return figure

@@ -39,6 +39,8 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     right.text(0.97, 0.06, f"line: ${slope:.2f}\\, x {offset:+.1f}$", transform=right.transAxes, ha="right", fontsize=8)
     left.plot(numbers(rows[:1], "kappa"), [min(10, scaled.min() / 10)], " ")  # room for the words
     style.set_log(left, "xy")
+    for index, axes in enumerate((left, right)):
+        axes.set_title(style.panel(index), loc="left")
     left.set_xlabel(r"stiffness of the law $\kappa$ [stress/length$^m$]")
     left.set_ylabel("condition number of the first tangent [–]")
     right.set_xlabel(r"$x = \ln(s_0/s^*)\,/\,\ln(m/(m-1))$ [–]")

@@ -65,7 +65,7 @@ def panels(
             above = figure.add_subplot(cell)
         cells = [[select(rows, law="power", kappa=kappa, m=m) for m in exponents] for kappa in kappas]
         heat_map(above, *greatest(cells, measure), (mpl.colormaps["viridis_r"], scale))
-        above.set_title(name, loc="left")
+        above.set_title(f"{style.panel(place)} {name}", loc="left")
         above.set_yticks(range(len(kappas)), exponent_ticks(kappas))
         above.set_xticks(range(len(exponents)), [f"{m:g}" for m in exponents])
         above.set_ylabel(r"stiffness $\kappa$ [stress/length$^m$]" if place % wide == 0 else "")

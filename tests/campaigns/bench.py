@@ -141,7 +141,7 @@ def meshes(_root: Path) -> list[campaign.Case]:
     for law in CASES:
         add("disc-on-block", law, RIVALS[0], PLANE if law == CASES[0] else PLANE_SHORT)
         if law[0] >= 1e9:
-            add("disc-on-block", law, RIVALS[0], [({**PLANE[2][0], "ends": ends(*law)}, PLANE[2][1])])
+            add("disc-on-block", law, RIVALS[0], [({**PLANE[-1][0], "ends": ends(*law)}, PLANE[-1][1])])
     for rival in RIVALS[1:]:
         add("disc-on-block", CASES[0], rival, RIVALS_PLANE)
     add(SPHERE, CASES[0], RIVALS[0], SPACE)

@@ -5,9 +5,10 @@ no row of yet. What makes a row current are the case's name, script and flags an
 sources are copied first, so that a file edited meanwhile does not mix two versions. Runs that do not converge, crash or
 take too long are rows too: the column `status` says so.
 
-Seconds: `cpu`, `seconds_*` are process CPU seconds, told by the run itself; `wall` is that of the whole process, start
-to end, and `memory` its greatest resident set in MB, both measured from outside. One BLAS thread. A case with several
-repeats gives the median of each of these and of `costRatio`; everything else is that of the first repeat.
+Seconds: `cpu`, `seconds_*` are process CPU seconds, told by the run itself. From outside are measured `wall`, of the
+whole process, start to end, `used`, its CPU seconds with those of the processes that it starts, and `memory`, its
+greatest resident set in MB. One BLAS thread. A case with several repeats gives the median of each of these and of
+`costRatio`; everything else is that of the first repeat.
 """
 
 import contextlib
@@ -52,7 +53,7 @@ PARAMETERS += "threshold inner start preconditioner".split()
 ENDED = "status message repeats".split()
 COUNTS = "adaptations newton kernelNewton factorisations backsolves contactPoints wallPoints ndof points".split()
 RESULTS = "residual modelError force pressureMax overlapMax halfWidth energy".split()
-TIMES = "wall cpu memory costRatio seconds_mesh seconds_assembly seconds_factorisation seconds_contact".split()
+TIMES = "wall cpu used memory costRatio seconds_mesh seconds_assembly seconds_factorisation seconds_contact".split()
 MACHINE = "machine cores freefem threads commit day".split()
 COLUMNS = [*CASE, "scene", *PARAMETERS, *ENDED, *COUNTS, *RESULTS, *TIMES, *MACHINE]
 WORDS = frozenset([*CASE, "scene", *MACHINE, "status", "message"])
@@ -200,6 +201,7 @@ class Outcome:
 
     code: int | None
     wall: float
+    used: float
     memory: float
     output: str
     summary: dict
@@ -245,7 +247,8 @@ class Processes:
             printed.seek(0)
             output = printed.read(10**6).decode(errors="replace")
         code = None if late.is_set() else process.returncode
-        return Outcome(code, wall, usage.ru_maxrss / 1024, output, read_summary(folder / "summary.json"))
+        used = usage.ru_utime + usage.ru_stime
+        return Outcome(code, wall, used, usage.ru_maxrss / 1024, output, read_summary(folder / "summary.json"))
 
     def kill(self, pid: int) -> None:
         with self.lock:
@@ -302,6 +305,7 @@ def row_of(item: Case, outcomes: list[Outcome]) -> dict:
     row["message"] = message_of(last)
     row["repeats"] = len(outcomes)
     row["wall"] = statistics.median(outcome.wall for outcome in outcomes)
+    row["used"] = statistics.median(outcome.used for outcome in outcomes)
     row["memory"] = statistics.median(outcome.memory for outcome in outcomes)
     told = [outcome.summary for outcome in outcomes if outcome.summary]
     if told:
@@ -373,7 +377,8 @@ def run_group(
                 given = {name: number_or_text(text) for name, text in item.parameters.items()}
                 summary |= {"parameters": told["parameters"] | given}
                 summary["seconds"]["total"] = row["seconds"]
-            one = Outcome(row["code"], outcome.wall / len(group), outcome.memory, row["message"], summary)
+            shares = outcome.wall / len(group), outcome.used / len(group)
+            one = Outcome(row["code"], *shares, outcome.memory, row["message"], summary)
             further = measure(item, summary, Path(folder)) if measure and row["code"] == 0 else {}
             rows.append({**row_of(item, [one]), **further})
     return rows

@@ -20,7 +20,7 @@ bench) campaign bench.py && draw;;
 bench-large) env $MPI $PYTHON tests/campaigns/bench.py large;;
 bench-ranks) env $MPI $PYTHON tests/campaigns/bench.py ranks;;
 bench-peers)
-    campaign peers.py && campaign peers_condensed.py &&
+    campaign peers.py && campaign peers_condensed.py && campaign peers_whole.py &&
         $PYTHON -m postprocess figure bench_peers --out "$RESULTS/bench/bench_peers.pdf" "$RESULTS/bench" || exit
     calculix 'parts beside CalculiX' || exit 0
     campaign calculix.py --space && campaign calculix_parts.py;;

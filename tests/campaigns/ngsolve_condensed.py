@@ -136,7 +136,7 @@ def solve(flags: argparse.Namespace) -> tuple[dict, np.ndarray]:
     begin = time.process_time()
     mesh = block(problem, flags)
     meshed = time.process_time()
-    for _ in range(2):
+    for _ in range(2 - flags.cold):
         solution = solve_once(problem, mesh, flags)
     results, points = plane_results(problem, solution, flags.order)
     clock = begin, meshed, meshed + sum(solution.seconds.values())
@@ -151,6 +151,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("-corners", type=int, default=4, help="layers of geometric refinement to the clamped corners")
     parser.add_argument("-ends", type=float, default=0, help="half the contact's width, if known: layers to its ends")
     parser.add_argument("-half", type=int, choices=[0, 1], default=0, help="1: the right half of the block")
+    parser.add_argument("-cold", type=int, choices=[0, 1], default=0, help="1: not solved once before it is timed")
     return write_run(parser.parse_args(argv), solve)
 
 

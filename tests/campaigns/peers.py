@@ -239,7 +239,17 @@ def measures(sources: Path, processes: campaign.Processes, before: Callable = co
 # ---------------------------------------------------------------- what came out
 
 
-def medians(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
+def seconds(row: dict[str, str]) -> float:
+    """CPU seconds from the mesh to the displacement, with those of the run that must come before."""
+    return contact_seconds(row) + float(row["secondsBefore"] or 0)
+
+
+def spent(row: dict) -> float:
+    """The seconds that `medians` has found."""
+    return row["seconds"]
+
+
+def medians(rows: Iterable[dict[str, str]], seconds: Callable = seconds) -> list[dict[str, str]]:
     """One row a case, the first round's, with `seconds` and `mesh`: medians over the rounds that converged."""
     groups: dict = {}
     for row in rows:
@@ -252,11 +262,6 @@ def medians(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
         first["mesh"] = float(np.median([value(row, "seconds_mesh") for row in good])) if good else float("nan")
         found.append(first)
     return found
-
-
-def seconds(row: dict[str, str]) -> float:
-    """CPU seconds from the mesh to the displacement, with those of the run that must come before."""
-    return contact_seconds(row) + float(row["secondsBefore"] or 0)
 
 
 def problem_of(row: dict[str, str]) -> tuple[str, float, float]:
@@ -359,7 +364,7 @@ def failure(row: dict) -> bool:
 
 def best(rows: list[dict], error: float, peer: bool, column: str = "forceError") -> dict | None:
     """The cheapest run of one code to this error."""
-    return cheapest([row for row in rows if theirs(row) == peer], error, lambda row: row["seconds"], column)
+    return cheapest([row for row in rows if theirs(row) == peer], error, spent, column)
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -50,13 +50,17 @@ METHODS = {
     ("newton", "best"): ("Newton, best element", {"color": style.GREEN, "marker": "^"}),
     ("paper, T0 = 0", "best"): ("paper's scheme, best element", {"color": style.ORANGE, "marker": "v"}),
 }
-LAWS = {"1e3, 3": "soft law", "1e12, 3": "stiff law"}
-CODES = {"this package": (style.BLUE, "o"), "NGSolve": (style.VERMILION, "s")}
-CONDENSED = {"color": style.GREY, "marker": "^", "linestyle": (0, (1, 1))}
+LAWS = {"soft": "soft law", "stiff": "stiff law"}
+CODES: dict[str, style.Look] = {
+    "this package": {"color": style.BLUE, "marker": "o"},
+    "NGSolve": {"color": style.VERMILION, "marker": "s"},
+    "NGSolve, condensed": {"color": style.GREY, "marker": "^", "linestyle": (0, (1, 1))},
+}
+WHOLE = "CPU time of the command"
 
 
 def peers() -> Figure:
-    """Error of the force over seconds: (a) methods and elements on the paper's test; (b), (c) beside another code.
+    """Error of the force over seconds: (a) methods and elements on the paper's test; (b), (c) whole commands.
 
     A point is the least seconds to an error, its word the element that takes them. NGSolve is drawn a second time as
     solved on the contact's unknowns.
@@ -69,29 +73,26 @@ def peers() -> Figure:
         (row,) = [row[3:] for row in rows if row[:3] == ["1e3, 3", method, element]]
         left.plot(*fronts(least(row), errors), label=words, markersize=3.5, linewidth=1, **look)
     for axes, (law, words) in zip(beside, LAWS.items(), strict=True):
-        head, *rows = cells("peers")
+        head, *rows = cells("peers-whole")
         errors = np.array([float(cell) for cell in head[1:]])
         (row,) = [row[1:] for row in rows if row[0] == law]
-        for part, (name, (colour, marker)) in enumerate(CODES.items()):
+        for part, (name, look) in enumerate(CODES.items()):
             x, y = fronts(least(row, part), errors)
-            axes.plot(x, y, color=colour, marker=marker, markersize=3.5, linewidth=1, label=name)
+            axes.plot(x, y, markersize=3.5, linewidth=1, label=name, **look)
             named = dict(zip(errors, elements(row, part), strict=True))
-            for at, error in zip(x, y, strict=True):
+            for at, error in zip(x, y, strict=True) if part < 2 else ():  # the words of the third would cover others
                 place: style.Look = {"xytext": (5, 0) if part else (-5, 0), "ha": "left" if part else "right"}
-                place |= {"va": "center", "color": colour, "fontsize": 7}
+                place |= {"va": "center", "color": look["color"], "fontsize": 7}
                 axes.annotate(named[error], (at, error), textcoords="offset points", **place)
-        head, *rows = cells("peers-condensed")
-        (row,) = [row[2:] for row in rows if row[:2] == [law, "whole"]]
-        x, y = fronts(least(row, 1), np.array([float(cell) for cell in head[2:]]))
-        axes.plot(x, y, label="NGSolve, condensed (another machine)", markersize=3.5, linewidth=1, **CONDENSED)
-        axes.set_title(f"{style.panel(list(LAWS).index(law) + 1)} {words}, beside NGSolve", loc="left")
+        axes.set_title(f"{style.panel(list(LAWS).index(law) + 1)} {words}, whole command", loc="left")
     left.set_title(f"{style.panel(0)} methods and elements, soft law", loc="left")
     left.set_ylabel("error of the force [–]")
-    for axes in (left, *beside):
-        axes.set_xlabel(f"{SECONDS} [s]")
+    for axes, what in zip((left, *beside), (SECONDS, WHOLE, WHOLE), strict=True):
+        axes.set_xlabel(f"{what} [s]")
         axes.grid(color="0.92", linewidth=0.4)
         style.set_log(axes, "x", 5)
-        axes.set_xlim(0.75 * axes.get_xlim()[0], None)  # room for the words at the left
+        least_x, most_x = axes.get_xlim()
+        axes.set_xlim(0.75 * least_x, 1.2 * most_x)  # room for the words at both sides
         narrow: style.Look = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.2), "fontsize": 8}
         axes.legend(**narrow)
     style.set_log(left, "y", 7)

@@ -19,6 +19,7 @@ import covered
 import models
 import peers
 import peers_condensed
+import peers_whole
 import stability
 
 DOCUMENTS = [campaign.ROOT / "tests" / name for name in ("RESULTS.md", "COST.md")]
@@ -33,6 +34,7 @@ LISTS: dict[str, Callable[[Path], list[campaign.Case]]] = {
 LISTS |= {"bench/peers": peers.cases, "stability/stability": stability.cases, "coverage/coverage": covered.cases}
 LISTS |= {"coverage/space": covered.cases_in_space, "conditioning/conditioning": conditioning.cases}
 LISTS |= {"models/models": models.cases, "bench/condensed": peers_condensed.cases}
+LISTS |= {"bench/whole": peers_whole.cases}
 LISTS |= {"bench/calculix-parts": calculix_parts.cases}
 # name: (CSV below results/, its rows to the table)
 TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
@@ -54,6 +56,7 @@ TABLES: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "peers-others": ("bench/peers", peers.other_tables),
     "peers-failed": ("bench/peers", peers.failed_table),
     "peers-condensed": ("bench/condensed", peers_condensed.table),
+    "peers-whole": ("bench/whole", peers_whole.table),
     "parts": ("bench/calculix-parts", calculix_parts.table),
     "parts-cost": ("bench/calculix-parts", calculix_parts.cost_table),
     "counts": ("stability/stability", stability.parts_table),

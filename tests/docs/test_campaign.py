@@ -84,7 +84,7 @@ def made_up(item, columns, every):
     dofs = 512 / float(item.parameters.get("h", 0.25)) ** 2
     row = dict.fromkeys(columns, "1") | {"p0": "0.02", "beta": "60", "T0": "0", "costRatio": "1.3"}
     row |= {name: text for name, text in item.parameters.items() if name in columns}
-    row |= campaign.row_of(item, [campaign.Outcome(0, 1, dofs / 500, "", {})]) | {k: v for k, v in row.items() if v}
+    row |= campaign.row_of(item, [campaign.Outcome(0, 1, 1, dofs / 500, "", {})]) | {k: v for k, v in row.items() if v}
     row |= {"name": item.name, "script": item.script, "flags": " ".join(item.flags), "memory": dofs / 500}
     row |= {"status": "timeout" if every == 0 else "converged", "ndof": dofs, "cpu": 1e-5 * dofs}
     row |= {"newton": 1 + len(row["flags"]) % 7, "seconds_assembly": 1e-5 * dofs}

@@ -123,16 +123,35 @@ SHOWN = [
 ]
 
 
-def test_site(tmp_path):
-    """The whole site shall be built: Sphinx's warnings and dead links end it; some of its pages are for everyone."""
-    assert documents.build(tmp_path / "site") == 0
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The whole site: Sphinx's warnings and dead links end it."""
+    folder = tmp_path_factory.mktemp("site")
+    assert documents.build(folder) == 0
+    return folder
+
+
+def test_site(site, tmp_path):
+    """The whole site shall be built; some of its pages are for everyone."""
     if CHROMIUM is None:
         return
     pytest.importorskip("axe_core_python")
-    with Browser(tmp_path / "profile") as browser:
+    with Browser(tmp_path) as browser:
         for name in SHOWN:
-            assert access.wrong(browser, tmp_path / f"site/{name}.html") == [], name
+            assert access.wrong(browser, site / f"{name}.html") == [], name
         for name in ("index", "edp/docs/howto/install"):
-            page = browser.open(tmp_path / f"site/{name}.html", 1200, 800)
+            page = browser.open(site / f"{name}.html", 1200, 800)
             assert access.walked(page) == ([], []), name
             assert page.evaluate("controls.length") > 50
+
+
+@needs_chromium
+def test_every_page(site, tmp_path):
+    """Every page of the site: no serious fault on a phone, a desk and a wide screen, light and dark."""
+    pytest.importorskip("axe_core_python")
+    windows = ((390, 800), (1280, 800), (1920, 1080))
+    pages = sorted(site.rglob("*.html"))
+    assert len(pages) > 150
+    with Browser(tmp_path) as browser:
+        found = {page.name: access.wrong(browser, page, "0", windows, ("light", "dark")) for page in pages}
+    assert {name: faults for name, faults in found.items() if faults} == {}

@@ -71,7 +71,7 @@ def as_if(item, further):
     """The row of a case that has not been run: sevens."""
     summary = dict.fromkeys([*campaign.COUNTS, *campaign.RESULTS, "costRatio"], 7)
     seconds = dict.fromkeys("total mesh assembly factorisation contact".split(), 7)
-    row = campaign.row_of(item, [campaign.Outcome(0, 7, 7, "", {**summary, "seconds": seconds})])
+    row = campaign.row_of(item, [campaign.Outcome(0, 7, 7, 7, "", {**summary, "seconds": seconds})])
     return {name: "" if value is None else str(value) for name, value in {**row, **dict.fromkeys(further, 7)}.items()}
 
 

@@ -86,6 +86,7 @@ def test_for_everyone(made, tmp_path):
             "handout-0-algorithm",
             "handout-3-threshold",
             "crib",
+            "glossary",
             "algorithm1",
         ):
             assert access.wrong(browser, made / f"{name}.html") == [], name

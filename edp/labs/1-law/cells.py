@@ -11,15 +11,15 @@ figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained
 left.plot(series["approach"], series["force"], "o-")
 if first_touch is not None:
     left.axvline(first_touch, color="tab:red")
-left.set_xlabel("approach u0 (length)")
-left.set_ylabel("force")
+left.set_xlabel("approach u0 [length unit]")
+left.set_ylabel("force [force/length unit]")
 modulus, depth, delta = 100 * 0.7 / (1.3 * 0.4), 20, 2.5 - 0.5 + 0.25
 s = np.linspace(0, delta, 200)
 right.plot(s, modulus / depth * (delta - s), color="grey", label="the block")
 for kappa, result in runs.items():
     right.plot(result.contact["s"].mean(), result.contact["pressure"].mean(), "o", label=f"κ = {kappa:g}")
-right.set_xlabel("s = d − d0 (length)")
-right.set_ylabel("pressure")
+right.set_xlabel("overlap beyond d0, s = d − d0 [length unit]")
+right.set_ylabel("pressure [force/area unit]")
 right.legend();
 
 # %% 3

@@ -5,6 +5,6 @@ points, friction = columns(result.path / "contact.csv"), result.summary["paramet
 figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
 axes.plot(points["x"], friction * points["pressure"], "--", label="bound μ p")
 axes.plot(points["x"], np.abs(points["shear"]), label="friction")
-axes.set_xlabel("x (length)")
-axes.set_ylabel("traction (pressure)")
+axes.set_xlabel("x [length unit]")
+axes.set_ylabel("traction [force/area unit]")
 axes.legend();

@@ -16,8 +16,8 @@ for m in (2, 3, 8):
     s = np.array([steps["s"][steps["newton"] == step][0] for step in np.unique(steps["newton"])])
     axes.semilogy(np.maximum(s - s[-1], 1e-17), "o-", label=f"m = {m}")
     print(f"m = {m}: first ratio {(s[1] - s[-1]) / (s[0] - s[-1]):.4f}, 1 − 1/m = {1 - 1 / m:.4f}")
-axes.set_xlabel("Newton step")
-axes.set_ylabel("error s − s* (length)")
+axes.set_xlabel("Newton step [–]")
+axes.set_ylabel("error s − s* [length unit]")
 axes.legend();
 
 # %% 7

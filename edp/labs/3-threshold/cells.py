@@ -9,7 +9,8 @@ for axes, number in zip(panels, numbers, strict=True):
     axes.plot(models["x"][of], models["overlap"][of], label="overlap d")
     axes.set_ylim(-0.5, 0.1)
     axes.set_title(f"model {number:.0f}")
-    axes.set_xlabel("x (length)")
+    axes.set_xlabel("x [length unit]")
+panels[0].set_ylabel("threshold T, overlap d [length unit]")
 panels[0].legend();
 
 # %% 3

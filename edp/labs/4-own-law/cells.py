@@ -5,8 +5,8 @@ def draw(spring):
     series = columns("results/labs/notebook/series/series.csv")
     figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
     axes.plot(series["approach"], series["pressureMax"], "o-", label=f"stiffness of the springs {spring:g}")
-    axes.set_xlabel("approach u0 (length)")
-    axes.set_ylabel("pressure")
+    axes.set_xlabel("approach u0 [length unit]")
+    axes.set_ylabel("greatest pressure [force/area unit]")
     axes.legend()
     plt.show()
 

@@ -6,6 +6,6 @@ figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
 axes.semilogx(stiffness, [summary["newton"] for summary in results], "o-", label="Newton steps")
 axes.semilogx(stiffness, [summary["backsolves"] for summary in results], "s-", label="back-substitutions")
 axes.semilogx(stiffness, [summary["factorisations"] for summary in results], "^-", label="factorisations")
-axes.set_xlabel("stiffness κ of the law (pressure/length³)")
-axes.set_ylabel(f"count, {method}")
+axes.set_xlabel("stiffness κ of the law [stress/length³]")
+axes.set_ylabel(f"count, {method} [–]")
 axes.legend();

@@ -11,6 +11,6 @@ figure, axes = plt.subplots(figsize=(6, 3.5), layout="constrained")
 axes.plot(r, points["pressure"], ".", label=f"computed, h = {h:g}")
 axes.plot(inside, peak * np.sqrt(1 - (inside / radius) ** 2), label="Hertz")
 axes.set_xlim(0, 2 * radius)
-axes.set_xlabel("distance from the axis (length)")
-axes.set_ylabel("pressure")
+axes.set_xlabel("distance from the axis [length unit]")
+axes.set_ylabel("pressure [force/area unit]")
 axes.legend();
