@@ -239,7 +239,9 @@ def row_lines(of: LoadCases, names: Sequence[str], cells: Sequence[str]) -> list
 def skeleton(text: str) -> list[str]:
     """A table of statements without its numbers."""
     rows = [line.split(" ") for line in text.split("\n")]
-    return [" ".join(row[:1] if len(row) == 2 and spells_number(row[1]) else row) for row in rows]
+    heads = [len(row) == 7 and all(map(spells_number, row[1:])) for row in rows]  # with the line in the file
+    numbers = [len(row) == 2 and spells_number(row[1]) for row in rows]
+    return [" ".join(row[:1] + row[2:] if head or is_number else row) for row, head, is_number in zip(rows, heads, numbers, strict=True)]
 
 
 def refuse_other_model(base: Case, case: Case) -> None:

@@ -2,7 +2,7 @@
 # Read by awk after output/report/json.awk. The columns are those of all rows, in the order of the first row that has them; lists count from
 # 1. estimates.NAME.error stands as NAME.error, without the value; true and false are 1 and 0. What is no finite number is empty.
 # In the environment: FOLDER: of the results; SCREEN: a file for the end on screen: the greatest exit code, then the number of rows by exit
-# code, failed rows, and the files.
+# code, failed rows, and the files; CASES: not empty if input/case/rows/cases.awk puts its table before them.
 function csv(text) {
   if (text !~ /[",\n]/ && text !~ /^ | $/) return text
   gsub(/"/, "\"\"", text)
@@ -64,8 +64,9 @@ END {
   if (number[20]) text = text ", " number[20] " not converged (code 20)"
   for (code in number) if (code != 0 && code != 10 && code != 20) text = text ", " number[code] " ended with code " code
   screen = ENVIRON["SCREEN"]
-  printf "%d\n  %-10s%s, %.2f CPU s\n%s", worst, "rows", text, seconds, lost > screen
-  if (failed > 10) printf "  and %d more, in the column message\n", failed - 10 > screen
-  if (warned) printf "  %-10s%s\n", "warnings", "in " warned " rows: column warnings" > screen
-  printf "  %-10s%s\n", "files", ENVIRON["FOLDER"] "rows.csv, rows.json" > screen
+  files = "rows.csv, rows.json"
+  said = sprintf("  %-10s%s, %.2f CPU s\n%s", "rows", text, seconds, lost)
+  if (failed > 10) said = said sprintf("  and %d more, in the column message\n", failed - 10)
+  if (warned) said = said sprintf("  %-10s%s\n", "warnings", "in " warned " rows: column warnings")
+  if (ENVIRON["CASES"] == "") printf "%d\n%s  %-10s%s\n", worst, said, "files", ENVIRON["FOLDER"] files > screen
 }
