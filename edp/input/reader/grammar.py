@@ -11,6 +11,7 @@ from math import pi, sqrt
 
 from .fields import (
     STATEMENTS,
+    GroupName,
     Number,
     OneOf,
     Part,
@@ -752,6 +753,34 @@ class Preload(Statement, word="preload", example="preload cut 8000"):
     once = "preload {s.on}"
     on: Group = boundary()
     force: float = custom(Tension())
+
+
+@dataclass(frozen=True)
+class Bolts:
+    """At least one cut with a preload, up to the end of the line, or to the word to."""
+
+    def read(self, reading: Reading) -> tuple[Group, ...]:
+        name, found = GroupName(False), [GroupName(False).read(reading)]
+        while reading.line.left and not reading.line.starts("to"):
+            found.append(name.read(reading))
+        return tuple(found)
+
+    def usage(self, where: Where) -> str:
+        return "NAME ..."
+
+
+class Tighten(Statement, word="tighten", example="tighten cut1 cut2 to 0.5"):
+    """One pass: each bolt in turn, to this fraction of its preload; the others keep their lengths."""
+
+    does = "the order in which bolts are tightened"
+    synonyms = "sequence tightening_sequence pass"
+    once = ""
+    note = ", NAME: of a preload, fraction: of it"
+    bolts: tuple[Group, ...] = custom(Bolts())
+    fraction: float = option("to", number("the fraction of the preload", "fraction", above=0, below=10), default=1.0)
+
+    def groups(self) -> list[tuple[str, Group]]:
+        return [("bolt", group) for group in self.bolts]
 
 
 class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
