@@ -159,6 +159,10 @@ def test_refused_as_made(tmp_path):
     """What shows when the surface is made: sides too short for their radius, no surface in a file."""
     with pytest.raises(Refusal, match=r"a side is too short for it; allowed: below 0\.5"):
         shape("box 0 0 1 3 round 0.6")
+    (tmp_path / "empty.stl").touch()
+    with pytest.raises(Refusal, match=r"empty.stl: an empty file; allowed: \.stl, text or binary"):
+        shape(f"surface {tmp_path / 'empty.stl'}", True)
+    test_refused(f"surface {tmp_path / 'empty.stl'}", r"for bodies in space \(edp/parts-3d.edp\); allowed in the plane")
     (tmp_path / "bad.stl").write_text("solid\nvertex a b c\n")
     with pytest.raises(Refusal, match=r"no triangles of an \.stl file"):
         shape(f"surface {tmp_path / 'bad.stl'}", True)
