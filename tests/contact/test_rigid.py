@@ -282,6 +282,27 @@ def test_gap_along_normals(tmp_path):
     assert run.contact["s"][beside] == pytest.approx(1e-4 - gap[beside], abs=1e-3)
 
 
+ROUNDED = {
+    "polygon": "polygon 0 0 3 1 0 3 -3 1 round 0.8 move 0.1 -0.2",
+    "punch": "punch 0 0 0 -1 R 1.5 round 1 move 0 -0.2",
+    "box": "box -1 0 3 4 round 0.9 move 0.05 -0.15",
+}
+
+
+@pytest.mark.parametrize("name", ROUNDED)
+def test_errors_with_exact_distance(name, tmp_path):
+    """Round edges, exact distances: force and normal force on a mesh four times as fine lie within ±."""
+    runs = [
+        press(tmp_path / str(h), BLOCK.format(h=h, a=3), ROUNDED[name], "-distance", "exact", "-estimate", 1)
+        for h in (0.4, 0.1)
+    ]
+    known = runs[0].summary["estimates"]["contacts"][0]
+    for key in ("force", "normalForce"):
+        coarse, fine = (run.summary["contacts"][0][key] for run in runs)
+        off = np.linalg.norm(np.subtract(coarse, fine))
+        assert off < known[key]["error"] < 0.15 * np.linalg.norm(fine)
+
+
 def ball(radius, times):
     """Corners of the triangles of an octahedron, each cut into four so many times, on a sphere at height radius."""
     ends = np.eye(3)

@@ -180,11 +180,11 @@ size left 1 / size left 2 | line 5: size of left: stated before
 cut c block plane 0 0 0 0 | the normal is 0 in every direction
 cut c block plane 0 0 0 1 | line 4: cut c: nothing tightens it; allowed: a line preload c force
 cut left block plane 0 0 0 1 | left: the mesh or geometry has a group of this name
-contact left right gap 0.1 | gap: a gap that conducts stands behind a conductance; allowed: conductance h0 gap k, or
+contact left right gap 0.1 | gap: a gap that conducts stands behind a conductance; allowed: conductance h0 gap k
 contact left right gap | gap: a gap that conducts stands behind a conductance
-conduct block 1 start 20 / film left 1 1 | start: a temperature at the start stands behind a heat capacity, capacity C start T
+conduct block 1 start 20 / film left 1 1 | start: a temperature at the start stands behind a heat capacity
 conduct block 1 from 20 / film left 1 1 | from: a temperature without stress stands behind an expansion
-obstacle left polygon 0 4 3 4 3 5 1 | polygon: 7 numbers, of which the last has no partner; allowed: x and y of each corner
+obstacle left polygon 0 4 3 4 3 5 1 | polygon: 7 numbers, of which the last has no partner; allowed: x and y
 obstacle left polygon 0 4 3 round 1 | polygon: 3 numbers, of which the last has no partner
 tighten left | line 4: tighten left: has no preload; allowed: a line preload left force
 tighten to 0.5 | to: no physical curve of the mesh
