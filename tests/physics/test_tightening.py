@@ -4,9 +4,11 @@ from math import pi
 
 import numpy as np
 import pytest
-from contact.test_curves import TWO_BOLTED, TWO_BOLTS
-from contact.test_friction import case
+from contact.test_curves import JOINT, SIDE, TWO_BOLTED, TWO_BOLTS
+from contact.test_friction import case, series
 from freefem import data
+
+from postprocess.command_line import main
 
 RINGS = """state axisymmetric
 body shank E 1000 nu 0
@@ -92,3 +94,30 @@ def test_a_mirrored_order(tmp_path):
     assert first == pytest.approx(second, rel=2e-3)
     # the block is the pivot of a lever
     assert first[1][0] > 1.2 * 16.2 and first[1][1] == pytest.approx(18)
+
+
+def test_a_joint_under_a_transverse_load(tmp_path, capsys):
+    """Below the friction limit, 0.2 times 20, a part sticks; above all slips at that force. Flat faces lose no force."""
+    for move, slips in ((0.008, False), (0.5, True)):
+        cycle = "".join(f"leg 2\nmove side {way * move} *\n" for way in (1, -1, 1, -1))
+        run = case(tmp_path / str(move), SIDE, JOINT + cycle)
+        rows = series(run)
+        pull = np.abs(rows["seat under force x"])
+        assert rows["preload cut force"] == pytest.approx(20, rel=1e-6) and (pull < 4 * (1 + 1e-6)).all()
+        assert (rows["stickingPoints"][1:].min() == 0) == slips and (pull[1:].max() > 4 * (1 - 1e-6)) == slips
+        assert main(["clamp", str(run.folder)]) == 0
+        head, *lines = capsys.readouterr().out.splitlines()
+        assert head == "leg  sticks   cut force: end, least, loss" and len(lines) == 5
+        assert lines[-1].split()[0] == "4" and lines[-1].endswith(", 0.00 %")
+        assert (lines[-1].split()[1] == "0.0%") == slips
+
+
+def test_what_a_joint_loses(tmp_path, capsys):
+    """A sleeve that is pulled out narrows and takes force from the bolt: the loss of each phase, as in series.csv."""
+    bends = JOINT.replace("sleeve E 500 nu 0", "sleeve E 500 nu 0.3")
+    run = case(tmp_path, SIDE, f"{bends}leg 2\nmove side 0.02 *\n")
+    force = series(run)["preload cut force"]
+    assert main(["clamp", str(run.folder)]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    loss = 100 * (1 - force[-1] / force[0])
+    assert loss > 0.1 and last.endswith(f"{force[-1]:.6g}, {force[1:].min():.6g}, {loss:.2f} %")
