@@ -159,6 +159,10 @@ def test_refused_as_made(tmp_path):
     """What shows when the surface is made: sides too short for their radius, no surface in a file."""
     with pytest.raises(Refusal, match=r"a side is too short for it; allowed: below 0\.5"):
         shape("box 0 0 1 3 round 0.6")
+    (tmp_path / "empty.stl").touch()
+    with pytest.raises(Refusal, match=r"empty.stl: an empty file; allowed: \.stl, text or binary"):
+        shape(f"surface {tmp_path / 'empty.stl'}", True)
+    test_refused(f"surface {tmp_path / 'empty.stl'}", r"for bodies in space \(edp/parts-3d.edp\); allowed in the plane")
     (tmp_path / "bad.stl").write_text("solid\nvertex a b c\n")
     with pytest.raises(Refusal, match=r"no triangles of an \.stl file"):
         shape(f"surface {tmp_path / 'bad.stl'}", True)
@@ -276,6 +280,27 @@ def test_gap_along_normals(tmp_path):
     gap = (0.1 + np.abs(run.contact["x"]) / np.tan(np.pi / 3)) * np.sin(np.pi / 3)
     beside = (np.abs(run.contact["x"]) > 0.1) & (np.abs(run.contact["x"]) < 19)
     assert run.contact["s"][beside] == pytest.approx(1e-4 - gap[beside], abs=1e-3)
+
+
+ROUNDED = {
+    "polygon": "polygon 0 0 3 1 0 3 -3 1 round 0.8 move 0.1 -0.2",
+    "punch": "punch 0 0 0 -1 R 1.5 round 1 move 0 -0.2",
+    "box": "box -1 0 3 4 round 0.9 move 0.05 -0.15",
+}
+
+
+@pytest.mark.parametrize("name", ROUNDED)
+def test_errors_with_exact_distance(name, tmp_path):
+    """Round edges, exact distances: force and normal force on a mesh four times as fine lie within ±."""
+    runs = [
+        press(tmp_path / str(h), BLOCK.format(h=h, a=3), ROUNDED[name], "-distance", "exact", "-estimate", 1)
+        for h in (0.4, 0.1)
+    ]
+    known = runs[0].summary["estimates"]["contacts"][0]
+    for key in ("force", "normalForce"):
+        coarse, fine = (run.summary["contacts"][0][key] for run in runs)
+        off = np.linalg.norm(np.subtract(coarse, fine))
+        assert off < known[key]["error"] < 0.15 * np.linalg.norm(fine)
 
 
 def ball(radius, times):

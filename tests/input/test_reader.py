@@ -180,6 +180,17 @@ size left 1 / size left 2 | line 5: size of left: stated before
 cut c block plane 0 0 0 0 | the normal is 0 in every direction
 cut c block plane 0 0 0 1 | line 4: cut c: nothing tightens it; allowed: a line preload c force
 cut left block plane 0 0 0 1 | left: the mesh or geometry has a group of this name
+contact left right gap 0.1 | gap: a gap that conducts stands behind a conductance; allowed: conductance h0 gap k
+contact left right gap | gap: a gap that conducts stands behind a conductance
+conduct block 1 start 20 / film left 1 1 | start: a temperature at the start stands behind a heat capacity
+conduct block 1 from 20 / film left 1 1 | from: a temperature without stress stands behind an expansion
+obstacle left polygon 0 4 3 4 3 5 1 | polygon: 7 numbers, of which the last has no partner; allowed: x and y
+obstacle left polygon 0 4 3 round 1 | polygon: 3 numbers, of which the last has no partner
+tighten left | line 4: tighten left: has no preload; allowed: a line preload left force
+tighten to 0.5 | to: no physical curve of the mesh
+tighten left to 0 | 0: the fraction of the preload is out of range; allowed: above 0 and below 10
+preload left 1 / preload right 1 / tighten left | line 5: preload right: no line tighten names it; allowed: all preloads
+preload left 1 / leg 2 / leg 2 / tighten left | line 7: tighten: in leg 2, but it holds in every leg
 join block block tie | block: twice the same body
 join block | a name is missing after block
 leg 2.5 | 2.5: no whole number of steps
@@ -615,7 +626,9 @@ def test_bodies_without_names():
 
 
 OF_BODIES = {"body", "weight", "expand", "plastic", "conduct", "spin"}
-WITH_OTHERS = "preload leg cut join cycles time group units stresses temperature flux film source conduct spin".split()
+WITH_OTHERS = (
+    "preload tighten leg cut join cycles time group units stresses temperature flux film source conduct spin".split()
+)
 
 
 @pytest.mark.parametrize("space", [False, True])
@@ -692,6 +705,7 @@ MODULES = [
     ("stresses", {"stresses"}),
     ("line l 0 0 1 1", {"stresses"}),
     ("expand block 1 1", {"initialStrain", "largeRotation", "largeMotions"}),
+    ("preload left 1\ntighten left", {"initialStrain", "tightening", "largeRotation", "largeMotions"}),
     ("conduct block 1\nfilm left 1 1", {"initialStrain", "heat", "largeRotation", "largeMotions"}),
     ("conduct block 1 expand 1\nfilm left 1 1", {"initialStrain", "heat", "largeRotation", "largeMotions", "stresses"}),
     ("plastic block 1 1", {"plastic", "friction", "moments", "stresses"}),

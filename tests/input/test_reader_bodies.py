@@ -500,7 +500,8 @@ CUT = "cut waist part plane 0 0 {} 0 0 1\npreload waist 1\n"
 
 def test_cuts(tmp_path):
     """A finished mesh is cut along sides in the plane; elsewhere that is refused, with the reason."""
-    files, written, _ = made_of(tmp_path, SPACE, STANDS + CUT.format(0), True)
+    both = SPACE.replace("2 2 2 2 2 1 3 4", "2 2 2 2 2 1 3 5")  # a side on each side of the cut
+    files, written, _ = made_of(tmp_path, both, STANDS + CUT.format(0), True)
     assert "cuts 3\n4 0\n4 1\n4 2\n" in written.text
     assert files["rises"] == "0\n"
     for z, said in (
@@ -509,7 +510,9 @@ def test_cuts(tmp_path):
     ):
         with pytest.raises(MeshRefusal, match=said):
             made_of(tmp_path, SPACE, STANDS + CUT.format(z), True)
-    inside = SPACE.replace("2 2 2 2 2 1 3 4", "2 2 2 2 2 1 2 3")
+    inside = SPACE.replace("2 2 2 2 2 1 3 4", "2 2 2 2 2 1 2 3").replace(
+        "$Elements\n4\n", "$Elements\n5\n5 2 2 1 1 1 2 5\n"
+    )
     files, written, _ = made_of(
         tmp_path, inside, STANDS.replace("obstacle side", "obstacle base").replace("clamp base", "preload side 1"), True
     )
@@ -521,6 +524,21 @@ def test_cuts(tmp_path):
             STANDS.replace("obstacle side", "obstacle base").replace("clamp base", "preload side 1"),
             True,
         )
+
+
+def test_the_ends_of_a_shank(tmp_path):
+    """Something has to take the force on both sides of the cut: no symmetry along the shank, but one across it."""
+    line, free = (
+        CUT.format(0),
+        r'preload "waist" of the case file, line 5: the piece of the body about \(0.25, 0.25, -0',
+    )
+    with pytest.raises(MeshRefusal, match=free):
+        made_of(tmp_path, SPACE, STANDS + line, True)
+    text = "body part E 1 nu 0.3\nsymmetry side\nobstacle base plane 0 -1 0 0 1 0\n"
+    along, across = (SPACE.replace("2 2 2 2 2 1 3 4", f"2 2 2 2 2 {side}") for side in ("1 3 5", "2 3 5"))
+    with pytest.raises(MeshRefusal, match=free):
+        made_of(tmp_path, along, text + line, True)
+    assert made_of(tmp_path, across, text + line, True)
 
 
 # ---------------------------------------------------------------- decks

@@ -331,7 +331,7 @@ def test_no_steady_state(tmp_path):
 
 
 def test_cold_body(tmp_path):
-    """A body that is warm by nothing has no temperature."""
+    """A body that is warm by nothing has no temperature; one that no statement can warm is refused at once."""
     case = f"{SOFT}{CONTACT}\n{HELD}move top 0 1\nflux top 0.1\n"
     found = solve(tmp_path / "bar", BARS, case, expect=20)
     assert found["message"].startswith("upper: nothing fixes its temperature")
@@ -340,8 +340,9 @@ def test_cold_body(tmp_path):
         f"conduct {name} 1\n" for name in ("roller", "upper", "lower")
     )
     case = case.replace("upper-face", "upper-face conductance 1") + "temperature base 20\n"
-    found = solve(tmp_path / "roller", folder / "roller.geo", case, "-set", "size", 1, "-estimate", 0, expect=20)
-    assert "nothing fixes its temperature" in found["message"]
+    said = solve(tmp_path / "roller", folder / "roller.geo", case, "-set", "size", 1, "-estimate", 0, expect=10)
+    assert "upper: nothing can fix its temperature; allowed: a temperature or film on it" in said
+    assert not (tmp_path / "roller/out/summary.json").exists()
 
 
 def test_law(tmp_path):

@@ -108,6 +108,13 @@ def signed(x: Floats, corners: Ints) -> tuple[Floats, Floats]:
     return size, (edges**2).sum(axis=2).max(axis=1)
 
 
+def side_normals(x: Floats) -> Floats:
+    """The unit normals of sides, either way, by their corners (sides x corners x 3)."""
+    b = x[:, 1] - x[:, 0]
+    normal = np.cross(b, x[:, 2] - x[:, 0]) if x.shape[1] == 3 else np.column_stack([b[:, 1], -b[:, 0], 0 * b[:, 0]])
+    return np.asarray(normal / np.sqrt((normal**2).sum(axis=1))[:, None])
+
+
 class Bodies:
     """The bodies and the boundary of a mesh, step by step as they are checked. Labels are those of the case."""
 
@@ -246,6 +253,8 @@ class Bodies:
         has = {*np.unique(label[own]).tolist(), *np.unique(self.solids.label).tolist(), *cuts.found}
         self.cut_nodes = cuts.nodes
         own, place = own[~cut], place[~cut]
+        for s in self.case.of(g.Preload):
+            self.check_ends(s, place, label[own])
         once = np.sort(np.unique(place, return_index=True)[1])
         self.group_at = np.zeros(len(self.place_key), np.int64)  # by place the first group there
         self.group_at[place[once]] = label[own[once]]
@@ -258,6 +267,33 @@ class Bodies:
             if k + 1 not in has:
                 what = self.body_kind if group.dimension == self.dim else self.side_kind
                 refuse(f'the physical group "{group.name}" has no {what} of a body')
+
+    def check_ends(self, s: g.Preload, place: Ints, label: Ints) -> None:
+        """On both sides of a cut through a shank something has to take its force: a contact or a support.
+
+        place, label: of the sides in groups. A cut that does not part its body, as one of a frame, closes its own path.
+        """
+        nodes = np.array([node for cut, node in self.cut_nodes if cut == self.label[s.on]])
+        across = np.isin(self.face[self.inner], nodes).all(axis=1)
+        root = components(len(self.corners), *(elements[~across] for elements in self.pairs))
+        ends = np.unique(np.concatenate([root[elements[across]] for elements in self.pairs]))
+        if (root[self.pairs[0][across]] == root[self.pairs[1][across]]).any():
+            return
+        takes = [self.label[group] for one in self.case.statements if isinstance(one, (g.Contact, g.Obstacle, g.Tie))
+                 or one.holds() or isinstance(one, (g.Spring, g.Force, g.Moment))
+                 for _, group in one.groups() if group in self.label]  # fmt: skip
+        normal = side_normals(self.x[self.face[self.inner][across][:1]])[0]
+        mirrors = [self.label[one.on] for one in self.case.of(g.Symmetry)]
+        along = np.abs(side_normals(self.x[self.face[place]]) @ normal) < 0.1
+        closing = np.isin(label, takes) & ~(np.isin(label, mirrors) & along)
+        for end in ends[~np.isin(ends, root[self.owner[place[closing]]])][:1]:
+            middle = self.x[self.corners[root == end]].mean(axis=(0, 1))[: self.dim]
+            where = ", ".join(f"{c:.4g}" for c in middle)
+            refuse(
+                f'preload "{s.on.name}" of the case file, line {s.line}: the piece of the body about ({where}), on one side '
+                f"of the cut, has no contact and no support that takes the force{ALLOWED}both ends of the shank in "
+                "contacts, ties or supports"
+            )
 
     def one(self, label: int) -> int:
         while label in self.same_as:
@@ -515,12 +551,7 @@ class Mirrors:
     def outward(self, sides: Ints) -> Floats:
         """The unit normals of sides, out of their bodies."""
         of, side = self.of, self.of.kept_corners[sides]
-        b = of.x[side[:, 1]] - of.x[side[:, 0]]
-        if of.space:
-            normal = np.cross(b, of.x[side[:, 2]] - of.x[side[:, 0]])
-        else:
-            normal = np.column_stack([b[:, 1], -b[:, 0], np.zeros(len(b))])
-        normal /= np.sqrt((normal**2).sum(axis=1))[:, None]
+        normal = side_normals(of.x[side])
         inside = ((of.x[of.tip[of.kept_place[sides]]] - of.x[side[:, 0]]) * normal).sum(axis=1) > 0
         normal[inside] *= -1
         return normal

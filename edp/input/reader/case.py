@@ -394,6 +394,14 @@ def whole(case: Case, rules: Rules) -> Iterable[Refusal]:
     for group, cut in case.on(g.Cut).items():
         if group not in preloads:
             yield Refusal(f"cut {group}: nothing tightens it; allowed: a line preload {group} force", cut.line)
+    tightened = {group: s for s in case.of(g.Tighten) for group in s.bolts}
+    for group, tighten in tightened.items():
+        if group not in preloads:
+            yield Refusal(f"tighten {group}: has no preload; allowed: a line preload {group} force", tighten.line)
+    for group, preload in preloads.items():
+        if tightened and group not in tightened:
+            why = f"preload {group}: no line tighten names it"
+            yield Refusal(f"{why}; allowed: all preloads in lines tighten, or no such line", preload.line)
     if not touching:
         yield Refusal("no contact; allowed: at least one line contact or obstacle")
     if where.state == "axisymmetric" and case.thickness != 1:

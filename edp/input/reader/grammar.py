@@ -11,6 +11,7 @@ from math import pi, sqrt
 
 from .fields import (
     STATEMENTS,
+    GroupName,
     Number,
     OneOf,
     Part,
@@ -304,13 +305,27 @@ class Pair(Statement):
         return f"{self.slave}: slave and master are the same; allowed: two groups" if self.slave == self.master else ""
 
 
+@dataclass(frozen=True)
+class Vertical:
+    """The word vertical behind gap."""
+
+    def read(self, reading: Reading) -> bool:
+        if not reading.line.starts("vertical"):
+            conducts = "a gap that conducts stands behind a conductance"
+            reading.line.no(f"gap: {conducts}; allowed: conductance h0 gap k, or gap vertical")
+        return bool(reading.line.next())
+
+    def usage(self, where: Where) -> str:
+        return "vertical"
+
+
 class Contact(Pair, word="contact", example="contact bore pin friction 0.15"):
     does = "two surfaces that may touch"
     synonyms = "interface pair touch interference overlap"
     once = "contact of {s.slave} and {s.master}"
     stray = "not allowed here"
     note = f", with its parameters: {NAMES}"
-    vertical: bool = option("gap", keyword("vertical"), default=False)
+    vertical: bool = option("gap", custom(Vertical()), default=False)
     interference: float = option("interference", number("the interference", above=0, unit="length"), default=0.0)
     conductance: Conductance | None = option("conductance", Conductance)
     law: Law | None = option("law", custom(LawKind()))
@@ -791,6 +806,32 @@ class Hardening:
 
     def usage(self, where: Where) -> str:
         return f"hardening, or table {TableRows().usage(where)}"
+@dataclass(frozen=True)
+class Bolts:
+    """At least one cut with a preload, up to the end of the line, or to the word to."""
+
+    def read(self, reading: Reading) -> tuple[Group, ...]:
+        name, found = GroupName(False), [GroupName(False).read(reading)]
+        while reading.line.left and not reading.line.starts("to"):
+            found.append(name.read(reading))
+        return tuple(found)
+
+    def usage(self, where: Where) -> str:
+        return "NAME ..."
+
+
+class Tighten(Statement, word="tighten", example="tighten cut1 cut2 to 0.5"):
+    """One pass: each bolt in turn, to this fraction of its preload; the others keep their lengths."""
+
+    does = "the order in which bolts are tightened"
+    synonyms = "sequence tightening_sequence pass"
+    once = ""
+    note = ", NAME: of a preload, fraction: of it"
+    bolts: tuple[Group, ...] = custom(Bolts())
+    fraction: float = option("to", number("the fraction of the preload", "fraction", above=0, below=10), default=1.0)
+
+    def groups(self) -> list[tuple[str, Group]]:
+        return [("bolt", group) for group in self.bolts]
 
 
 class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
@@ -826,6 +867,10 @@ class Capacity(Part):
 class Conduct(Statement, word="conduct"):
     does = "conductivity of a body"
     synonyms = "heat conductivity"
+    hints = (
+        ("start", "a temperature at the start stands behind a heat capacity, capacity C start T"),
+        ("from", "a temperature without stress stands behind an expansion, expand alpha from T"),
+    )
     example = "conduct ring 0.05 expand 12e-6 from 20"
     on: Group = body()
     conductivity: float = number("the conductivity", "k", above=0, unit="power/(length temperature)")

@@ -23,6 +23,7 @@ class Needs:
 
     friction: bool  # friction, load phases, ties, plastic bodies: the state depends on the way to it
     strains: bool  # expand, preload, conduct
+    tightening: bool  # bolts in sequence
     heat: bool
     time: bool  # of heat
     rotations: bool
@@ -67,6 +68,7 @@ def needs(case: Case) -> Needs:
     return Needs(
         friction=friction,
         strains=case.has(g.Expand, g.Preload, g.Conduct),
+        tightening=case.has(g.Tighten),
         heat=bool(conducts),
         time=case.has(g.Time),
         rotations=case.has(g.Rotate),
@@ -137,6 +139,7 @@ def modules(need: Needs, run: Run) -> Modules:
         "plastic": need.plastic,
         "friction": need.friction,
         "initialStrain": need.strains,
+        "tightening": need.tightening,
         "stresses": need.stresses or need.gravity,
         "deflections": need.gravity,
         "largeRotation": far,

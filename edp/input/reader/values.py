@@ -104,7 +104,9 @@ def table(case: Case, groups: Sequence[Group] = (), split: Mapping[int, int] | N
                 found = [(name, value) for name, value in found if isinstance(value, float)]
                 if isinstance(s, (g.Obstacle, g.ObstacleMove)):
                     found = [(name, value) for name, value in found if name.startswith("drive.")]
-            put(word, s.line, [group for _, group in s.groups()], changes, found)
+            named = [group for _, group in s.groups()]
+            for on in [[bolt] for bolt in named] if isinstance(s, g.Tighten) else [named]:
+                put(word, s.line, on, changes, found)
     for gravity in case.of(g.Gravity):
         for group, found in weights(gravity, dense, used):
             put("weight", gravity.line, [group], -1, found)

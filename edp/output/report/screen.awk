@@ -145,7 +145,7 @@ function printContact(c,   p, q, k, F, e, x, note, across, unit, balanced, isSma
   if (!isSmall) noteWorstError(e, v[p ".pressureMax"], "greatest pressure of " v[p ".name"], isLinearised() && \
     4 * absolute(v[".linearised.pressureMax." c]) > e ? "use -distance exact" : wearErrorNote != "" ? "raise the steps after cycles" : known(p ".refine") ? v[p ".refine"] : \
     hasNodalPoints() && known(p ".master") ? "use -points segment" : orderAdvice("refine at the contact (size contact)"))
-  e = errorOf(q ".contactLength")
+  e = errorOf(q (dimension == 3 ? ".area" : ".contactLength"))
   x = dimension == 3 ? v[p ".area"] : v[p ".contactLength"]
   unit = v[".units.0"] (dimension == 3 && known(".units.0") ? "^2" : "")
   printResult(dimension == 3 ? "  contact area" : "  contact length", x, e, unit, joinNotes(unknownErrorNote(e), v[p ".contactPoints"] " of " v[p ".points"] " points"))

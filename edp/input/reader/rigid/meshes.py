@@ -31,6 +31,8 @@ MOST = 200_000
 def read_stl(path: Path) -> tuple[Floats, Ints]:
     """Places and corners of a text or binary file."""
     data = path.read_bytes()
+    if not data:
+        raise Refusal(f"{path}: an empty file; allowed: .stl, text or binary, or .msh")
     count = int.from_bytes(data[80:84], "little")
     if len(data) == 84 + 50 * count:
         kind = np.dtype([("normal", "<f4", 3), ("at", "<f4", (3, 3)), ("more", "<u2")])
@@ -41,7 +43,7 @@ def read_stl(path: Path) -> tuple[Floats, Ints]:
         except ValueError:
             places = np.zeros((0, 3))
     if not len(places) or len(places) % 3 or not np.isfinite(places).all():
-        raise Refusal(f"{path}: no triangles of an .stl file; allowed: .stl, text or binary, or .msh")
+        raise Refusal(f"{path}: it has no triangles of an .stl file; allowed: .stl, text or binary, or .msh")
     return places, np.arange(len(places)).reshape(-1, 3)
 
 

@@ -71,6 +71,12 @@ class Corners:
 
     def read(self, reading: Reading) -> tuple[Vector3, ...]:
         found: list[Vector3] = []
+        left = reading.line.left
+        count = next((k for k, word in enumerate(left) if not spells_number(word)), len(left))
+        if count % 2:
+            reading.line.no(
+                f"polygon: {count} numbers, of which the last has no partner; allowed: x and y of each corner"
+            )
         while reading.line.left and spells_number(reading.line.left[0]):
             x = Number("a corner").read(reading)
             found.append((x, Number("the y of a corner").read(reading), 0.0))
@@ -192,7 +198,10 @@ class Surface(Shape):
 
     def fault(self, where: Where) -> str:
         if not in_space(where) and self.file.lower().endswith(".stl"):
-            return f"{self.file}: triangles, in the plane; allowed: the segments of a .msh file"
+            return (
+                f"{self.file}: the triangles of an .stl file are for bodies in space (edp/parts-3d.edp); "
+                "allowed in the plane: a .msh file with segments"
+            )
         return ""
 
 

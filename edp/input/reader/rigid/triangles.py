@@ -11,7 +11,7 @@ import numpy as np
 
 from ..mesh import Floats, Ints
 
-BLOCK = 24  # triangles
+BLOCK = 4  # triangles
 SHARP = 0.35  # least angle between the normals at a sharp edge, rad
 AT_ONCE = 400_000  # pairs of places and triangles
 

@@ -1,0 +1,15 @@
+h = 0.7;
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 10, 0, h}; Point(4) = {3, 10, 0, h};
+Point(5) = {3, 12, 0, h}; Point(6) = {0, 12, 0, h}; Point(7) = {0, 10, 0, h}; Point(8) = {0, 5, 0, h};
+Point(9) = {1, 5, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 9}; Line(3) = {9, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
+Line(7) = {6, 7}; Line(8) = {7, 8}; Line(9) = {8, 1}; Line(10) = {8, 9}; Line(11) = {7, 3};
+Curve Loop(1) = {1, 2, -10, 9}; Plane Surface(1) = {1}; Curve Loop(2) = {10, 3, -11, 8}; Plane Surface(2) = {2};
+Curve Loop(3) = {11, 4, 5, 6, 7}; Plane Surface(3) = {3};
+Point(11) = {1.5, 0, 0, h}; Point(12) = {3, 0, 0, h}; Point(13) = {3, 10, 0, h}; Point(14) = {1.5, 10, 0, h};
+Line(21) = {11, 12}; Line(22) = {12, 13}; Line(23) = {13, 14}; Line(24) = {14, 11};
+Curve Loop(4) = {21, 22, 23, 24}; Plane Surface(4) = {4};
+Physical Surface("shank") = {1, 2}; Physical Surface("head") = {3}; Physical Surface("sleeve") = {4};
+Physical Curve("foot") = {1, 21}; Physical Curve("axis") = {7, 8, 9}; Physical Curve("cut") = {10};
+Physical Curve("under") = {4}; Physical Curve("seat") = {23}; Physical Curve("top") = {6};
+Physical Curve("side") = {22};
