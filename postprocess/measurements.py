@@ -26,7 +26,12 @@ RESULTS = {  # of a table: the name of the result in rows.csv
     "contactLength": "contacts.1.contactLength",
     "radius": "halfWidthMoment",
 }
-DERIVED = {"contacts.1.contactLength": "contactLength"}  # result of rows.csv: its name among the sensitivities
+DERIVED = {  # result of rows.csv: its name among the sensitivities
+    "contacts.1.contactLength": "contactLength",
+    "contacts.1.shearForce.1": "shearForceX",
+    "contacts.1.shearForce.2": "shearForceY",
+    "dragged.value": "dragged",
+}
 STEP = 1e-3  # relative, of differences where no sensitivity is known
 
 
@@ -116,7 +121,7 @@ class ContactModel:
     def predict(self, values: dict[str, float]) -> tuple[np.ndarray, np.ndarray] | None:
         """Values (data) and derivatives (data x parameters); None if a load has no solution."""
         names, loads = list(values), self.measured.loads
-        direct = self.problem.has_rows and "stiffness" not in self.measured.names
+        direct = "stiffness" not in self.measured.names
         settings = [{**self.fixed, **values, self.measured.flag: load} for load in loads]
         steps = {name: STEP * (abs(value) or 1.0) for name, value in values.items()}
         shifted = [

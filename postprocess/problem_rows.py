@@ -1,7 +1,7 @@
 """The problem of a finished run, solved again with other numbers: all in one table of problems, with sensitivities.
 
 A problem is {flag: number}. Flags that change mesh or stiffness, as -E, are given on the command line: one run of
-FreeFEM for each of their values. What has no table of problems, as friction, takes a run for each problem.
+FreeFEM for each of their values, as are tangential loads. Problems without any other number take a run each.
 """
 
 import csv
@@ -17,7 +17,7 @@ from postprocess.results import ResultsError, read_run
 
 ROOT = Path(__file__).resolve().parent.parent
 LAW_FLAGS = ("law", "kappa", "m", "p0", "beta", "d0", "table")
-ROW_FLAGS = frozenset([*LAW_FLAGS, "u0", "force"])  # columns that -rows takes
+ROW_FLAGS = frozenset([*LAW_FLAGS, "u0", "force", "friction", "compliance", "shearLimit"])  # columns that -rows takes
 OF_OUTPUT = frozenset("out vtu plot states estimate sensitivity verbose history rows vary".split())
 Row = dict[str, float]
 Setting = dict[str, float | str]
@@ -31,19 +31,16 @@ class Problem:
     flags: dict[str, float | str]
     parameters: dict[str, float | str]  # all flags of the run, with defaults
     summary: dict
-    has_rows: bool = True
     calls: int = field(default=0)
 
     def solve(self, problems: list[Setting], sensitivities: bool = True) -> list[Row | None]:
         """The numbers of each problem by the names of rows.csv; None where it has no solution."""
         groups: dict[tuple, list[int]] = {}
         for k, one in enumerate(problems):
-            groups.setdefault(
-                tuple(sorted((n, v) for n, v in one.items() if not self.has_rows or n not in ROW_FLAGS)), []
-            ).append(k)
+            groups.setdefault(tuple(sorted((n, v) for n, v in one.items() if n not in ROW_FLAGS)), []).append(k)
         found: list[Row | None] = [None] * len(problems)
         for common, members in groups.items():
-            part = [{n: v for n, v in problems[k].items() if self.has_rows and n in ROW_FLAGS} for k in members]
+            part = [{n: v for n, v in problems[k].items() if n in ROW_FLAGS} for k in members]
             for k, row in zip(members, self.solve_group(dict(common), part, sensitivities), strict=True):
                 found[k] = row
         return found
@@ -54,9 +51,8 @@ class Problem:
         given = {n: v for n, v in {**self.flags, **common}.items() if n not in columns}
         with tempfile.TemporaryDirectory(prefix="contact-rows-") as folder:
             words = [word for name, value in given.items() for word in (f"-{name}", text_of(value))]
-            words += ["-vtu", "0", "-estimate", "0", "-out", f"{folder}/out"]
-            if self.has_rows:
-                words += ["-sensitivity", "1"] * sensitivities
+            words += ["-vtu", "0", "-estimate", "0", "-out", f"{folder}/out", *["-sensitivity", "1"] * sensitivities]
+            if columns:
                 path = Path(folder, "rows.csv")
                 lines = [columns, *([text_of(row[name]) if name in row else "" for name in columns] for row in rows)]
                 path.write_text("".join(",".join(line) + "\n" for line in lines), encoding="utf-8")
@@ -66,7 +62,7 @@ class Problem:
             if sys.stderr.isatty():
                 print(f"\r  {self.calls} runs of FreeFEM", end="\r", file=sys.stderr, flush=True)
             out = Path(folder, "out")
-            if not self.has_rows:
+            if not columns:
                 return [flatten(read_run(out).summary) if done.returncode == 0 else None] * len(rows)
             if not (out / "rows.csv").exists():
                 said = done.stdout.strip().splitlines()
@@ -84,8 +80,9 @@ def read_problem(folder: Path) -> Problem:
     given = {name: parameters[name] for name in summary["given"] if name in parameters and name not in OF_OUTPUT}
     scene = str(summary["scene"])
     found = sorted((ROOT / "edp" / scene).glob("*.edp")) if scene.startswith("labs/") else []
-    has_friction = "friction" in summary
-    return Problem(str(found[0]) if found else scene, given, parameters, summary, not has_friction)
+    if "friction" in summary and parameters["history"]:
+        raise ResultsError(folder, "is a run with -history 1; allowed: more phases in -legs")
+    return Problem(str(found[0]) if found else scene, given, parameters, summary)
 
 
 def run_freefem(script: str, words: list[str]) -> subprocess.CompletedProcess[str]:

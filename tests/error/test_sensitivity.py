@@ -6,9 +6,19 @@ import numpy as np
 import pytest
 from freefem import ROOT, cases_of, flag_lists, refusal, run_in
 
+from postprocess.problem_rows import flatten as numbers_of
+
+
+def flatten(done):
+    """The numbers of a summary by the names of rows.csv."""
+    return numbers_of(done.summary)
+
+
 EXACT = ["-tol", 1e-11, "-eps", 1e-9, "-estimate", 0, "-vtu", 0]
 LENGTHS = ("contactLength", "contactArea")
-UNITS = {"kappa": 1, "p0": 1, "E": 1, "E1": 1, "E2": 1, "force": 1}  # parameters that grow with all pressures
+# parameters that grow with all pressures, or fall
+UNITS = dict.fromkeys(("kappa", "p0", "E", "E1", "E2", "force", "shear", "shearLimit"), 1) | {"compliance": -1}
+OF_PATH = ("drag", "shear")  # of all load steps: no columns of a table of problems
 STEP = 1e-4  # relative step of the finite differences
 
 FLAGS = "main.edp -h 1 | main.edp -h 1 -law barrier -geometry axisymmetric -force 300"
@@ -19,6 +29,15 @@ MORE = (
     "| scenes/two-cylinders.edp -d0 -0.01 -law power -kappa 1e5"
     "| scenes/sphere-on-plane.edp -d0 -0.01 -law exponential | scenes/flat-punch.edp -h 1 -law signorini"
 )
+FRICTION = [  # of one or two bodies, the plane and space; the last load steps turn back
+    ["scenes/fretting.edp", "-h", 0.8, "-force", 0, "-u0", 0.2, "-drag", 0.08, "-law", "exponential", "-d0", -0.01]
+    + ["-compliance", 1e-3, "-legs", "1 0, 1 0.5, 1 1, 0.8 -0.4"],
+    ["scenes/fretting.edp", "-h", 0.2, "-order", 1, "-shearLimit", 1.2, "-legs", "1 0, 1 1, 1 -0.8, 0.9 0.2"],
+    ["scenes/fretting-bodies.edp", "-h", 0.2, "-law", "power", "-kappa", 1e5, "-d0", -0.001, "-E2", 300],
+    ["scenes/fretting-3d.edp", "-h", 2.5, "-u0", 0.5, "-drag", 0.05, "-gap", 0, "-legs", "1, 1 0.5 0.5, 1 -0.3 0.6"]
+    + ["-law", "power", "-kappa", 1e4, "-m", 2],
+    ["scenes/wedge.edp", "-h", 0.4],
+]
 
 
 def one(script, *flags, out):
@@ -38,12 +57,13 @@ def number(row, name):
     """A result in a row of rows.csv, or in a summary."""
     if name in LENGTHS:
         name = "contacts.1.contactLength" if name == "contactLength" else "contacts.1.area"
-    return float(row[name])
+    others = {"shearForceX": "contacts.1.shearForce.1", "shearForceY": "contacts.1.shearForce.2", "dragged": "dragged.value"}
+    return float(row[others.get(name, name)])
 
 
-@pytest.mark.parametrize("flags", cases_of(flag_lists(FLAGS), flag_lists(MORE)), ids=str)
+@pytest.mark.parametrize("flags", cases_of(flag_lists(FLAGS), flag_lists(MORE) + FRICTION), ids=str)
 def test_finite_differences(flags, tmp_path):
-    """Each derivative shall be that of four other solutions to 1e-5 of the greatest, by law and load and by nu."""
+    """Each derivative shall be that of four other solutions to 1e-5 of the greatest, of two by nu and tangential loads."""
     script, *flags = flags
     if "TABLE" in flags:
         flags[flags.index("TABLE")] = tmp_path / "law.csv"
@@ -53,6 +73,7 @@ def test_finite_differences(flags, tmp_path):
     assert {"pressureMax", "overlapMax", "halfWidthMoment"} < set(found)
     at = {name: base.parameters[name] for name in found["pressureMax"]}
     varied = [name for name in at if name[0] not in "En" and not (name == "d0" and "-d0" in flags)]
+    varied = [name for name in varied if at[name] != 0 and name not in OF_PATH]
     table = [varied]
     for name in varied:
         for k in (-2, -1, 1, 2):
@@ -75,24 +96,20 @@ def test_finite_differences(flags, tmp_path):
     for name, value in found.items():  # twice all pressures: twice the results that are pressures
         if name == "overlapMax" and base.parameters["law"] in ("signorini", "table"):
             continue
-        grown = sum(value[p] * at[p] for p in at if p in UNITS)
-        degree = name in ("force", "pressureMax")
+        grown = sum(value[p] * at[p] * UNITS[p] for p in at if p in UNITS)
+        degree = name in ("force", "pressureMax", "shearForceX", "shearForceY")
         if base.parameters["law"] != "table" and base.parameters.get("bodyForce", 0) == 0:
             assert grown == pytest.approx(degree * values[name], abs=1e-6 * scale[name]), name
-    by_poisson = next(p for p in at if p.startswith("nu"))
-    moved = [one(script, *flags, f"-{by_poisson}", at[by_poisson] + k * STEP, out=tmp_path / f"{k}") for k in (-1, 1)]
-    for name, value in found.items():
-        if name == "overlapMax" and base.parameters["law"] == "signorini":
-            continue
-        difference = (number(flatten(moved[1]), name) - number(flatten(moved[0]), name)) / (2 * STEP)
-        limit = 1e-5 * scale[name] / at[by_poisson]
-        assert value[by_poisson] == pytest.approx(difference, abs=limit, rel=1e-5), (name, by_poisson)
-
-
-def flatten(done):
-    """The numbers of a summary by the names of rows.csv."""
-    contact = {f"contacts.1.{name}": value for name, value in done.contacts[0].items()}
-    return done.summary | contact
+    for p in [next(p for p in at if p.startswith("nu")), *(p for p in OF_PATH if p in at)]:
+        rest = [str(flag) for flag in flags]
+        if f"-{p}" in rest:
+            del rest[rest.index(f"-{p}") : rest.index(f"-{p}") + 2]
+        moved = [one(script, *rest, f"-{p}", repr(at[p] + k * STEP), out=tmp_path / f"{p}{k}") for k in (-1, 1)]
+        for name, value in found.items():
+            if name == "overlapMax" and base.parameters["law"] == "signorini":
+                continue
+            difference = (number(flatten(moved[1]), name) - number(flatten(moved[0]), name)) / (2 * STEP)
+            assert value[p] == pytest.approx(difference, abs=1e-5 * scale[name] / at[p], rel=1e-5), (name, p)
 
 
 def test_touching_point(tmp_path):
@@ -132,8 +149,17 @@ def test_jumps(tmp_path):
     assert none.sensitivities["forceReason"] == "the contact carries nothing"
 
 
+def test_kink_of_friction(tmp_path):
+    """A load step that changes nothing leaves points at their friction bound: no single derivative, but the reason."""
+    flags = ["scenes/fretting.edp", "-h", 0.8, "-legs", "1 0, 1 1, 1 1"]
+    done = one(*flags, out=tmp_path / "out")
+    assert done.sensitivities["approach"] is None
+    reason = "in load step 3 a point just touches or just slips: there are two derivatives"
+    assert done.sensitivities["approachReason"] == done.sensitivities["draggedReason"] == reason
+
+
 REFUSED = {
-    "scenes/fretting.edp": "-sensitivity 1: not with friction, whose forces depend on the path of the load; "
+    "scenes/rolling.edp": "-sensitivity 1: not with rolling, whose surfaces move through the contact; "
     "allowed: -sensitivity 0",
     "main.edp -distance exact": "-sensitivity 1: not with -distance exact, whose contact points move with the "
     "solution; allowed: -sensitivity 0",

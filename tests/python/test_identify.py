@@ -14,7 +14,7 @@ from postprocess.commands import identify, uncertainty
 from postprocess.distributions import chi_squared_tail, student_quantile
 from postprocess.least_squares import Parameter, fit
 from postprocess.measurements import Measurements, read_measurements
-from postprocess.problem_rows import Problem
+from postprocess.problem_rows import Problem, read_problem
 from postprocess.results import ResultsError
 
 LOADS = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]
@@ -237,7 +237,7 @@ def test_identification_by_freefem(tmp_path, capsys):
 
 
 def test_friction(tmp_path, capsys):
-    """Displacements under tangential forces shall give the coefficient of friction, by runs of their own."""
+    """Displacements under tangential forces shall give the coefficient of friction; a run with -history 1 is refused."""
     flags = ["-h", 0.2, "-order", 1, "-vtu", 0, "-estimate", 0]
     lines = ["-shear,dragged.value,sd"]
     for load in (1.5, 2.2):
@@ -251,3 +251,6 @@ def test_friction(tmp_path, capsys):
     found = json.loads((tmp_path / "run/identify.json").read_text())["laws"][0]["parameters"]["friction"]
     assert found["value"] == pytest.approx(0.35, rel=1e-3)
     assert found["interval95"][1] - found["interval95"][0] < 0.02
+    run_in(ROOT, "edp/scenes/fretting.edp", *flags, "-history", 1, "-steps", 2, out=tmp_path / "series")
+    with pytest.raises(ResultsError, match="is a run with -history 1; allowed: more phases in -legs"):
+        read_problem(tmp_path / "series")
