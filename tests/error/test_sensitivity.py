@@ -57,7 +57,11 @@ def number(row, name):
     """A result in a row of rows.csv, or in a summary."""
     if name in LENGTHS:
         name = "contacts.1.contactLength" if name == "contactLength" else "contacts.1.area"
-    others = {"shearForceX": "contacts.1.shearForce.1", "shearForceY": "contacts.1.shearForce.2", "dragged": "dragged.value"}
+    others = {
+        "shearForceX": "contacts.1.shearForce.1",
+        "shearForceY": "contacts.1.shearForce.2",
+        "dragged": "dragged.value",
+    }
     return float(row[others.get(name, name)])
 
 

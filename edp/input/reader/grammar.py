@@ -806,6 +806,8 @@ class Hardening:
 
     def usage(self, where: Where) -> str:
         return f"hardening, or table {TableRows().usage(where)}"
+
+
 @dataclass(frozen=True)
 class Bolts:
     """At least one cut with a preload, up to the end of the line, or to the word to."""
@@ -844,9 +846,7 @@ class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
     kinematic: float = option(
         "kinematic", number("the kinematic hardening modulus", "C", at_least=0, unit="pressure"), default=0.0
     )
-    refused = (
-        (no_plastic, "plastic: read by parts.edp and parts-3d.edp alone; allowed here: elastic bodies"),
-    )
+    refused = ((no_plastic, "plastic: read by parts.edp and parts-3d.edp alone; allowed here: elastic bodies"),)
 
     def check(self, where: Where) -> str:
         first = self.hardening.rows[0][1] if isinstance(self.hardening, Table) else self.yield_stress

@@ -270,6 +270,7 @@ static void quickenStatements()
     const char *names = nullptr;
     ElfW(Rela) *call = nullptr;
     size_t length = 0, page = sysconf(_SC_PAGESIZE);
+    bool boundAtStart = false;               // else this table is still written to
     statements = (char *)dlsym(RTLD_DEFAULT, "_ZNK10ListOfInstclEPv");
     if (!statements || !dladdr1(statements, &object, (void **)&own, RTLD_DL_SYMENT) || !own) return;
     if (!dladdr1(statements, &object, (void **)&program, RTLD_DL_LINKMAP)) return;
@@ -280,8 +281,9 @@ static void quickenStatements()
         if (d->d_tag == DT_JMPREL) call = (ElfW(Rela) *)d->d_un.d_ptr;
         if (d->d_tag == DT_PLTRELSZ) length = d->d_un.d_val / sizeof(ElfW(Rela));
         if (d->d_tag == DT_PLTREL && d->d_un.d_val != DT_RELA) return;
+        if (d->d_tag == DT_FLAGS) boundAtStart = d->d_un.d_val & DF_BIND_NOW;
     }
-    for (; length-- > 0; ++call) if (!strcmp(names + symbols[call->r_info >> 32].st_name, "clock")) {
+    for (; boundAtStart && length-- > 0; ++call) if (!strcmp(names + symbols[call->r_info >> 32].st_name, "clock")) {
         void **place = (void **)(program->l_addr + call->r_offset), *first = (void *)((size_t)place / page * page);
         if (mprotect(first, page, PROT_READ | PROT_WRITE)) return;
         *place = (void *)clockOfStatements;
