@@ -43,8 +43,10 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     style.set_log(grid[0, 0], "xy")
     for axes in grid.flat[len(problems) :]:
         axes.set_visible(False)
-    for axes in grid[-1]:
-        axes.set_xlabel("CPU time [s]")
+    for column in grid.T:
+        below = [axes for axes in column if axes.get_visible()][-1]
+        below.set_xlabel("CPU time [s]")
+        below.tick_params(labelbottom=True)
     for axes in grid[:, 0]:
         axes.set_ylabel("error of the force [–]")
     for name, color in zip(CODES, COLORS, strict=True):
