@@ -53,9 +53,13 @@ def walked(page):
 
 
 def too_wide(page, width):
-    """What makes the page wider than its window, if it is; a phone's own width grows with its content."""
+    """What makes the page wider than its window, if it is; a phone's own width grows with its content.
+
+    The site's theme has the whole article, `.content`, scroll instead.
+    """
     return page.evaluate(
-        f"document.documentElement.scrollWidth <= {width} ? [] : [...document.querySelectorAll('body *')]"
+        "[document.documentElement, ...document.querySelectorAll('.content')]"
+        f".every(each => each.scrollWidth <= {width}) ? [] : [...document.querySelectorAll('body *')]"
         f".filter(each => each.getBoundingClientRect().right > {width} + 1).map(each => each.outerHTML.slice(0, 120))"
     )
 

@@ -55,7 +55,7 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for scene in dict.fromkeys(scene for scene, _ in columns):
         places = [place for place, column in enumerate(columns) if column[0] == scene]
         above = panels[0].get_xaxis_transform()
-        panels[0].text(np.mean(places), 1.03, SCENES[scene], transform=above, ha="center", fontsize=7.5)
+        panels[0].text(np.mean(places), 1.03, SCENES.get(scene, scene), transform=above, ha="center", fontsize=7.5)
     panels[-1].set_xlabel(r"stiffness $\kappa$ [stress/length$^m$], exponent $m$ [–]; or another law")
     panels[0].set_title(panels[0].get_title(loc="left"), loc="left", pad=16)
     name_meshes(figure, rows)

@@ -37,14 +37,16 @@ def draw(runs: list[Campaign], units: style.Units) -> Figure:
     for index, (axes, which) in enumerate(zip(grid.flat, problems, strict=False)):
         for code, color in enumerate(COLORS):
             draw_code(axes, [row for row in rows if problem(row) == which and code_index(row) == code], color)
-        annotate_failures(axes, [row for row in every if not is_converged(row) and problem(row) == which])
-        axes.set_title(f"{style.panel(index)} {panel_title(*which)}", loc="left", fontsize=8)
+        lost = failures([row for row in every if not is_converged(row) and problem(row) == which])
+        axes.set_title("\n".join([f"{style.panel(index)} {panel_title(*which)}", *lost]), loc="left", fontsize=8)
         axes.grid(color="0.9", linewidth=0.5)
     style.set_log(grid[0, 0], "xy")
     for axes in grid.flat[len(problems) :]:
         axes.set_visible(False)
-    for axes in grid[-1]:
-        axes.set_xlabel("CPU time [s]")
+    for column in grid.T:
+        below = [axes for axes in column if axes.get_visible()][-1]
+        below.set_xlabel("CPU time [s]")
+        below.tick_params(labelbottom=True)
     for axes in grid[:, 0]:
         axes.set_ylabel("error of the force [–]")
     for name, color in zip(CODES, COLORS, strict=True):
@@ -67,15 +69,13 @@ def problem(row: Row) -> tuple[str, float, float]:
     return flags.get("-problem", row["scene"]), number(row, "kappa"), number(row, "m")
 
 
-def annotate_failures(axes: Axes, rows: list[Row]) -> None:
-    """How many cases of each code came to nothing, and how."""
+def failures(rows: list[Row]) -> list[str]:
+    """How many cases of each code came to nothing, and how, in lines."""
     lines = []
     for code, name in enumerate(CODES):
         lost = {row["flags"]: row["status"] for row in rows if code_index(row) == code}
         lines += [f"{name}: {list(lost.values()).count(how)} {how}" for how in sorted(set(lost.values()))]
-    axes.text(
-        0.97, 0.97, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=7, color=style.GREY
-    )
+    return lines
 
 
 def code_index(row: Row) -> int:
