@@ -290,9 +290,9 @@ class Bodies:
             middle = self.x[self.corners[root == end]].mean(axis=(0, 1))[: self.dim]
             where = ", ".join(f"{c:.4g}" for c in middle)
             refuse(
-                f'preload "{s.on.name}" of the case file, line {s.line}: the piece of the body about ({where}), on one side '
-                f"of the cut, has no contact and no support that takes the force{ALLOWED}both ends of the shank in "
-                "contacts, ties or supports"
+                f'preload "{s.on.name}" of the case file, line {s.line}: the piece of the body about ({where}), '
+                f"on one side of the cut, has no contact and no support that takes the force{ALLOWED}both ends of the "
+                "shank in contacts, ties or supports"
             )
 
     def one(self, label: int) -> int:

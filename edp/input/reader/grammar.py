@@ -828,7 +828,6 @@ class Tighten(Statement, word="tighten", example="tighten cut1 cut2 to 0.5"):
     does = "the order in which bolts are tightened"
     synonyms = "sequence tightening_sequence pass"
     once = ""
-    note = ", NAME: of a preload, fraction: of it"
     bolts: tuple[Group, ...] = custom(Bolts())
     fraction: float = option("to", number("the fraction of the preload", "fraction", above=0, below=10), default=1.0)
 
