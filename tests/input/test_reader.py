@@ -711,6 +711,7 @@ MODULES = [
     ("plastic block 1 1", {"plastic", "friction", "moments", "stresses"}),
     ("contact left right wear 1 slide 1\ncycles 5", {"wear"}),
 ]
+RUBBER = GOOD.replace("nu 0.3", "nu 0.5")
 
 
 @pytest.mark.parametrize("lines, names", MODULES)
@@ -726,6 +727,31 @@ def test_modules_of_flags():
     assert asked("", axis=True) == {"axisStresses"} and asked("", axis=True, space=True) == set()
     assert asked("pressure left 1\nstresses", own=False) == {"loads"}
     assert asked("", "state axisymmetric\n") == {"mirrors"}
+
+
+def of_rubber(lines="", first="", nu=0.5, **run):
+    case = read(first + RUBBER.replace("nu 0.5", f"nu {nu}") + lines)
+    return "incompressible" in modules(needs(case), Run(space=False, **run)).options
+
+
+def test_mixed_elements():
+    """From above 0.49 on with P2; not where plastic, thermal or preload strains are, nor in plane stress."""
+    assert of_rubber() and of_rubber(nu=0.4901) and not of_rubber(nu=0.49)
+    assert not of_rubber(order="4") and not of_rubber(first="state stress\n")
+    assert not of_rubber("expand block 1 1", nu=0.499) and not of_rubber("plastic block 1 1", nu=0.499)
+
+
+@pytest.mark.parametrize("lines, run, words", [
+    ("", {"order": "1"}, "nu 0.5: not with -order 1 or 3"),
+    ("", {"order": "3"}, "nu 0.5: not with -order 1 or 3"),
+    ("", {"own": False}, "nu 0.5: .*other scenes"),
+    ("expand block 1 1", {}, "nu 0.5: .*expand"),
+    ("plastic block 1 1", {"order": "4"}, "nu 0.5: .*plastic"),
+    ("", {"axis": True}, "-axis: not with a nu above 0.49"),
+])  # fmt: skip
+def test_what_excludes_mixed_elements(lines, run, words):
+    with pytest.raises(Refusal, match=words):
+        of_rubber(lines, **run)
 
 
 @pytest.mark.parametrize("lines, run, words", [
