@@ -21,6 +21,7 @@ from pathlib import Path
 import calculix
 import campaign
 import ccx
+import numpy as np
 
 FOLDER = campaign.RESULTS_FOLDER / "plasticity"
 YOUNG_OVER_YIELD, POISSON = 400.0, 0.3
@@ -136,26 +137,40 @@ def hertz(problem: Indentation, force: float) -> float:
     return math.sqrt(2 * force * problem.unit * MODULUS / math.pi) / problem.limit
 
 
-def beside_calculix(size: float, steps: int, penalty: float) -> dict:
-    """Forces of this package and of CalculiX: a cylinder on a block, both plastic, one mesh, the same steps."""
+def beside_calculix(
+    size: float, steps: int, penalty: float, space: bool = False, friction: bool = False, longest: int = 600
+) -> dict:
+    """Forces of this package and of CalculiX: two plastic bodies, one mesh, the same steps.
+
+    In the plane a cylinder on a block, with friction it is dragged too; in space a quarter of a ball on a block.
+    """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        mesh = calculix.meshed(folder, size, False)
-        pressed = calculix.CASE.split("leg 1")[0].replace(f" friction {calculix.FRICTION}", "")
-        case = pressed + FLOWS + f"leg {steps}\nmove pushed 0 -{calculix.PRESS}\n"
+        mesh = calculix.meshed(folder, size, space)
+        start = calculix.CASE.split("leg 1")[0]
+        case = start if friction else start.replace(f" friction {calculix.FRICTION}", "")
+        case += FLOWS + f"leg {steps}\nmove pushed 0 -{calculix.PRESS}\n"
+        if friction:
+            case += f"leg {steps}\nmove pushed {calculix.DRAG} -{calculix.PRESS}\n"
+        if space:
+            case = calculix.CASE_SPACE.replace("move", FLOWS + f"leg {steps}\nmove")
         read = ccx.mesh_of(mesh)
         deck = ccx.Deck(read, case, ccx.Contact(penalty, penalty / 10), direct=True)
-        done = ccx.solve(folder, read, deck.text(), 600)
+        done = ccx.solve(folder, read, deck.text(), longest)
         (folder / "a.case").write_text(case)
         words = ["-mesh", mesh, "-case", folder / "a.case", "-vtu", "0", "-estimate", "0", "-out", folder / "out"]
-        subprocess.run([*campaign.FREEFEM, "edp/parts.edp", *map(str, words)], cwd=campaign.ROOT, capture_output=True)
+        script = "edp/parts-3d.edp" if space else "edp/parts.edp"
+        subprocess.run([*campaign.FREEFEM, script, *map(str, words)], cwd=campaign.ROOT, capture_output=True)
         summary = json.loads((folder / "out/summary.json").read_text())
-    here, there = summary["contacts"][0]["normalForce"], -done.reactions[-1][1]
+    here = -np.array(next(one for one in summary["supports"] if one["name"].startswith("clamp"))["force"])
+    there = np.array(done.reactions[-1][: read.axes])
+    if space:  # across a symmetry the nodes of both supports share the rest
+        here, there = here[2:], there[2:]
     strain = max(body["strainMax"] for body in summary["plastic"]["bodies"])
     return {
-        "force": here,
-        "calculix": there,
-        "off": here / there - 1,
+        "force": here.tolist(),
+        "calculix": there.tolist(),
+        "off": float(np.linalg.norm(here - there) / np.linalg.norm(there)),
         "increments": done.increments,
         "plasticStrain": strain,
     }
@@ -176,7 +191,8 @@ def main(argv: list[str] | None = None) -> int:
     if arguments.calculix:
         if not shutil.which("ccx"):
             parser.error("no ccx here; apt-get install calculix-ccx")
-        calculix.say(beside_calculix(0.02, 20, 1e6))
+        for size, steps, space, friction in ((0.02, 20, False, False), (0.02, 20, False, True), (0.05, 8, True, False)):
+            calculix.say(beside_calculix(size, steps, 1e6, space, friction))
         return 0
     rows = []
     for problem in problems():

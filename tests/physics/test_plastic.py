@@ -6,7 +6,7 @@ import numpy as np
 import plasticity
 import pytest
 from freefem import ROOT, cases_of, part, table
-from input.test_parts import UNTURNED, Mesh, block, cube, turn, vector
+from input.test_parts import UNTURNED, Mesh, block, turn, vector
 from output.test_paraview import Grid
 
 SCREEN = re.compile(r"^    greatest of block +(\S+)(?: ± (\S+) \(load steps\))?", re.M)
@@ -289,16 +289,16 @@ def test_not_found(tmp_path):
 
 BODY = "body block E 100 nu 0.3\nplastic block 1 0\nclamp bottom\nobstacle top plane 0 2.1 0 -1 move 0 -0.2{}\n"
 REFUSED = {
-    ("state stress\n" + BODY.format(""),): "plastic: in plane strain and about an axis only; allowed: state strain",
+    ("state stress\n" + BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand in plane stress; allowed: state",
     (BODY.format(""), "-order", 1): "plastic: not with -order 1; allowed: 2",
     (BODY.format(""), "-accuracy", 0.1): "plastic: not with -accuracy 0.1; allowed: -accuracy 0, for the errors",
-    (BODY.format(" friction 0.2"),): "plastic: not with friction or tie",
+    (BODY.format("").replace("1 0\nclamp", "1 table 0.1 0.9\nclamp"),): "the table starts with 0.9, below the yield stress 1",
     (BODY.format(""), "-method", "newton"): "plastic: not with -method newton; allowed: xnewton",
     (BODY.format(""), "-distance", "exact"): "plastic: not with -distance exact; allowed: linear",
     (BODY.format(""), "-history", 1): "plastic: not with -history 1; allowed: a line leg STEPS",
     (BODY.format("\nrotate left 0 0 0.1"),): "plastic: not with rotate",
-    (BODY.format(" wear 1e-6 slide 1\ncycles 10"),): "plastic: not with expand, preload, conduct or wear",
-    (BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand, preload, conduct or wear",
+    (BODY.format(" wear 1e-6 slide 1\ncycles 10"),): "plastic: not with conduct or wear",
+    (BODY.format("").replace("1 0\nclamp", "1 table 0.1 2 0.05 3\nclamp"),): "0.05: the plastic strain is out of range; allowed: above 0.1",
     (BODY.format(" interference 0.1"),): "plastic: not with interference, which would act as a whole",
     (BODY.format("").replace("nu 0.3", "nu 0.3 yield 2"),): "plastic: not with yield of the same body",
     (BODY.format("").replace("1 0\nclamp", "0 0\nclamp"),): "0: the yield stress is out of range; allowed: above 0",
@@ -318,10 +318,3 @@ def test_refused(tmp_path, number):
     lines = run.stdout.splitlines()
     assert REFUSED[given] in lines[0] and "allowed" in lines[0]
     assert not (tmp_path / "out").exists()
-
-
-def test_refused_in_space(tmp_path):
-    """In space plasticity is refused, with and without the script's option."""
-    case = "body block E 100 nu 0.3\nplastic block 1 0\nclamp bottom\nobstacle top plane 0 0 1 0 0 -1 move 0 0 -0.1\n"
-    run = part(tmp_path, cube(Mesh()).text(), case, space=True, expect=10)
-    assert "plastic: in plane strain and about an axis only" in run.stdout.splitlines()[0]
