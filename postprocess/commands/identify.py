@@ -27,6 +27,7 @@ from postprocess.results import ResultsError
 UNLIKELY = 0.01  # probability of the misfit below which a law is rejected
 DECISIVE = 10.0  # difference of the criteria from which on the worse law has no support
 CLOSE = 2.0  # and below which both laws are as good
+THICK = 10.0  # ratio of -d0 to the greatest approach from which on -d0 is in doubt
 WIDEST = 1e6  # ratio of the ends of an interval from which on it says nothing
 SIZE = (style.PAGE, 0.42 * style.PAGE)
 
@@ -121,6 +122,12 @@ def report(fits: list[LawFit], measured: Measurements, problem: Problem) -> list
     """The lines of the screen, the preferred law first."""
     scatter = "stated" if measured.is_scatter_known else "estimated, relative"
     lines = [f"{len(measured.values)} measured values at {len(measured.loads)} loads, standard deviations {scatter}"]
+    start, reach = abs(float(problem.parameters.get("d0", 0))), max(map(abs, measured.loads))
+    if measured.flag == "u0" and start > THICK * reach and "d0" not in fits[0].fit.values:
+        lines.append(
+            f"warning: the law of RUN begins at d0 -{shown(start)}, far beyond all approaches, at most {shown(reach)}: "
+            "give the run its -d0, or fit it"
+        )
     for one in fits:
         found = one.fit
         lines += ["", f"law {one.law}, {style.count(found.steps, 'step')}"]

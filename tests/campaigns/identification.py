@@ -2,18 +2,19 @@
 
 python tests/campaigns/identification.py [SETS [SEED]]: draws SETS tables (default 200) of 8 forces on a compliant layer
 with normal noise of 1 %, each with its own kappa and m, and identifies them by the power law: with the deviations
-stated, and with estimated ones. Then it draws half as many from the exponential law, and fits both laws. All tables are
-identified at the same time: each step of all fits is one run of FreeFEM. Writes
+stated, and with estimated ones. Then it draws half as many from the exponential law, and fits both laws. The contact
+problem on the mesh is solved by its condensed twin in numpy, which is first checked against FreeFEM. Writes
 results/identification/identification.csv.
 """
 
 import csv
 import sys
 import tempfile
-import threading
 from dataclasses import replace
 from pathlib import Path
 
+import condensed
+import conditioning
 import numpy as np
 
 from postprocess.law_fits import BOUNDS
@@ -27,36 +28,52 @@ LOADS = np.linspace(-0.2, 0.15, 8)  # approaches, counted from the touch of the 
 NOISE = 0.01
 
 
-class SharedProblem(Problem):
-    """A problem that several threads solve: once all of them wait, their problems are one table."""
-
-    def start(self, threads: int) -> None:
-        self.waiting: list[tuple[list, list]] = []
-        self.active = threads
-        self.lock = threading.Condition()
+class Twin(Problem):
+    """The same problem in numpy: the compliance of its contact points comes from FreeFEM, the law is solved here."""
 
     def solve(self, problems, sensitivities=True):
-        answer: list = []
-        with self.lock:
-            self.waiting.append((problems, answer))
-            self.solve_if_all_wait()
-            self.lock.wait_for(lambda: len(answer) == len(problems))
-        return answer
+        return [self.solve_one(one, sensitivities) for one in problems]
 
-    def leave(self) -> None:
-        with self.lock:
-            self.active -= 1
-            self.solve_if_all_wait()
+    def solve_one(self, at, sensitivities):
+        law = (
+            condensed.power(at["kappa"], at["m"])
+            if at["law"] == "power"
+            else condensed.exponential(at["p0"], at["beta"])
+        )
+        C, w = self.contact.C, self.contact.w
+        free = self.contact.free + at["u0"]
+        s = free.copy()
+        for _ in range(100):  # Newton's method from the side where it is monotone
+            change = np.linalg.solve(np.eye(len(s)) + C * (w * law.slope(s)), free - s - C @ (w * law.pressure(s)))
+            s += change
+            if np.abs(change).max() < 1e-13 * np.abs(s).max():
+                break
+        else:
+            return None
+        row = {"force": float(w @ law.pressure(s))}
+        if not sensitivities:
+            return row
+        active = law.slope(s) > 0
+        s, p, slope = s[active], law.pressure(s)[active], law.slope(s)[active]
+        adjoint = np.linalg.solve(C[np.ix_(active, active)] + np.diag(1 / (w[active] * slope)), np.ones(len(s)))
+        by = {"kappa": p / at.get("kappa", 1), "m": p * np.log(s), "p0": p / at.get("p0", 1)}
+        by["beta"] = s * (p + at.get("p0", 0))
+        return row | {f"sensitivities.force.{n}": float(adjoint @ (v / slope)) for n, v in by.items() if n in at}
 
-    def solve_if_all_wait(self) -> None:
-        if not self.waiting or len(self.waiting) < self.active:
-            return
-        found = super().solve([one for problems, _ in self.waiting for one in problems])
-        for problems, answer in self.waiting:
-            answer.extend(found[: len(problems)])
-            del found[: len(problems)]
-        self.waiting = []
-        self.lock.notify_all()
+
+def make_twin(problem: Problem) -> Twin:
+    """The twin of FreeFEM's problem, checked against it: forces and derivatives of two laws at all loads."""
+    twin = Twin(problem.script, problem.flags, problem.parameters, problem.summary)
+    flags = {
+        name: value for name, value in zip(BODIES[::2], BODIES[1::2], strict=True) if name not in ("-vtu", "-estimate")
+    }
+    twin.contact = conditioning.assembled({name[1:]: value for name, value in flags.items()})[-1]
+    settings = [{"law": law, **first, "u0": load} for law, first in FIRST.items() for load in LOADS]
+    for one, other in zip(problem.solve(settings), twin.solve(settings), strict=True):
+        wrong = [name for name, value in other.items() if not np.isclose(value, one[name], rtol=1e-5, atol=0)]
+        if wrong:
+            raise SystemExit(f"the twin differs from FreeFEM: {wrong[0]} {other[wrong[0]]}, not {one[wrong[0]]}")
+    return twin
 
 
 FIRST = {"power": {"kappa": 1e3, "m": 3.0}, "exponential": {"p0": 1.0, "beta": 10.0}}  # first values, for all sets
@@ -64,25 +81,11 @@ FIRST = {"power": {"kappa": 1e3, "m": 3.0}, "exponential": {"p0": 1.0, "beta": 1
 
 def identify_all(problem: Problem, tables: list[Measurements], law: str, firsts: list[dict]) -> list[Fit | None]:
     """The fit of a law to each table, from these first values on."""
-    shared = SharedProblem(problem.script, problem.flags, problem.parameters, problem.summary)
-    found: list[Fit | None] = [None] * len(tables)
-    shared.start(len(tables))
-
-    def work(k: int) -> None:
-        try:
-            model = ContactModel(shared, tables[k], {"law": law})
-            parameters = [Parameter(name, first, *BOUNDS[name]) for name, first in firsts[k].items()]
-            data = np.array(tables[k].values), np.array(tables[k].deviations)
-            found[k] = fit(model.predict, parameters, *data, tables[k].is_scatter_known)
-        finally:
-            shared.leave()
-
-    threads = [threading.Thread(target=work, args=(k,)) for k in range(len(tables))]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    print(f"{len(tables)} fits of {law}, {shared.calls} runs of FreeFEM", flush=True)
+    found = []
+    for table, first in zip(tables, firsts, strict=True):
+        parameters = [Parameter(name, value, *BOUNDS[name]) for name, value in first.items()]
+        data = np.array(table.values), np.array(table.deviations)
+        found.append(fit(ContactModel(problem, table, {"law": law}).predict, parameters, *data, table.is_scatter_known))
     return found
 
 
@@ -129,7 +132,7 @@ def campaign(sets: int, seed: int) -> list[list]:
     generator = np.random.default_rng(seed)
     with tempfile.TemporaryDirectory() as folder:
         run_freefem("disc-on-block", [*BODIES, "-out", folder + "/out"])
-        problem = read_problem(Path(folder, "out"))
+        problem = make_twin(read_problem(Path(folder, "out")))
     truths = [
         {"law": "power", "kappa": float(10 ** generator.uniform(2, 4)), "m": float(generator.uniform(1.5, 4))}
         for _ in range(sets)

@@ -29,15 +29,21 @@ MORE = (
     "| scenes/two-cylinders.edp -d0 -0.01 -law power -kappa 1e5"
     "| scenes/sphere-on-plane.edp -d0 -0.01 -law exponential | scenes/flat-punch.edp -h 1 -law signorini"
 )
-FRICTION = [  # of one or two bodies, the plane and space; the last load steps turn back
-    ["scenes/fretting.edp", "-h", 0.8, "-force", 0, "-u0", 0.2, "-drag", 0.08, "-law", "exponential", "-d0", -0.01]
-    + ["-compliance", 1e-3, "-legs", "1 0, 1 0.5, 1 1, 0.8 -0.4"],
-    ["scenes/fretting.edp", "-h", 0.2, "-order", 1, "-shearLimit", 1.2, "-legs", "1 0, 1 1, 1 -0.8, 0.9 0.2"],
-    ["scenes/fretting-bodies.edp", "-h", 0.2, "-law", "power", "-kappa", 1e5, "-d0", -0.001, "-E2", 300],
-    ["scenes/fretting-3d.edp", "-h", 2.5, "-u0", 0.5, "-drag", 0.05, "-gap", 0, "-legs", "1, 1 0.5 0.5, 1 -0.3 0.6"]
-    + ["-law", "power", "-kappa", 1e4, "-m", 2],
-    ["scenes/wedge.edp", "-h", 0.4],
+# of one or two bodies, the plane and space; the last load steps turn back
+FRICTION = [
+    "fretting -h 0.8 -force 0 -u0 0.2 -drag 0.08 -law exponential -d0 -0.01 -compliance 1e-3|1 0, 1 0.5, 1 1, 0.8 -0.4",
+    "fretting -h 0.2 -order 1 -shearLimit 1.2|1 0, 1 1, 1 -0.8, 0.9 0.2",
+    "fretting-bodies -h 0.2 -law power -kappa 1e5 -d0 -0.001 -E2 300|1 0, 1 1",
+    "fretting-3d -h 2.5 -u0 0.5 -drag 0.05 -gap 0 -law power -kappa 1e4 -m 2|1, 1 0.5 0.5, 1 -0.3 0.6",
+    "wedge -h 0.4|1, 1e-3",
 ]
+
+
+def on_path(text):
+    """The script and its flags, from "scene FLAGS|LEGS"."""
+    flags, legs = text.split("|")
+    scene, *flags = flags.split()
+    return [f"scenes/{scene}.edp", *flags, "-legs", legs]
 
 
 def one(script, *flags, out):
@@ -65,9 +71,9 @@ def number(row, name):
     return float(row[others.get(name, name)])
 
 
-@pytest.mark.parametrize("flags", cases_of(flag_lists(FLAGS), flag_lists(MORE) + FRICTION), ids=str)
+@pytest.mark.parametrize("flags", cases_of(flag_lists(FLAGS), [*flag_lists(MORE), *map(on_path, FRICTION)]), ids=str)
 def test_finite_differences(flags, tmp_path):
-    """Each derivative shall be that of four other solutions to 1e-5 of the greatest, of two by nu and tangential loads."""
+    """Each derivative shall be that of four other solutions to 1e-5 of the greatest, of two by nu, drag and shear."""
     script, *flags = flags
     if "TABLE" in flags:
         flags[flags.index("TABLE")] = tmp_path / "law.csv"

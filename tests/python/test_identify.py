@@ -104,6 +104,20 @@ def test_intervals_contain_the_truth(law, known):
     assert not known or np.all((squares > 0.75**2) & (squares < 1.3**2)), squares
 
 
+def test_start_of_the_law():
+    """A -d0 of a run in other units shall be told, one like the approaches or fitted not."""
+    measured = draw(np.random.default_rng(6), 0.01, TRUTHS["power"])
+    fits = [identified("power", measured)]
+    for start, told in ((-0.3, False), (-30.0, True)):
+        lines = identify.report(fits, measured, springs(d0=start))
+        assert told == any(
+            line.startswith(f"warning: the law of RUN begins at d0 {start:g}, far beyond all approaches, at most 0.3:")
+            for line in lines
+        )
+    fits[0].fit.values["d0"] = -30.0
+    assert not any("begins at" in line for line in identify.report(fits, measured, springs(d0=-30.0)))
+
+
 @pytest.mark.parametrize("law", TRUTHS)
 def test_wrong_law_is_found_out(law):
     """With 1 % noise the other law shall be rejected by its sum of squares, and the true one preferred."""
@@ -237,7 +251,7 @@ def test_identification_by_freefem(tmp_path, capsys):
 
 
 def test_friction(tmp_path, capsys):
-    """Displacements under tangential forces shall give the coefficient of friction; a run with -history 1 is refused."""
+    """Displacements under tangential forces shall give the coefficient of friction; -history 1 is refused."""
     flags = ["-h", 0.2, "-order", 1, "-vtu", 0, "-estimate", 0]
     lines = ["-shear,dragged.value,sd"]
     for load in (1.5, 2.2):
