@@ -9,6 +9,7 @@
 // FreeFEM adds each entry to a hash table, and sorts by heap what it then factorises. Here a row is added up where it stands.
 //        setBlasThreads(several): from now on several threads of OpenBLAS, at most 4, or one, as from the beginning; returns how many, 0 if the
 //        environment says how many and nothing is changed. Threads that wait spin.
+// At its load it also defines macros for flags and cases, and answers FreeFEM's clock around statements: see below.
 // CHOLMOD copies between its supernodes by four OpenMP threads, whose waking costs more than they save: here it uses one.
 #include "ff++.hpp"
 #include "AFunction_ext.hpp"
