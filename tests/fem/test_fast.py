@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shutil
+import sys
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ RUNS = [  # elements with half matrices, bodies of two materials, and what the p
     ("disc-on-block", "-order", "2", "-h", "2"),
     ("meshed-disc", "-order", "4", "-h", "4", "-Eratio", "3"),
     ("disc-on-block", "-order", "3", "-h", "3", "-geometry", "axisymmetric"),
+    ("disc-on-block", "-order", "4", "-h", "4", "-half", "1", "-law", "linear", "-method", "newton"),
     ("sphere-on-block", "-order", "2", "-h", "2", "-patch", "4", "-layers", "1", "-grading", "10"),
 ]
 ROUNDING = 1e-8  # of what is no difference of large numbers
@@ -135,6 +137,50 @@ def test_same_in_space(tmp_path):
         away = np.linalg.norm(points[::3] - points[i], axis=1)
         away[np.arange(0, len(points), 3) % 2 != i % 2] = 1e3 * (away.max() + 5)
         assert squares == pytest.approx(away**2, rel=1e-12)
+
+
+EXAMPLE = ["edp/parts.edp", "-mesh", "edp/examples/taper/taper.geo", "-case", "edp/examples/taper/taper.case"]
+
+
+@pytest.mark.skipif(not FAST.exists(), reason="without the plugin of `make fast`")
+@pytest.mark.parametrize(
+    "words",
+    [["edp/main.edp", "-half", "1", "-order", "4", "-law", "linear", "-method", "newton", "-states", "1"], EXAMPLE],
+    ids=["flags", "case"],
+)
+def test_one_start(words, tmp_path):
+    """What flags and a case need shall be read at once; without the plugin the script starts again for it."""
+    programs, log = tmp_path / "programs", tmp_path / "starts"
+    programs.mkdir()
+    starter = programs / "FreeFem++"
+    program = shutil.which("FreeFem++")  # it starts itself by the name that it was called by
+    starter.write_text(
+        f"#!{sys.executable}\nimport os, sys\nopen({str(log)!r}, 'a').write('start\\n')\n"
+        f"os.execv({program!r}, ['FreeFem++', *sys.argv[1:]])\n"
+    )
+    starter.chmod(0o755)
+    found = {}
+    for built in (False, True):
+        place = tmp_path / str(built)
+        place.mkdir()
+        for name in ("edp", "meshes", "freefem++.pref", ".venv", *(["build"] if built else [])):
+            (place / name).symlink_to(ROOT / name)
+        log.unlink(missing_ok=True)
+        path = f"{programs}{os.pathsep}{os.environ['PATH']}"
+        command = ["FreeFem++", "-nw", "-v", "0", *words, "-unknown", "1"]  # refused once all modules are read
+        code, stdout = execute(command, cwd=place, env=environment(PATH=path))
+        assert code == 10 and "-unknown" in stdout, stdout
+        found[built] = len(log.read_text().splitlines())
+    assert found == {False: 2, True: 1}
+
+
+@pytest.mark.skipif(not FAST.exists(), reason="without the plugin of `make fast`")
+def test_clock_goes_on(tmp_path):
+    """clock() of a script shall tell CPU time, though statements between { } do not ask for it."""
+    (tmp_path / "build").symlink_to(FAST.parent)
+    text = "real t = clock(); real s = 0; for (int i = 0; i < 200000; i++) { s += 1; s -= 0.5; } t = clock() - t;"
+    answer = told(snippet(tmp_path, f'include "input/flags.idp"\n{text}\ntell("t", t);'))
+    assert 0.001 < answer["t"][0] < 60
 
 
 def test_same_numbers(package, tmp_path):

@@ -9,6 +9,7 @@
 // FreeFEM adds each entry to a hash table, and sorts by heap what it then factorises. Here a row is added up where it stands.
 //        setBlasThreads(several): from now on several threads of OpenBLAS, at most 4, or one, as from the beginning; returns how many, 0 if the
 //        environment says how many and nothing is changed. Threads that wait spin.
+// At its load it also defines macros for flags and cases, and answers FreeFEM's clock around statements: see below.
 // CHOLMOD copies between its supernodes by four OpenMP threads, whose waking costs more than they save: here it uses one.
 #include "ff++.hpp"
 #include "AFunction_ext.hpp"
@@ -295,22 +296,31 @@ static void quickenStatements() {}
 #endif
 
 // Flags whose modules are read on request (input/output.idp): this plugin is loaded before them, and with these macros the script needs no
-// second start. A flag that is not here costs one. values: empty for all but 0; unless: scripts with this macro do not need it.
+// second start. A flag that is not here costs one. values: empty for all but 0; unless: scripts with one of these macros do not need it.
 static const struct { const char *flag, *values, *word, *unless; } needed[] = {
     {"-half", " 1 ", "symmetryOnRequest", "threeDimensional"},
     {"-order", " 3 4 ", "highOrderOnRequest", "threeDimensional"},
-    {"-order", " 3 4 ", "mapOnRequest", "deformableMaster"},
+    {"-order", " 3 4 ", "mapOnRequest", "threeDimensional deformableMaster"},
     {"-geometry", " axisymmetric ", "ringsOnRequest", "threeDimensional"},
-    {"-distance", " exact ", "exactOnRequest", "exactOnRequest"},
-    {"-history", " 1 ", "historyOnRequest", "historyOnRequest"},
-    {"-states", " 1 ", "statesOnRequest", "statesOnRequest"},
-    {"-sensitivity", " 1 ", "sensitivityOnRequest", "sensitivityOnRequest"},
+    {"-distance", " exact ", "exactOnRequest", ""},
+    {"-history", " 1 ", "historyOnRequest", ""},
+    {"-states", " 1 ", "statesOnRequest", ""},
+    {"-sensitivity", " 1 ", "sensitivityOnRequest", ""},
     {"-force", "", "motionsOnRequest", "readModes"},
     {"-method", " paper newton linesearch incremental ", "methodsOnRequest", "eachMethod"},
     {"-law", " exponential barrier table linear ", "lawsOnRequest", "eachLaw"},
 };
 extern KN<String> *pkarg;
 extern long mpisize;
+
+// of FreeFEM's language: defines the macro `word`, unless one of these or itself is there
+static std::string macroUnless(const std::string &macros, const std::string &word)
+{
+    std::istringstream names(macros + " " + word);
+    std::string head, end;
+    for (std::string name; names >> name; end += "ENDIFMACRO\n") head += "IFMACRO(!" + name + ")\n";
+    return head + "macro " + word + "() 1 //\n" + end;
+}
 
 static std::string inQuotes(std::string text)
 {
@@ -335,7 +345,7 @@ static std::string askedOfCase(const std::string &script, const std::string &fla
         std::ifstream file;
         if (system(command.c_str()) == 0) file.open(answer);
         std::getline(file, reader);
-        for (file >> word; file >> word; words += word + " ") text += "defineOnce(" + word + ")\n";
+        for (file >> word; file >> word; words += word + " ") text += macroUnless("", word);
         if (!text.empty()) setenv("CONTACT_REQUESTED", (" " + words + "caseAsked ").c_str(), 1);
         if (!text.empty()) setenv("CONTACT_READER", reader.c_str(), 1);
         unlink(answer);
@@ -346,14 +356,14 @@ static std::string askedOfCase(const std::string &script, const std::string &fla
 
 static void readAtOnce()
 {
-    std::string text = "macro defineOnce(word) IFMACRO(!word)\nNewMacro word() 1 EndMacro\nENDIFMACRO\n//\n", script, flags;
+    std::string text, script, flags;
     FOR(i, pkarg->N()) {
         const std::string flag = *(*pkarg)[i].getap()[0], value = i + 1 < pkarg->N() ? *(*pkarg)[i + 1].getap()[0] : std::string();
         flags += flag + "\n";
         if (flag.size() > 4 && flag.substr(flag.size() - 4) == ".edp") script = flag, flags = "\n";
         for (auto &need : needed)
             if (flag == need.flag && (*need.values ? strstr(need.values, (" " + value + " ").c_str()) != nullptr : value != "0"))
-                text += std::string("IFMACRO(!") + need.unless + ")\ndefineOnce(" + need.word + ")\nENDIFMACRO\n";
+                text += macroUnless(need.unless, need.word);
     }
     zzzfff->input(text + askedOfCase(script, flags));
 }
