@@ -121,3 +121,18 @@ def test_what_a_joint_loses(tmp_path, capsys):
     last = capsys.readouterr().out.splitlines()[-1]
     loss = 100 * (1 - force[-1] / force[0])
     assert loss > 0.1 and last.endswith(f"{force[-1]:.6g}, {force[1:].min():.6g}, {loss:.2f} %")
+
+
+def test_no_new_meshes(tmp_path):
+    """The steps are those of one mesh."""
+    said = case(
+        tmp_path,
+        data("tightening/rings.geo"),
+        f"{RINGS}tighten inner outer\n",
+        "-accuracy",
+        0.05,
+        "-estimate",
+        1,
+        expect=10,
+    )
+    assert "-accuracy 0.05: not with tighten; allowed: 0" in said.stdout
