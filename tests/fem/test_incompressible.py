@@ -75,11 +75,14 @@ def test_a_lined_tube_and_a_shell(tmp_path, state, force, pressure):
 @pytest.mark.parametrize("nu", ["0.5", "0.4999"])
 def test_a_cord_under_a_plate(tmp_path, nu):
     """Hertz: pressure and length of the force. P2 elements alone have an alternating pressure."""
-    summary = part(tmp_path, CORD.replace("SIZE", "0.3"), CORD_CASE.replace("NU", nu)).summary
+    case = CORD_CASE.replace("NU", nu) + "stresses\nline middle 0 0 0 2.665\n"
+    summary = part(tmp_path, CORD.replace("SIZE", "0.3"), case).summary
     force, modulus = 2 * summary["contacts"][0]["normalForce"], 6 / (1 - float(nu) ** 2)
     half = np.sqrt(4 * force * 2.665 / (np.pi * modulus))
     holds(summary, "pressureMax", 2 * force / (np.pi * half), 0.06)
     holds(summary, "contactLength", half)
+    rows = np.genfromtxt(tmp_path / "out/line-middle.csv", delimiter=",", names=True)
+    assert rows["stressYY"][-1] == pytest.approx(-summary["contacts"][0]["pressureMax"], rel=0.02)
     assert not any("mixed" in text or "-order 4" in text for text in summary["warnings"])
 
 
