@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 from .kept import keep, place_of, take
@@ -46,7 +47,7 @@ def ask_modules(of: Words) -> int:
         history="-history" in flags,
         axis="-axis" in flags,
         check=of["check"] == "1",
-        order=dict(zip(flags, flags[1:])).get("-order", "2"),
+        order=dict(pairwise(flags)).get("-order", "2"),
     )
     code = 0
     try:
