@@ -13,7 +13,6 @@ from .case import Case
 from .rigid.shapes import has_edges
 from .words import Refusal
 
-
 MIXED_ABOVE = 0.49  # the Poisson's ratio, as in fem/incompressible/mixed-element.idp
 
 
@@ -100,7 +99,8 @@ def refuse_together(need: Needs, run: Run) -> None:
         raise Refusal("plastic: not with conduct or wear; allowed: loads, motions, contacts, expand, preload")
     if need.strains and not run.own:
         raise Refusal("expand, preload, conduct: allowed in edp/parts" + ("-3d" if run.space else "") + ".edp")
-    if need.poisson == 0.5 and not (mixed(need, run) or run.order == "4" and not (need.plastic or need.strains)):
+    fourth = run.order == "4" and not (need.plastic or need.strains)
+    if need.poisson == 0.5 and not (mixed(need, run) or fourth):
         raise Refusal(
             "nu 0.5: not with -order 1 or 3, expand, preload, conduct or plastic, nor in other scenes; "
             "allowed there: nu below 0.5"
