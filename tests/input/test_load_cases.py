@@ -33,7 +33,9 @@ def split(text, **where):
 def numbers(of, name):
     """Gravity, pressure, traction and move of a load case as the reader hands them over."""
     made = read_case("\n".join(" ".join(line.words) for line in of.lines(name)), Where(cases=True), GROUPS)
-    (weight,), (pressure,), (traction,), (move,) = (made.of(kind) for kind in (g.Gravity, g.Pressure, g.Traction, g.Move))
+    (weight,), (pressure,), (traction,), (move,) = (
+        made.of(kind) for kind in (g.Gravity, g.Pressure, g.Traction, g.Move)
+    )
     return weight.value[1], pressure.value, traction.value[0], move.by[0], move.by[1]
 
 
@@ -90,14 +92,16 @@ def test_row_is_the_edited_file():
     texts = [" ".join(line.words) for line in row_lines(of, names, ["-1", "", "0.5"])]
     edited = COMMON.replace("-0.05", "-1").replace("interference 0.01", "interference 0.5")
     assert texts == [" ".join(line.split()) for line in edited.strip().split("\n")]
-    assert [line.words[-2:] for line in row_lines(split("contact top round"), ["contact.top.round.interference"], ["2"])] == [
-        ["interference", "2"]
-    ]
+    assert [
+        line.words[-2:] for line in row_lines(split("contact top round"), ["contact.top.round.interference"], ["2"])
+    ] == [["interference", "2"]]
 
 
 def rows_of(tmp_path, text, names, cells):
     """The first lines of the files of rows: why each is refused, or nothing."""
-    (tmp_path / "table").write_text("\n".join([f"{len(names)} {len(cells)}", *names, *(c for row in cells for c in row)]))
+    (tmp_path / "table").write_text(
+        "\n".join([f"{len(names)} {len(cells)}", *names, *(c for row in cells for c in row)])
+    )
     base = read_case(text, Where(), GROUPS)
     write_rows(tmp_path / "table", tmp_path, "F", text, base, GROUPS, base.used(), {})
     assert not (tmp_path / "table").exists()
@@ -109,7 +113,10 @@ def test_rows_are_refused_one_by_one(tmp_path):
     names = ["contact.top.round.friction", "move.head.y"]
     why = rows_of(tmp_path, COMMON, names, [["0.3", "1"], ["-1", "1"], ["0", ""], ["", "a"]])
     assert why[0] == "" and "friction 1 " not in why[0]
-    assert why[1] == "-case F, line 3: -1: the coefficient of friction is out of range; allowed: at least 0 and below 1000000"
+    assert (
+        why[1]
+        == "-case F, line 3: -1: the coefficient of friction is out of range; allowed: at least 0 and below 1000000"
+    )
     assert why[2] == "-case F, line 3: friction: 0 in some rows; allowed: above 0 in the file and in all rows"
     assert why[3].startswith("-case F, line 5: a: the move is no number")
     made = (tmp_path / "row-0").read_text()
@@ -128,7 +135,10 @@ def test_guided_forces_keep_their_direction(tmp_path):
 @pytest.mark.parametrize(
     ("names", "message"),
     [
-        (["body.lower.E"], "column body.lower.E: no number that a row may change: all rows have one mesh, one stiffness"),
+        (
+            ["body.lower.E"],
+            "column body.lower.E: no number that a row may change: all rows have one mesh and stiffness",
+        ),
         (["move.haed.y"], "column move.haed.y: no number of a statement; did you mean move.head.y?"),
         (["case"], "column case: the file has no load case"),
     ],
@@ -153,15 +163,35 @@ BLOCK = COMMON + "load case one\n"
 @pytest.mark.parametrize(
     ("text", "line", "message"),
     [
-        (f"{BLOCK}clamp flank\n", 7, "clamp: in load case one, but it holds in all; allowed before the first load case"),
-        (f"{BLOCK}force flank 1 0\n", 7, "force flank: its group would be held in all load cases; allowed: force flank ... free"),
+        (
+            f"{BLOCK}clamp flank\n",
+            7,
+            "clamp: in load case one, but it holds in all; allowed before the first load case",
+        ),
+        (
+            f"{BLOCK}force flank 1 0\n",
+            7,
+            "force flank: its group would be held in all load cases; allowed: force flank ... free",
+        ),
         (f"{BLOCK}force flank 1 0 rigid\n", 7, "force flank: its group would be held in all load cases"),
         (f"{BLOCK}moment flank 1 rigid\n", 7, "moment flank: its group would be rigid in all load cases"),
-        (f"{BLOCK}move flank 1 0\n", 7, "move flank: it holds in all load cases; allowed: also before the first one, with the "
-         "motion of the others, as move flank 0 0"),
+        (
+            f"{BLOCK}move flank 1 0\n",
+            7,
+            "move flank: it holds in all load cases; allowed: also before the first one, with the "
+            "motion of the others, as move flank 0 0",
+        ),
         (f"{BLOCK}obstacle flank move 1 0\n", 7, "obstacle flank: it holds in all load cases"),
-        (f"pressure flank 2\n{BLOCK}pressure flank 1\n", 8, "pressure flank: also in line 1, in all load cases; allowed: one of them"),
-        (f"{BLOCK}pressure flank 1\npressure flank 2\n", 8, "pressure flank: stated before in load case one, in line 7"),
+        (
+            f"pressure flank 2\n{BLOCK}pressure flank 1\n",
+            8,
+            "pressure flank: also in line 1, in all load cases; allowed: one of them",
+        ),
+        (
+            f"{BLOCK}pressure flank 1\npressure flank 2\n",
+            8,
+            "pressure flank: stated before in load case one, in line 7",
+        ),
         (f"{BLOCK}pressure flank a\n", 7, "a: the pressure is no number"),
         (f"{BLOCK}pressure flink 1\n", 7, "flink: no physical curve of the mesh"),
         (f"{BLOCK}load case one\n", 7, "one: a load case or combination before has this name"),
