@@ -137,7 +137,7 @@ def test_guided_forces_keep_their_direction(tmp_path):
     [
         (
             ["body.lower.E"],
-            "column body.lower.E: no number that a row may change: all rows have one mesh, one stiffness",
+            "column body.lower.E: no number that a row may change: all rows have one mesh and stiffness",
         ),
         (["move.haed.y"], "column move.haed.y: no number of a statement; did you mean move.head.y?"),
         (["case"], "column case: the file has no load case"),

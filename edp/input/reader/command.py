@@ -2,7 +2,8 @@
 
     ready    nothing: whether this Python can run it
     modules  the macros that a case's script needs  space= own= flags= to= cache=
-    problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= rows= cache=
+    problem  mesh and case, for FreeFEM           file= case= folder= space= as= sets= options= unlike= surface= rows=
+                                                   cache=
     again    another mesh of a geometry           file= space= plan= view= to=
 
 `to`: the file that the answer goes to; case=none: -check 1 without a case. Exit codes: 0 done; 1 refused, in one line;

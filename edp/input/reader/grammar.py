@@ -932,32 +932,6 @@ class AboutPoint(Statement, word="about", example="about axle 0 0{| 0}"):
     refused = ((axisymmetric, "about: a ring has no moments; allowed with state axisymmetric: none"),)
 
 
-class Cycles(Statement, word="cycles", example="cycles 1e5 steps 40"):
-    does = "of wear, in so many steps"
-    once = "cycles"
-    count: float = number("the number of cycles", "NUMBER", above=0)
-    steps: float = option(
-        "steps", number("the number of wear steps", "NUMBER", above=0, below=10001, whole=True), default=20.0
-    )
-
-
-class Time(Statement, word="time", example="time 600 steps 40"):
-    does = "heat from a start to an end, in so many steps"
-    synonyms = "transient duration"
-    once = "time"
-    end: float = number("the end", "END", above=0, unit="time")
-    steps: float = keyword("steps", number("the number of time steps", "N", above=0, below=100001, whole=True))
-    scheme: str = option("scheme", choice("the scheme", "bdf2 or euler", "bdf2", "euler"), default="bdf2")
-
-
-class Leg(Statement, word="leg", example="leg 8"):
-    does, once = "loads and motions reached in steps", ""
-    steps: float = number("the number of steps", "STEPS", above=0, below=100001, whole=True)
-    refused = (
-        (no_friction, "leg: read by parts.edp and parts-3d.edp alone; allowed here: one load, -history 1 in steps"),
-    )
-
-
 @dataclass(frozen=True)
 class Terms:
     """Factors and load cases: 1.35 dead + 1.5 wind; without a factor it is 1."""
@@ -989,6 +963,32 @@ class Combine(Statement, word="combine", example="combine storm 1.35 dead + 1.5 
     synonyms = "combination combo loadcomb"
     name: str = word("NAME", allowed=(FILE_NAME, "a name; allowed: letters, digits, - and _"))
     terms: tuple[tuple[float, str], ...] = custom(Terms())
+
+
+class Cycles(Statement, word="cycles", example="cycles 1e5 steps 40"):
+    does = "of wear, in so many steps"
+    once = "cycles"
+    count: float = number("the number of cycles", "NUMBER", above=0)
+    steps: float = option(
+        "steps", number("the number of wear steps", "NUMBER", above=0, below=10001, whole=True), default=20.0
+    )
+
+
+class Time(Statement, word="time", example="time 600 steps 40"):
+    does = "heat from a start to an end, in so many steps"
+    synonyms = "transient duration"
+    once = "time"
+    end: float = number("the end", "END", above=0, unit="time")
+    steps: float = keyword("steps", number("the number of time steps", "N", above=0, below=100001, whole=True))
+    scheme: str = option("scheme", choice("the scheme", "bdf2 or euler", "bdf2", "euler"), default="bdf2")
+
+
+class Leg(Statement, word="leg", example="leg 8"):
+    does, once = "loads and motions reached in steps", ""
+    steps: float = number("the number of steps", "STEPS", above=0, below=100001, whole=True)
+    refused = (
+        (no_friction, "leg: read by parts.edp and parts-3d.edp alone; allowed here: one load, -history 1 in steps"),
+    )
 
 
 BEHIND = {

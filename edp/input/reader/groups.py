@@ -28,8 +28,8 @@ class Where:
 
     friction: whether the script reads it; with a blank in it, it names the flags that ties exclude. wear, plastic:
     whether the script reads them. overlap: an element may be in several groups, of which the case needs one. bodies:
-    of a CAD file, by number the names that its parts have, or "". again: the mesh has the groups that the case picks. cases: a
-    load may be 0, because it has another value in another load case.
+    of a CAD file, by number the names that its parts have, or "". again: the mesh has the groups that the case picks.
+    cases: a load may be 0, because it has another value in another load case.
     """
 
     space: bool = False

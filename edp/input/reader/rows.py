@@ -1,4 +1,4 @@
-"""Problems on one mesh: the load cases of a case file, and the rows of a table whose columns name numbers of statements.
+"""Problems on one mesh: load cases of a case file, and rows of a table whose columns name numbers of statements.
 
 A load case or a row is a case of its own, with the same statements and other numbers. So the model of a case file with
 load cases has the loads of all of them, each with its value in one: 0 where a case does not state it. The name of a
@@ -13,11 +13,11 @@ from pathlib import Path
 
 from . import grammar as g
 from .case import Case, read_lines
-from .fields import STATEMENTS, Reading, read_statement, usage_of
+from .fields import STATEMENTS, Statement, Vector3, read_statement, usage_of
 from .groups import Group, Groups, Where
 from .laws import PARAMETERS
 from .values import table
-from .words import Line, Refusal, meant, split_case, spells_number
+from .words import Line, Refusal, meant, spells_number, split_case
 
 WITH_AXES = {"traction": 2, "weight": 2, "force": 2, "move": 2, "gravity": 1}  # by statement: where its numbers begin
 ONE = {"pressure": 2, "moment": 2, "preload": 2, "spin": 2, "expand": 3}
@@ -131,10 +131,10 @@ def refuse_in_case(of: LoadCases, line: Line, name: str) -> None:
         if words[0] == "obstacle" and not at:
             line.no(f"{start}: in load case {name} without move; allowed: {start} move and numbers")
         if not held or (words[0] == "obstacle" and "move" not in held.words):
-            line.no(
-                f"{start}: it holds in all load cases; allowed: also before the first one, with the motion of the others, "
-                f"as {' '.join('0' if k > max(1, *at, 1) and spells_number(w) else w for k, w in enumerate(words))}"
-            )
+            first = max([1, *at])
+            zeros = " ".join("0" if k > first and spells_number(word) else word for k, word in enumerate(words))
+            where_else = "also before the first one, with the motion of the others"
+            line.no(f"{start}: it holds in all load cases; allowed: {where_else}, as {zeros}")
     elif held:
         line.no(f"{start}: also in line {held.number}, in all load cases; allowed: one of them")
     if not known:
@@ -172,7 +172,8 @@ def load_cases(lines: Sequence[Line], where: Where) -> LoadCases:
         for _, name in made.terms:
             if name not in of.blocks:
                 line.no(
-                    f"{name}: no load case; {meant(name, of.blocks)}allowed: {', '.join(of.blocks) or 'load cases before it'}"
+                    f"{name}: no load case; {meant(name, of.blocks)}"
+                    f"allowed: {', '.join(of.blocks) or 'load cases before it'}"
                 )
         if len({name for _, name in made.terms}) < len(made.terms):
             line.no(f"combine {made.name}: one load case twice; allowed: once")
@@ -185,7 +186,7 @@ def load_cases(lines: Sequence[Line], where: Where) -> LoadCases:
 
 
 def read_load_cases(lines: Sequence[Line], where: Where, of_mesh: Sequence[Group] | None) -> Case:
-    """The case with the loads of all load cases, each of which is read and checked; arguments as those of read_case()."""
+    """The case with the loads of all load cases, each of which is read and checked; arguments of read_case()."""
     of = load_cases(lines, replace(where))
     for name in of.names:
         read_lines(of.lines(name), of.where, of_mesh)
@@ -226,7 +227,9 @@ def check_columns(of: LoadCases, names: Sequence[str]) -> None:
             raise Refusal(f"column {name}: {found.count(name)} lines have this name; allowed: another column")
         if name not in found and name != "case":
             known = any(name.startswith(".".join(line.words[:2]) + ".") for line in lines)
-            why = "no number that a row may change: all rows have one mesh, one stiffness and the same supports and contacts"
+            why = (
+                "no number that a row may change: all rows have one mesh and stiffness, the same supports and contacts"
+            )
             why = why if known else f"no number of a statement; {meant(name, found)}".rstrip("; ")
             raise Refusal(f"column {name}: {why}; allowed: {allowed}")
 
@@ -256,34 +259,29 @@ def skeleton(text: str) -> list[str]:
     ]
 
 
+def guiding(s: Statement) -> Vector3 | None:
+    """The force or moment of a statement whose group moves along or about it alone; None: another statement."""
+    if isinstance(s, g.Obstacle):
+        return s.drive.by if isinstance(s.drive, g.Pushed) else None
+    if isinstance(s, g.Force):
+        return s.resultant if s.how is None else None
+    return s.couple if isinstance(s, g.Moment) and isinstance(s.how, g.About) else None
+
+
 def refuse_other_model(base: Case, case: Case) -> None:
     """Refuses numbers that would change supports, or what friction needs."""
     for one, row in zip(base.statements, case.statements, strict=True):
-        directed = (isinstance(row, g.Force) and row.how is None) or (isinstance(row, g.Moment) and row.holds())
-        old, new = (getattr(s, "resultant", None) or getattr(s, "couple", None) for s in (one, row))
-        if (
-            isinstance(row, g.Obstacle)
-            and isinstance(row.drive, g.Pushed)
-            and isinstance(one, g.Obstacle)
-            and one.drive
-        ):
-            directed, old, new = True, one.drive.by, row.drive.by
-        if directed and old and new and (directed and not isinstance(getattr(row, "how", None), g.Stiff)):
+        if (old := guiding(one)) and (new := guiding(row)):
             size, other = (sum(c * c for c in v) ** 0.5 for v in (old, new))
             if any(abs(a / size - b / other) > 1e-12 for a, b in zip(old, new, strict=True)):
+                guides = f"{row.words[0]} {row.words[1]}: it guides its group along the force of the file"
                 allowed = "a row may change its size; another direction, or its sign, needs a run of its own"
-                raise Refusal(
-                    f"{row.words[0]} {row.words[1]}: it guides its group along the force of the file; allowed: {allowed}",
-                    row.line,
-                )
-        if (
-            isinstance(row, (g.Contact, g.Obstacle))
-            and row.friction
-            and isinstance(one, (g.Contact, g.Obstacle))
-            and one.friction
-        ):
-            if (row.friction.coefficient > 0) != (one.friction.coefficient > 0):
-                raise Refusal("friction: 0 in some rows; allowed: above 0 in the file and in all rows", row.line)
+                raise Refusal(f"{guides}; allowed: {allowed}", row.line)
+    for before, touching in zip(base.touching, case.touching, strict=True):
+        if before.friction and touching.friction:
+            if (before.friction.coefficient > 0) == (touching.friction.coefficient > 0):
+                continue
+            raise Refusal("friction: 0 in some rows; allowed: above 0 in the file and in all rows", touching.line)
 
 
 def write_rows(

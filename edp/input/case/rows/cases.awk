@@ -1,7 +1,7 @@
 # cases.awk: the results of load cases: a table for the screen, and envelope.csv with the least and the greatest of each result
 # Read by awk after json.awk, results.awk and numbers.awk, whose arrays it uses. Rows that have failed do not count.
 # In the environment: FOLDER, SCREEN: as in results.awk.
-function nameOf(column,   part, path, k, n) {  # the name of the entry of a list that a column of rows.csv belongs to
+function listName(column,   part, path, k, n) {  # the name of the entry of a list that a column of rows.csv belongs to
   n = split(column, part, ".")
   path = ".rows." any ".summary"
   for (k = 1; k <= n; k++) {
@@ -69,14 +69,15 @@ END {
     if (length(label(r)) + 6 > width) width = length(label(r)) + 6
   }
   at = ENVIRON["FOLDER"] ".run/envelope.csv"
-  print "result,name,least,leastError,leastCase,greatest,greatestError,greatestCase" > at
+  print "result,name,least,leastPlusMinus,leastCase,greatest,greatestPlusMinus,greatestCase" > at
   for (k = 1; k <= columns; k++) {
     name = column[k]
     if (name !~ /^(force|approach|pressureMax|overlapMax|energy|contact|reaction|master|bodies|prescribed|ways|supports|stresses|preloads|deflections)/ \
       || name ~ /(error|points|Points|times|arcs\..*|closed.*|shared.*|obstacle|refine)$/ || !findEnds(name)) continue
-    print name "," csv(nameOf(name)) "," cell[least, name] "," cell[least, name ".error"] "," csv(label(least)) \
+    print name "," csv(listName(name)) "," cell[least, name] "," cell[least, name ".error"] "," csv(label(least)) \
       "," cell[greatest, name] "," cell[greatest, name ".error"] "," csv(label(greatest)) > at
   }
+  CONVFMT = "%.6g"
   if (any >= 0) {
     p = ".rows." any ".summary"
     space = (p ".reactionZ") in v
