@@ -6,7 +6,7 @@ import re
 import numpy as np
 import plasticity
 import pytest
-from freefem import ROOT, cases_of, data, part, snippet, table, told
+from freefem import ROOT, cases_of, data, part, snippet, told
 from input.test_parts import Mesh, block, cube, turn_in_space
 from output.test_paraview import Grid
 
@@ -64,7 +64,7 @@ HARDENINGS = {
 }
 
 
-@pytest.mark.parametrize("hardening", HARDENINGS)
+@pytest.mark.parametrize("hardening", HARDENINGS, ids=["table", "kinematic", "both"])
 @pytest.mark.parametrize("state", ["space", "stress", "strain"])
 def test_random_strains(tmp_path, state, hardening):
     """Random strain paths through all components: a second integration at a point to 1e-8, on curved elements too."""
@@ -120,7 +120,7 @@ def test_random_strains(tmp_path, state, hardening):
 
 
 def shell(radii, m):
-    """An eighth of a hollow ball, second-order tetrahedra on spheres, as text; groups inside, outside, x, y, z, ball."""
+    """An eighth of a hollow ball, second-order tetrahedra, as text; groups inside, outside, x, y, z, ball."""
     index = {(i, j, m - i - j): None for i in range(m + 1) for j in range(m + 1 - i)}
     index = {key: k for k, key in enumerate(index)}
     ways = np.array([*index], float)
@@ -209,7 +209,7 @@ def test_hollow_ball(tmp_path, layers, m, most):
 
 
 class Bar:
-    """Backward Euler in one direction, with a stress along the bar alone; it leaves the plane instead of being pulled."""
+    """Backward Euler in one direction, with a stress along the bar alone; it leaves the plane instead of a pull."""
 
     def __init__(self, H, C):
         self.H, self.C, self.flow, self.hard = H, C, 0.0, 0.0
@@ -336,7 +336,7 @@ def test_turned_with_friction(tmp_path):
         assert abs(left) < 0.2 * entry["work"]  # of few steps
     assert found[1] == pytest.approx(found[0], rel=1e-5)
     assert rubbed[1] == pytest.approx(rubbed[0], rel=1e-3)  # where slip begins in a step, the axes matter
-    assert np.hypot(*found[0][1:3]) == pytest.approx(0.3 * found[0][0], rel=1e-6)  # it slides
+    assert 0.99 < np.hypot(*found[0][1:3]) / (0.3 * found[0][0]) < 1 + 1e-6  # it slides
 
 
 def test_elastic_with_friction(tmp_path):
@@ -351,22 +351,24 @@ def test_elastic_with_friction(tmp_path):
     assert contacts[1]["shearX"] == pytest.approx(contacts[0]["shearX"], abs=1e-7)
 
 
-QUARTER = """SetFactory("OpenCASCADE"); Cylinder(1) = {{0, 0, -6, 0, 0, 6, 6, Pi / 2}}; Physical Volume("block") = {{1}};
+QUARTER = """SetFactory("OpenCASCADE"); Cylinder(1) = {{0, 0, -6, 0, 0, 6, 6, Pi / 2}};
+Physical Volume("block") = {{1}};
 Field[1] = MathEval; Field[1].F = "{h} * Max(1, 1 + 1.2 * (Sqrt(x*x+y*y+z*z) - 1.1))"; Background Field = 1;
 Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
 """
 SIDES = {"top": "0 0 0 0 0 1", "bottom": "0 0 -6 0 0 1", "x": "0 0 0 1 0 0", "y": "0 0 0 0 1 0"}
 
 
-@pytest.mark.parametrize("h, most", cases_of([(0.2, 0.01)], [(0.12, 0.003)]))
+@pytest.mark.parametrize("h, most", cases_of([(0.2, 0.006)], [(0.12, 0.003)]))
 def test_ball(tmp_path, h, most):
     """A ball pressed into a quarter of a block, far beyond first yield: the force of the axisymmetric run."""
     problem = plasticity.Indentation(True, 0.01, 20)
-    code, ring, _ = plasticity.solve(tmp_path, plasticity.geometry(0.05, 6), problem.case([(4, 1)]), "-estimate", 0)
+    code, ring, _ = plasticity.solve(tmp_path, plasticity.geometry(0.025, 6), problem.case([(4, 1)]), "-estimate", 0)
     radius = 1 / problem.unit
     case = "".join(f"group {name} plane {at}\n" for name, at in SIDES.items())
     case += f"body block E 1 nu 0.3\nplastic block {problem.limit!r} {problem.hardening!r}\nclamp bottom\nsymmetry x\n"
-    case += f"symmetry y\nleg 4\nobstacle top sphere 0 0 {radius!r} R {radius!r} move 0 0 {-problem.depth / problem.unit!r}\n"
+    depth = -problem.depth / problem.unit
+    case += f"symmetry y\nleg 4\nobstacle top sphere 0 0 {radius!r} R {radius!r} move 0 0 {depth!r}\n"
     run = part(tmp_path / "space", QUARTER.format(h=h), case, "-estimate", 0, space=True)
     assert code == 0 and run.factorisations == 1
     assert 4 * run.summary["contacts"][0]["normalForce"] == pytest.approx(ring["contacts"][0]["normalForce"], rel=most)

@@ -801,9 +801,7 @@ class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
     kinematic: float = option(
         "kinematic", number("the kinematic hardening modulus", "C", at_least=0, unit="pressure"), default=0.0
     )
-    refused = (
-        (no_plastic, "plastic: read by parts.edp and parts-3d.edp alone; allowed here: elastic bodies"),
-    )
+    refused = ((no_plastic, "plastic: read by parts.edp and parts-3d.edp alone; allowed here: elastic bodies"),)
 
     def check(self, where: Where) -> str:
         first = self.hardening.rows[0][1] if isinstance(self.hardening, Table) else self.yield_stress
