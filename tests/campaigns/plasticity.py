@@ -76,14 +76,13 @@ class Indentation:
         return {"force": whole / self.force, "meanPressure": mean / self.limit, "strain": a / self.limit * MODULUS}
 
 
-def solve(folder: Path, mesh: str, case: str, *flags) -> tuple[int, dict, list[dict]]:
+def solve(folder: Path, mesh: str, case: str, *flags, script: str = "edp/parts.edp") -> tuple[int, dict, list[dict]]:
     """Code, summary and series of a run."""
-    (folder / "a.geo").write_text(mesh)
+    place = folder / ("a.msh" if mesh.startswith("$") else "a.geo")
+    place.write_text(mesh)
     (folder / "a.case").write_text(case)
-    words = ["-mesh", folder / "a.geo", "-case", folder / "a.case", "-vtu", 0, "-out", folder / "out", *flags]
-    done = subprocess.run(
-        [*campaign.FREEFEM, "edp/parts.edp", *map(str, words)], cwd=campaign.ROOT, capture_output=True
-    )
+    words = ["-mesh", place, "-case", folder / "a.case", "-vtu", 0, "-out", folder / "out", *flags]
+    done = subprocess.run([*campaign.FREEFEM, script, *map(str, words)], cwd=campaign.ROOT, capture_output=True)
     series = folder / "out/series.csv"
     rows = list(csv.DictReader(series.read_text().splitlines())) if series.exists() else []
     return done.returncode, campaign.read_summary(folder / "out/summary.json"), rows
