@@ -84,6 +84,26 @@ def test_onto_the_table(tmp_path):
     assert on.summary["outOfBalance"] < 1e-6
 
 
+IN_SPACE = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 20, 8, 6}; Box(2) = {21, 1.5, 5.99, 8, 5, 4};
+Mesh.MeshSizeMax = 2; MeshSize{ PointsOf{ Volume{2}; } } = 1.3;
+Physical Volume("table") = {1}; Physical Volume("block") = {2};
+Physical Surface("base") = {5}; Physical Surface("face") = {6};
+Physical Surface("under") = {11}; Physical Surface("top") = {12};
+"""
+
+
+def test_onto_the_table_in_space(tmp_path):
+    """From where nothing is opposite, with friction: all that presses rubs, and shear acts against the motion."""
+    case = BLOCK.removeprefix("units mm MPa\n").format("under face friction 0.2", "move top -6 0 0")
+    on = part(tmp_path, IN_SPACE, case, "-order", 1, "-points", "segment", *EXACT, *SERIES, space=True)
+    path = rows(on)
+    assert [row["contactPoints"] for row in path] == sorted(row["contactPoints"] for row in path)
+    assert path[0]["contactPoints"] > 0
+    for row in path:
+        assert row["shearForce"] == pytest.approx(0.2 * row["force"], rel=1e-3)
+
+
 def test_gaps_of_curves_where_they_are(tmp_path):
     """A block that leaves a round pad in one leg, which carries it along, or in two: the same gap is left."""
     case = BLOCK.format("under arc", "{}").replace("table", "pad")

@@ -488,6 +488,18 @@ def test_space_turns_with_its_load(tmp_path):
     assert newton.max() <= 6
 
 
+def test_products_in_space(tmp_path):
+    """Solved by iterations (828 rows) and by an inverse: few products, forces that the mesh hardly changes."""
+    flags = {"-order": 1, "-layers": 1, "-grading": 40, "-legs": "1, 1 0.3, 1 0.6"}
+    paths = [rub(tmp_path / str(h), "edp/scenes/fretting-3d.edp", {**flags, "-h": h}) for h in (0.6, 1)]
+    for path in paths:
+        newton, products = counts(path)
+        assert newton.max() <= 2
+        assert products[0] <= 20 and products[1:].max() <= 9
+    fine, coarse = (path.summary["contacts"][0]["shearForce"][0] for path in paths)
+    assert fine == pytest.approx(coarse, rel=0.1)
+
+
 @pytest.fixture(scope="module")
 def coarse_punch(tmp_path_factory):
     """The example's bodies on larger elements."""

@@ -27,7 +27,8 @@ LIMITS = {  # what is there at present: to be lowered with the code, never raise
     "lines of .edp and .idp": 48211,
 }
 COULOMB = [
-    f"contact/friction/coulomb-{part}.idp" for part in ("graph", "system", "tangent", "solve", "states", "newton")
+    f"contact/friction/coulomb-{part}.idp"
+    for part in ("graph", "system", "tangent", "surrogate", "solve", "states", "newton")
 ]  # one module
 TYPE = r"(?:real|int|bool|string|mesh3?|meshS|meshL|matrix|fespace|complex)(?:\[[a-z, ]*\])*"
 MACRO = re.compile(r"^[ \t]*macro (\w+)(?:\(([^)\n]*)\))?([\s\S]*?)//.*$", re.M)
