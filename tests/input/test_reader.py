@@ -627,7 +627,8 @@ def test_bodies_without_names():
 
 OF_BODIES = {"body", "weight", "expand", "plastic", "conduct", "spin"}
 WITH_OTHERS = (
-    "load combine preload tighten leg cut join cycles time group units stresses temperature flux film source conduct spin"
+    "load combine preload tighten leg cut join cycles time group units stresses temperature flux film source conduct "
+    "spin"
 ).split()
 
 
