@@ -289,22 +289,16 @@ def test_not_found(tmp_path):
 
 BODY = "body block E 100 nu 0.3\nplastic block 1 0\nclamp bottom\nobstacle top plane 0 2.1 0 -1 move 0 -0.2{}\n"
 REFUSED = {
-    (
-        "state stress\n" + BODY.format("\nexpand block 1e-5 10"),
-    ): "plastic: not with expand in plane stress; allowed: state",
+    ("state stress\n" + BODY.format("\nexpand block 1e-5 10"),): "plastic: not with expand in plane stress; allowed",
     (BODY.format(""), "-order", 1): "plastic: not with -order 1; allowed: 2",
     (BODY.format(""), "-accuracy", 0.1): "plastic: not with -accuracy 0.1; allowed: -accuracy 0, for the errors",
-    (
-        BODY.format("").replace("1 0\nclamp", "1 table 0.1 0.9\nclamp"),
-    ): "the table starts with 0.9, below the yield stress 1",
+    (BODY.format("").replace("1 0\nclamp", "1 table 0.1 0.9\nclamp"),): "the table starts with 0.9, below the yield",
     (BODY.format(""), "-method", "newton"): "plastic: not with -method newton; allowed: xnewton",
     (BODY.format(""), "-distance", "exact"): "plastic: not with -distance exact; allowed: linear",
     (BODY.format(""), "-history", 1): "plastic: not with -history 1; allowed: a line leg STEPS",
     (BODY.format("\nrotate left 0 0 0.1"),): "plastic: not with rotate",
     (BODY.format(" wear 1e-6 slide 1\ncycles 10"),): "plastic: not with conduct or wear",
-    (
-        BODY.format("").replace("1 0\nclamp", "1 table 0.1 2 0.05 3\nclamp"),
-    ): "0.05: the plastic strain is out of range; allowed: above 0.1",
+    (BODY.format("").replace("1 0\nclamp", "1 table 0.1 2 0.05 3\nclamp"),): "0.05: the plastic strain is out of range",
     (BODY.format(" interference 0.1"),): "plastic: not with interference, which would act as a whole",
     (BODY.format("").replace("nu 0.3", "nu 0.3 yield 2"),): "plastic: not with yield of the same body",
     (BODY.format("").replace("1 0\nclamp", "0 0\nclamp"),): "0: the yield stress is out of range; allowed: above 0",

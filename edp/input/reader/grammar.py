@@ -767,10 +767,6 @@ class Preload(Statement, word="preload", example="preload cut 8000"):
     force: float = custom(Tension())
 
 
-class Linear(Part):
-    modulus: float = number("the hardening modulus", "hardening", at_least=0, unit="pressure")
-
-
 @dataclass(frozen=True)
 class TableRows:
     """Equivalent plastic strains and yield stresses, two numbers each, both rising."""
@@ -797,12 +793,11 @@ class Table(Part):
 class Hardening:
     """A modulus, or a table; beyond its end the yield stress stays."""
 
-    def read(self, reading: Reading) -> Part:
-        table = reading.line.starts("table")
-        if table:
-            reading.line.next()
-        cls = Table if table else Linear
-        return cls(**read_fields(cls, reading))
+    def read(self, reading: Reading) -> float | Part:
+        if not reading.line.starts("table"):
+            return Number("the hardening modulus", at_least=0, unit="pressure").read(reading)
+        reading.line.next()
+        return Table(**read_fields(Table, reading))
 
     def usage(self, where: Where) -> str:
         return f"hardening, or table {TableRows().usage(where)}"
@@ -841,7 +836,7 @@ class Plastic(Statement, word="plastic", example="plastic core 350 2000"):
     once = "plastic {s.on}"
     on: Group = body()
     yield_stress: float = number("the yield stress", "yield", above=0, unit="pressure")
-    hardening: Part = custom(Hardening())
+    hardening: float | Part = custom(Hardening())
     kinematic: float = option(
         "kinematic", number("the kinematic hardening modulus", "C", at_least=0, unit="pressure"), default=0.0
     )
