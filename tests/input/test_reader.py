@@ -615,7 +615,8 @@ def test_bodies_without_names():
 
 
 OF_BODIES = {"body", "weight", "expand", "plastic", "conduct", "spin"}
-WITH_OTHERS = "load combine preload leg cut join cycles time group units stresses temperature flux film source conduct spin".split()
+WITH_OTHERS = "preload leg cut join cycles time group units stresses temperature flux film source conduct spin".split()
+WITH_OTHERS += ["load", "combine"]
 
 
 @pytest.mark.parametrize("space", [False, True])
