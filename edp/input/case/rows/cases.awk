@@ -32,7 +32,7 @@ function resultText(r, name, unit,   x, e) {  # a result with its error
   if (cell[r, name] == "") return "not known"
   x = cell[r, name] + 0
   e = cell[r, name ".error"]
-  if (e == "") return roundDigits(x, 6) " (error not known)"
+  if (e == "") return roundDigits(x, 6) (estimated ? " (error not known)" : "")
   e = atLeastRounding(x, e + 0)
   if (errorExceedsValue(x, e)) return roundDigits(x, 2) " (error not known)"
   return valueText(x, e) (e > 0 ? " ± " errorText(x, e) : "")
@@ -84,7 +84,8 @@ END {
     length1 = known(p ".units.0") ? ", " v[p ".units.0"] (space ? "^2" : "") : ""
     pressure = known(p ".units.1") ? ", " v[p ".units.1"] : ""
     force = v[p ".units.0"] " " v[p ".units.1"] ~ /^(mm MPa|m Pa)$/ ? ", N" (space || v[p ".state"] == "axisymmetric" ? "" : "/" v[p ".units.0"]) : ""
-    addLine("Load cases (± estimated error)")
+    estimated = (p ".estimates.parts.inside") in v
+    addLine("Load cases (" (estimated ? "± estimated error" : "without error estimates") ")")
     for (c = 1; c <= count[p ".contacts"]; c++)
       addTable("contact " v[p ".contacts." c - 1 ".name"], "contacts." c ".normalForce|normal force" force ";contacts." c ".pressureMax|greatest pressure" \
         pressure ";contacts." c (space ? ".area|contact area" : ".contactLength|contact length") length1)
