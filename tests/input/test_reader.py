@@ -624,15 +624,10 @@ def test_bodies_without_names():
 
 
 OF_BODIES = {"body", "weight", "expand", "plastic", "conduct", "spin"}
-<<<<<<< HEAD
 WITH_OTHERS = (
     "load combine preload tighten leg cut join cycles time group units stresses temperature flux film source conduct "
     "spin"
 ).split()
-=======
-WITH_OTHERS = "preload leg cut join cycles time group units stresses temperature flux film source conduct spin".split()
-WITH_OTHERS += ["load", "combine"]
->>>>>>> rows
 
 
 @pytest.mark.parametrize("space", [False, True])
