@@ -190,7 +190,7 @@ def main(argv: list[str] | None = None) -> int:
     if arguments.calculix:
         if not shutil.which("ccx"):
             parser.error("no ccx here; apt-get install calculix-ccx")
-        for size, steps, space, friction in ((0.02, 20, False, False), (0.02, 20, False, True), (0.05, 8, True, False)):
+        for size, steps, space, friction in ((0.02, 20, False, False), (0.02, 20, False, True), (0.03, 4, True, False)):
             calculix.say(beside_calculix(size, steps, 1e6, space, friction))
         return 0
     rows = []
