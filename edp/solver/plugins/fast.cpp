@@ -346,6 +346,7 @@ static std::string askedOfCase(const std::string &script, const std::string &fla
         if (system(command.c_str()) == 0) file.open(answer);
         std::getline(file, reader);
         for (file >> word; file >> word; words += word + " ") text += macroUnless("", word);
+        if (words.find("rowsOnRequest ") != std::string::npos) text.clear();    // rows have a starter of their own
         if (!text.empty()) setenv("CONTACT_REQUESTED", (" " + words + "caseAsked ").c_str(), 1);
         if (!text.empty()) setenv("CONTACT_READER", reader.c_str(), 1);
         unlink(answer);
