@@ -755,6 +755,7 @@ def test_what_excludes_mixed_elements(lines, run, words):
 
 @pytest.mark.parametrize("lines, run, words", [
     ("plastic block 1 1\nconduct block 1\ntemperature top 1", {}, "plastic: not with conduct"),
+    ("plastic block 1 1\npreload left 5\ntighten left", {}, "tighten: not with plastic"),
     ("expand block 1 1", {"own": False}, "expand, preload, conduct: allowed in edp/parts.edp"),
     ("conduct block 1\nfilm left 1 1\nleg 2", {}, "conduct: allowed without friction, tie and leg"),
 ])  # fmt: skip

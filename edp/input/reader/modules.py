@@ -95,6 +95,8 @@ def mixed(need: Needs, run: Run) -> bool:
 
 def refuse_together(need: Needs, run: Run) -> None:
     """Statements and flags that exclude each other."""
+    if need.plastic and need.tightening:
+        raise Refusal("tighten: not with plastic; allowed: preload without tighten, which tightens all bolts together")
     if need.plastic and (need.heat or need.wear):
         raise Refusal("plastic: not with conduct or wear; allowed: loads, motions, contacts, expand, preload")
     if need.strains and not run.own:
