@@ -265,7 +265,7 @@ def make_kit(folder: Path) -> dict[str, bytes]:
         "Expected values", "# Only for the teacher\n\n" + "\n\n".join(expected), LABS
     )
     groups = {
-        "The lecture": {"slides.html": "slides: arrow keys; printed, a page each; the last ones hold answers, do not hand out"},
+        "The lecture": {"slides.html": "slides: arrow keys; printed, a page each; do not hand out"},
         "Lab 0 without an installation": {
             "algorithm1.edp": "the program, for FreeFEM alone, no gmsh",
             "algorithm1.html": "its listing, two columns",
@@ -278,7 +278,7 @@ def make_kit(folder: Path) -> dict[str, bytes]:
         },
         "Only for the teacher": {
             "teacher/notes.html": "the speaker's notes",
-            "teacher/expected.html": "answers and expected values; do not hand out the folder teacher/, nor slides.html",
+            "teacher/expected.html": "answers and expected values; do not hand out teacher/, nor slides.html",
         },
     }
     parts = [element("h1", "Teaching kit")]
