@@ -21,7 +21,7 @@ CUT += ["tests/RESULTS.md", "tests/COST.md"]
 THEORY = (
     "discretisation nonmatching curved-surfaces condensation proximal-newton half-plane-model bending conditioning "
     "thresholds sequence-ends linear-model error-of-a-model friction wear adhesion lennard-jones-models heat "
-    "plasticity exact-distance "
+    "plasticity mixed-elements exact-distance "
     "free-bodies rotations mesh-error geometry-error quantity-errors sensitivities friction-errors preload-errors"
 ).split()
 # Chapters of the site by what a reader wants, and what stands in them: a page, or `PAGE#`, the sections of a long page.

@@ -309,6 +309,21 @@ traction head 0 -0.5
 """
 
 
+@pytest.mark.parametrize("law", ["", " law linear k 100", " friction 0.2"])
+def test_block_let_go(tmp_path, law):
+    """A block that was pressed and is flush with its obstacle again shall carry nothing, and the run shall end well."""
+    block = tmp_path / "block.geo"
+    block.write_text(
+        'SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 10, 10}; Mesh.MeshSizeMax = 1;\n'
+        'Physical Surface("block") = {1}; Physical Curve("base") = {1}; Physical Curve("top") = {3};\n'
+    )
+    legs = f"leg 1\nobstacle top plane 0 10 0 -1{law} move 0 -0.1\nleg 1\nobstacle top move 0 0\n"
+    part(tmp_path, block, f"body block E 1000 nu 0.3\nclamp base\n{legs}")
+    rows = table(tmp_path / "out/series.csv")
+    force = rows["top plane normal force"]
+    assert len(force) == 2 and force[0] > 50 and abs(force[1]) < 1e-9 * force[0]
+
+
 def test_wedge_let_go(tmp_path):
     """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
     let_go = case(tmp_path, WEDGE, WEDGED)

@@ -60,6 +60,25 @@ def test_stored_heat(tmp_path):
     assert summary["heat"]["stored"] == pytest.approx(0.6 * 20, rel=1e-10) and summary["time"] == 5
 
 
+def test_pair_that_evens_out(tmp_path):
+    """Two insulated bars at unlike temperatures shall end at the mean of their heat, with no heat in and none out."""
+    case = """state stress
+body steel E 210e3 nu 0
+body alu E 70e3 nu 0
+conduct steel 0.05 capacity 3.6e-3 start 20
+conduct alu 0.2 capacity 2.4e-3 start 200
+contact down up conductance 100
+clamp cold
+force hot 0 -20
+time 200 steps 40
+"""
+    heat = solve(tmp_path, data("heat/pair.geo"), case)["heat"]
+    mean = (3.6 * 20 + 2.4 * 200) / (3.6 + 2.4)
+    ends = [end for body in heat["bodies"] for end in (body["least"], body["greatest"])]
+    assert ends == pytest.approx(4 * [mean], rel=1e-4)
+    assert abs(heat["in"]) + abs(heat["out"]) < 1e-9
+
+
 def test_fit_that_warms_up(tmp_path):
     """A fit whose ring is heated shall go from its cold force to that of steady heat, and store the rest."""
     steady = solve(tmp_path / "long", TUBE, f"{HEATED}time 1e5 steps 3\n", "-set", "edges", 4)
