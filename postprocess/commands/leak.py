@@ -29,6 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Reads the run and prints a line for each contact."""
     chosen = read_run(arguments.folder)
+    if chosen.summary.get("converged") is False:
+        raise ResultsError(chosen.path / "summary.json", "the run has not converged; allowed: a run that has")
     space = "z" in chosen.contact or (chosen.path / "contact.csv").read_text()[:5] == "x,y,z"
     for text in leaks_in_space(chosen, arguments) if space else leaks_in_plane(chosen):
         print(text)

@@ -145,6 +145,27 @@ def test_unloading(tmp_path):
     assert rows["plasticStrain"][-1] == pytest.approx(rows["plasticStrain"][-2], rel=1e-3)
 
 
+def test_cycle_by_motion(tmp_path):
+    """A bar that a motion alone strains to and fro: the first residual of a step does not see prescribed motions."""
+    (tmp_path / "bar.geo").write_text(
+        'SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 2}; Mesh.MeshSizeMax = 0.5; Physical Surface("b") = {1};\n'
+        'Physical Curve("bottom") = {1}; Physical Curve("right") = {2}; Physical Curve("top") = {3};\n'
+        'Physical Curve("left") = {4};\n'
+    )
+    ways = (-0.02, 0.01, -0.02)
+    case = "state axisymmetric\nbody b E 210e3 nu 0.3\nplastic b 300 2500\nobstacle right plane 2.5 0 -1 0\n"
+    case += "clamp bottom y\nsymmetry left\n" + "".join(f"leg 4\nmove top * {way}\n" for way in ways)
+    run = part(tmp_path, tmp_path / "bar.geo", case, "-estimate", 0)
+    plastic, hardened, stress = 0.0, 300.0, 0.0
+    for way in ways:  # uniaxial stress with isotropic hardening
+        trial = 210e3 * (way / 2 - plastic)
+        flow = max(0.0, abs(trial) - hardened) / (210e3 + 2500) * np.sign(trial)
+        plastic, hardened = plastic + flow, hardened + 2500 * abs(flow)
+        stress = 210e3 * (way / 2 - plastic)
+    force = {support["name"]: support["force"][1] for support in run.summary["supports"]}
+    assert force["move top y"] == pytest.approx(stress * 4 * np.pi, rel=1e-5)
+
+
 # ---------------------------------------------------------------- limits, energies, errors
 
 

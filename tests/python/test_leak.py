@@ -133,6 +133,9 @@ def test_a_bead_about_an_axis(tmp_path, capsys):
     line = abs(json.loads((run.folder / "summary.json").read_text())["force"]) / (2 * np.pi * 200)
     exact = np.sqrt(line * 1000 / (1 - 0.09) / (np.pi * 20))
     assert float(found) == pytest.approx(exact, rel=0.02) and 0 < float(error) < 0.02 * exact
+    summary = run.folder / "summary.json"
+    summary.write_text(summary.read_text().replace('"converged": true', '"converged": false'))
+    assert main(["leak", str(run.folder)]) == 2 and "has not converged" in capsys.readouterr().err
 
 
 TORUS = """SetFactory("OpenCASCADE");

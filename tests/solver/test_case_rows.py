@@ -105,6 +105,17 @@ class Problem:
                 assert found[path] == value, (path, row["inputs"])
 
 
+def test_rows_of_rubber(tmp_path):
+    """Loads of a row shall not assemble the mixed elements of a nearly incompressible body once more."""
+    of = Problem(tmp_path, "contact top round\nmove head 0 -0.1\npressure side 3\n")
+    of.case = of.case.replace("nu 0.3", "nu 0.499")
+    rows, _ = of.rows("-estimate", 0, table="move.head.y,pressure.side\n-0.05,3\n-0.08,-4\n")
+    of.compare(rows[0], [("move head 0 -0.1", "move head 0 -0.05")], "-estimate", 0)
+    of.compare(
+        rows[1], [("move head 0 -0.1", "move head 0 -0.08"), ("pressure side 3", "pressure side -4")], "-estimate", 0
+    )
+
+
 def test_rows_are_edited_files(tmp_path):
     """Motions, loads, weights, warming, interference and laws of contact and obstacle, whichever row came before."""
     of = Problem(

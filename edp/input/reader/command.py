@@ -44,6 +44,7 @@ def ask_modules(of: Words) -> int:
     after = {flag: value for flag, value in reversed(list(pairwise(flags)))}
     file, path = after.get("-mesh", "none"), after.get("-case", "none")
     sets = [(flags[i + 1], float(flags[i + 2])) for i, flag in enumerate(flags[:-2]) if flag == "-set"]
+    refines = of["space"] != "1" and after.get("-accuracy", "0") != "0"  # by elements of the highest order
     run = Run(
         space=of["space"] == "1",
         own=of["own"] == "1",
@@ -51,7 +52,7 @@ def ask_modules(of: Words) -> int:
         history="-history" in flags,
         axis="-axis" in flags,
         check=after.get("-check") == "1",
-        order=after.get("-order", "2"),
+        order=after.get("-order", "4" if refines else "2"),
     )
     code = 0
     try:

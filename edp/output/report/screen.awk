@@ -265,7 +265,7 @@ function printCase(   k, p, e, word, times, j, with, forced) {  # results of a c
   for (k = 0; k < count[".preloads"]; k++) {
     p = ".preloads." k
     e = known(p ".error") ? v[p ".error"] : -1
-    printResult("preload " v[p ".name"], v[p ".force"], e, contactForceUnit, "under the loads; tightened to " joinNotes(roundDigits(v[p ".preload"], 6), thicknessNote(v[p ".preload"], "force")) ", shortened by " \
+    printResult("preload " v[p ".name"], v[p ".force"], e, contactForceUnit, "under the loads; " (count[".tightening"] ? "" : "tightened to " joinNotes(roundDigits(v[p ".preload"], 6), thicknessNote(v[p ".preload"], "force")) ", ") "shortened by " \
       (e < 0 ? roundDigits(v[p ".shortened"], 6) ", errors not known" : valueText(v[p ".shortened"], v[p ".shortenedError"]) " ± " errorText(v[p ".shortened"], v[p ".shortenedError"])))
   }
   printDeflections()
