@@ -149,8 +149,8 @@ def test_cycle_by_motion(tmp_path):
     """A bar that a motion alone strains to and fro: the first residual of a step does not see prescribed motions."""
     (tmp_path / "bar.geo").write_text(
         'SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 2}; Mesh.MeshSizeMax = 0.5;\n'
-        'Physical Surface("b") = {1}; Physical Curve("bottom") = {1}; Physical Curve("right") = {2}; Physical Curve("top") = {3};\n'
-        'Physical Curve("left") = {4};\n'
+        'Physical Surface("b") = {1}; Physical Curve("bottom") = {1}; Physical Curve("right") = {2};\n'
+        'Physical Curve("top") = {3}; Physical Curve("left") = {4};\n'
     )
     ways = (-0.02, 0.01, -0.02)
     case = "state axisymmetric\nbody b E 210e3 nu 0.3\nplastic b 300 2500\nobstacle right plane 2.5 0 -1 0\n"
