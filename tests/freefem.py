@@ -174,7 +174,13 @@ def interrupt(command, far_enough, cwd=ROOT, env=None):
             time.sleep(0.005)
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
-        if process.wait() == -signal.SIGKILL:
+        ended = process.wait()
+        end = time.monotonic() + 5
+        with contextlib.suppress(ProcessLookupError):  # what it had started keeps the folder until it has died, too
+            while time.monotonic() < end:
+                os.killpg(process.pid, 0)
+                time.sleep(0.005)
+        if ended == -signal.SIGKILL:
             return
     raise AssertionError("the command ended before it could be killed")
 
