@@ -324,6 +324,24 @@ def test_block_let_go(tmp_path, law):
     assert len(force) == 2 and force[0] > 50 and abs(force[1]) < 1e-9 * force[0]
 
 
+def test_taper_let_back(tmp_path):
+    """A plug that was driven in and is let back to its place carries next to nothing, within the tolerance."""
+    plug = tmp_path / "plug.geo"
+    plug.write_text(
+        "Point(1) = {0, 0, 0}; Point(2) = {20, 0, 0}; Point(3) = {20 + 40 * Tan(Pi / 36), 40, 0};\n"
+        "Point(4) = {0, 40, 0}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+        'Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("plug") = {1}; Physical Curve("flank") = {2};\n'
+        'Mesh.MeshSizeMax = 2; Physical Curve("head") = {3}; Physical Curve("axis") = {4};\n'
+    )
+    text = "state axisymmetric\nbody plug E 70e3 nu 0.33\nsymmetry axis\nobstacle flank polygon "
+    text += (
+        " ".join(f"{20 + y * np.tan(np.pi / 36):.10f} {y}" for y in (-50, 114.2)) + " 60 114.2 60 -50 friction 0.1\n"
+    )
+    part(tmp_path, plug, text + "leg 8\nmove head * -0.2\nleg 8\nmove head * 0\n", "-estimate", 0)
+    force = table(tmp_path / "out/series.csv")["flank polygon normal force"]
+    assert force[7] > 1e3 and abs(force[-1]) < 1e-5 * force[7]
+
+
 def test_wedge_let_go(tmp_path):
     """Where all contact is lost, found, and lost again in Newton's steps, it starts elsewhere; the wedge is held."""
     let_go = case(tmp_path, WEDGE, WEDGED)

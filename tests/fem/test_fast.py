@@ -188,6 +188,30 @@ def test_one_start(words, plugin, tmp_path):
     assert found == {False: 2, True: 1}
 
 
+def test_load_cases_have_their_starter(plugin, tmp_path):
+    """Rows have a starter of their own, which the plugin leaves to do its work."""
+    for name in ("edp", "meshes", "freefem++.pref", ".venv"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    (tmp_path / "build").symlink_to(plugin)
+    folder = ROOT / "edp/examples/pin-in-hole"
+    case = re.sub(r"^weight.*\n", "", (folder / "pin-in-hole.case").read_text(), flags=re.M)
+    (tmp_path / "two.case").write_text(case + "load case a\nweight core 0 -1000\nload case b\nweight core 0 -500\n")
+    words = ["edp/parts.edp", "-mesh", folder / "pin-in-hole.geo", "-case", tmp_path / "two.case", "-set", "size", 0.8]
+    command = ["FreeFem++", "-nw", "-v", "0", *map(str, words), "-estimate", "0", "-out", str(tmp_path / "out")]
+    code, stdout = execute(command, cwd=tmp_path, env=environment())
+    assert code == 0 and "2 of 2 solved" in stdout
+
+
+def test_words_of_the_plugin():
+    """Each module that the plugin asks for at the start is one that a script asks for later."""
+    source = (ROOT / "edp/solver/plugins/fast.cpp").read_text()
+    words = set(re.findall(r'^    \{"-[^}]*"(\w+OnRequest)"', source, re.M))
+    scripts = "\n".join(path.read_text() for end in ("idp", "edp") for path in (ROOT / "edp").rglob(f"*.{end}"))
+    asked = set(re.findall(r"\w+OnRequest", scripts))
+    asked |= {f"{option}OnRequest" for option in re.findall(r"ifRequested\((\w+),", scripts)}
+    assert len(words) > 8 and words <= asked
+
+
 def test_clock_goes_on(plugin, tmp_path):
     """clock() of a script shall tell CPU time, though statements between { } do not ask for it."""
     (tmp_path / "build").symlink_to(plugin)

@@ -57,6 +57,18 @@ def holds(summary, name, truth, least=0.0):
     assert not least or found["error"] < least * truth
 
 
+def test_no_free_surface(tmp_path):
+    """A body that is closed in has the force of the Poisson's ratio that it is taken to have; the run says it."""
+    box = 'SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 2}; Mesh.MeshSizeMax = 0.25;\n'
+    box += 'Physical Surface("b") = {1}; Physical Curve("bottom") = {1}; Physical Curve("right") = {2};\n'
+    box += 'Physical Curve("top") = {3}; Physical Curve("left") = {4};\n'
+    case = "body b E 6 nu 0.5\nclamp bottom y\nsymmetry left\nobstacle top plane 0 2 0 -1 move 0 -0.02\n"
+    run = part(tmp_path, box, case + "obstacle right plane 2 0 -1 0\n")
+    nu = 0.4999999
+    assert "b: nu is taken as 0.4999999\n" in run.stdout
+    holds(run.summary, "normalForce", 6 * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) * 0.01 * 2, 0.01)
+
+
 @pytest.mark.parametrize("state, force, pressure", [("strain", 0.088 * np.pi, 0.088), ("axisymmetric", None, 0.044)])
 def test_a_lined_tube_and_a_shell(tmp_path, state, force, pressure):
     """Inner pressure in an incompressible ring or sphere within a rigid one that is 0.004 larger: the motion is known.

@@ -149,6 +149,20 @@ def test_names_of_a_deck(tmp_path):
     assert names_of(problem.file, False, [], tmp_path) == ([Group(1, "top"), Group(1, "bottom"), Group(2, "block")], {})
 
 
+def test_accuracy_has_no_mixed_elements(tmp_path):
+    """In the plane -accuracy begins with P4 unless an order is given: then rubber has no mixed elements."""
+    (tmp_path / "a.inp").write_text(INP)
+    (tmp_path / "a.case").write_text(PLANE.replace("nu 0.3", "nu 0.499"))
+    words = f"flags=-mesh\n{tmp_path}/a.inp\n-case\n{tmp_path}/a.case"
+    found = {}
+    for flags in ("", "\n-accuracy\n0", "\n-accuracy\n0.01", "\n-accuracy\n0.01\n-order\n2"):
+        answer = tmp_path / "answer"
+        given = ["0", "modules", f"to={answer}", "space=0", "own=1", words + flags]
+        assert subprocess.run(["sh", "edp/input/read.sh", *given], cwd=ROOT).returncode == 0
+        found[flags.split()[-1] if flags else ""] = "incompressibleOnRequest" in answer.read_text()
+    assert found == {"": True, "0": True, "0.01": False, "2": True}
+
+
 def test_refused_before_the_mesh(tmp_path):
     """A wrong name, once the geometry was opened, and a wrong word at any time are refused by the first question."""
     case, geo, answer = tmp_path / "a.case", tmp_path / "a.geo", tmp_path / "answer"

@@ -43,6 +43,7 @@ from .rigid.shapes import SHAPES, Shape
 from .words import Line, nearest, spells_number, whole_number
 
 FILE_NAME = "[A-Za-z0-9_-]+"
+PLAIN_NAME = (FILE_NAME, "a name; allowed: letters, digits, - and _")
 STRAIN = "allowed: state strain or axisymmetric"
 ALONG_AXIS = "allowed with state axisymmetric: along y"
 
@@ -922,7 +923,7 @@ class LineOut(Statement, word="line", example="line middle 0 0{| 0} 0 20{| 0}"):
 class AboutPoint(Statement, word="about", example="about axle 0 0{| 0}"):
     does = "a point that moments are told about"
     once = "about"
-    name: str = word("NAME", allowed=(FILE_NAME, "a name; allowed: letters, digits, - and _"))
+    name: str = word("NAME", allowed=PLAIN_NAME)
     point: Vector3 = vector("the point")
     refused = ((axisymmetric, "about: a ring has no moments; allowed with state axisymmetric: none"),)
 
@@ -949,14 +950,14 @@ class LoadCase(Statement, word="load", example="load case wind"):
     does = "loads and motions of one load case follow"
     once = "load case {s.name}"
     synonyms = "case loadcase subcase"
-    name: str = keyword("case", word("NAME", allowed=(FILE_NAME, "a name; allowed: letters, digits, - and _")))
+    name: str = keyword("case", word("NAME", allowed=PLAIN_NAME))
 
 
 class Combine(Statement, word="combine", example="combine storm 1.35 dead + 1.5 wind"):
     does = "the loads of several load cases times factors"
     once = "combine {s.name}"
     synonyms = "combination combo loadcomb"
-    name: str = word("NAME", allowed=(FILE_NAME, "a name; allowed: letters, digits, - and _"))
+    name: str = word("NAME", allowed=PLAIN_NAME)
     terms: tuple[tuple[float, str], ...] = custom(Terms())
 
 

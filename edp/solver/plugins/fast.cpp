@@ -334,12 +334,12 @@ static std::string askedOfCase(const std::string &script, const std::string &fla
 {
     const std::string name = script.substr(script.rfind('/') + 1), folder = script.substr(0, script.size() - name.size());
     const bool space = name == "parts-3d.edp";
-    const char *from = getenv("CONTACT_FOLDER");
-    char *edp = realpath(folder.empty() ? "." : folder.c_str(), nullptr), answer[] = "/tmp/modules-XXXXXX";
-    std::string text, words, reader, word;
+    const char *from = getenv("CONTACT_FOLDER"), *temporary = getenv("TMPDIR");
+    char *edp = realpath(folder.empty() ? "." : folder.c_str(), nullptr);
+    std::string text, words, reader, word, answer = std::string(temporary && *temporary ? temporary : "/tmp") + "/modules-XXXXXX";
     if (edp && (space || name == "parts.edp") && flags.find("\n-case\n") != std::string::npos && flags.find("-help\n") == std::string::npos
-        && mpisize < 2 && !getenv("CONTACT_REQUESTED") && close(mkstemp(answer)) == 0) {
-        std::string command = "sh" + inQuotes(edp + std::string("/input/read.sh")) + " $PPID modules to=" + answer + " own=1 space="
+        && mpisize < 2 && !getenv("CONTACT_REQUESTED") && close(mkstemp(&answer[0])) == 0) {
+        std::string command = "sh" + inQuotes(edp + std::string("/input/read.sh")) + " $PPID modules" + inQuotes("to=" + answer) + " own=1 space="
             + (space ? "1" : "0") + inQuotes("flags=" + flags) + " > /dev/null 2>&1";
         if (from && *from) command = "cd" + inQuotes(from) + " && " + command;
         std::ifstream file;
@@ -349,7 +349,7 @@ static std::string askedOfCase(const std::string &script, const std::string &fla
         if (words.find("rowsOnRequest ") != std::string::npos) text.clear();    // rows have a starter of their own
         if (!text.empty()) setenv("CONTACT_REQUESTED", (" " + words + "caseAsked ").c_str(), 1);
         if (!text.empty()) setenv("CONTACT_READER", reader.c_str(), 1);
-        unlink(answer);
+        unlink(answer.c_str());
     }
     free(edp);
     return text;
