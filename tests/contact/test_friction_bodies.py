@@ -330,8 +330,9 @@ def test_taper_let_back(tmp_path):
     plug.write_text(
         "Point(1) = {0, 0, 0}; Point(2) = {20, 0, 0}; Point(3) = {20 + 40 * Tan(Pi / 36), 40, 0};\n"
         "Point(4) = {0, 40, 0}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
-        'Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("plug") = {1}; Physical Curve("flank") = {2};\n'
-        'Mesh.MeshSizeMax = 2; Physical Curve("head") = {3}; Physical Curve("axis") = {4};\n'
+        'Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("plug") = {1};\n'
+        'Physical Curve("flank") = {2}; Mesh.MeshSizeMax = 2;\n'
+        'Physical Curve("head") = {3}; Physical Curve("axis") = {4};\n'
     )
     text = "state axisymmetric\nbody plug E 70e3 nu 0.33\nsymmetry axis\nobstacle flank polygon "
     text += (

@@ -189,7 +189,7 @@ def test_one_start(words, plugin, tmp_path):
 
 
 def test_load_cases_have_their_starter(plugin, tmp_path):
-    """Rows have a starter of their own, which the plugin leaves to do its work."""
+    """Rows and load cases have a starter of their own, which the plugin leaves to do its work."""
     for name in ("edp", "meshes", "freefem++.pref", ".venv"):
         (tmp_path / name).symlink_to(ROOT / name)
     (tmp_path / "build").symlink_to(plugin)
@@ -199,6 +199,12 @@ def test_load_cases_have_their_starter(plugin, tmp_path):
     words = ["edp/parts.edp", "-mesh", folder / "pin-in-hole.geo", "-case", tmp_path / "two.case", "-set", "size", 0.8]
     command = ["FreeFem++", "-nw", "-v", "0", *map(str, words), "-estimate", "0", "-out", str(tmp_path / "out")]
     code, stdout = execute(command, cwd=tmp_path, env=environment())
+    assert code == 0 and "2 of 2 solved" in stdout
+    for name in "ab":
+        (tmp_path / f"{name}.csv").write_text("overlap,pressure\n0,0\n0.1,1\n0.2,4\n")
+    table = f"table {tmp_path / 'a.csv'} {tmp_path / 'b.csv'}"
+    words = ["edp/main.edp", "-law", "table", "-vary", table, "-h", "2", "-out", str(tmp_path / "rows")]
+    code, stdout = execute(["FreeFem++", "-nw", "-v", "0", *words], cwd=tmp_path, env=environment())
     assert code == 0 and "2 of 2 solved" in stdout
 
 

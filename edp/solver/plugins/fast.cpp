@@ -346,7 +346,7 @@ static std::string askedOfCase(const std::string &script, const std::string &fla
         if (system(command.c_str()) == 0) file.open(answer);
         std::getline(file, reader);
         for (file >> word; file >> word; words += word + " ") text += macroUnless("", word);
-        if (words.find("rowsOnRequest ") != std::string::npos) text.clear();    // rows have a starter of their own
+        if (words.find("rowsOnRequest ") != std::string::npos) text.clear();    // so have load cases
         if (!text.empty()) setenv("CONTACT_REQUESTED", (" " + words + "caseAsked ").c_str(), 1);
         if (!text.empty()) setenv("CONTACT_READER", reader.c_str(), 1);
         unlink(answer.c_str());
@@ -361,6 +361,7 @@ static void readAtOnce()
     FOR(i, pkarg->N()) {
         const std::string flag = *(*pkarg)[i].getap()[0], value = i + 1 < pkarg->N() ? *(*pkarg)[i + 1].getap()[0] : std::string();
         flags += flag + "\n";
+        if (flag == "-rows" || flag == "-vary") return;                  // rows have a starter of their own, which comes first
         if (flag.size() > 4 && flag.substr(flag.size() - 4) == ".edp") script = flag, flags = "\n";
         for (auto &need : needed)
             if (flag == need.flag && (*need.values ? strstr(need.values, (" " + value + " ").c_str()) != nullptr : value != "0"))
